@@ -1,0 +1,44 @@
+#include "capture_format/nearest_name.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace strata {
+namespace {
+
+/// Levenshtein distance, one row at a time.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known) {
+    std::string_view best;
+    std::size_t best_distance = std::max<std::size_t>(typed.size() / 3, 2) + 1;
+    for (const std::string_view name : known) {
+        const std::size_t distance = edit_distance(typed, name);
+        if (distance < best_distance) {
+            best = name;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known) {
+    const std::string_view best = nearest_name(typed, known);
+    return best.empty() ? std::string() : "; did you mean " + std::string(best) + "?";
+}
+
+}  // namespace strata

@@ -1,0 +1,51 @@
+// Opens a capture: verify, check every index, present as Frame. After check_frame() the rest of the program indexes freely.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture_format/frame.h"
+#include "capture_format/result.h"
+
+namespace strata {
+
+/// Whether a file that was cut short may be read up to the cut.
+enum class Partial { refused, allowed };
+
+/// What is in the file without decoding frames.
+struct CaptureSummary {
+    std::uint32_t container_version = 0, format_version = 0;
+    std::uint64_t file_bytes = 0, blob_bytes_stored = 0, blob_bytes_raw = 0;
+    std::size_t frames = 0, blobs = 0;
+    bool cut_short = false;
+    std::string notes;             ///< free text of the notes section
+};
+
+class Capture {
+public:
+    static Result<Capture> open(const std::filesystem::path&, Partial = Partial::refused);
+    Capture(Capture&&) noexcept;
+    Capture& operator=(Capture&&) noexcept;
+    ~Capture();
+
+    std::size_t frame_count() const;
+    /// Decodes and checks one frame.
+    Result<Frame> frame(std::size_t index) const;
+    /// 32 hex digits over the contents: equal files have equal ids wherever they lie.
+    const std::string& id() const;
+    const CaptureSummary& summary() const;
+    /// Small RGBA8 picture, empty when there is none.
+    const Texture& thumbnail() const;
+
+private:
+    struct Contents;
+    explicit Capture(std::unique_ptr<Contents>);
+    std::unique_ptr<Contents> contents_;
+};
+
+/// Every index, count, enum and float of a frame; the sentence names the first that is wrong.
+Result<void> check_frame(const Frame&);
+
+}  // namespace strata

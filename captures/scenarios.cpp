@@ -1,0 +1,1 @@
+#include "captures/scenarios.h"

@@ -1,0 +1,71 @@
+// The images handed from stage to stage, and the scene's draw lists. Member names are the names that `--outputs`, models,
+// truths and the report use; the table frame_image_names is the only list of them.
+//
+// Every image but those a raster step draws with several samples is an array with one layer per sample, so that one compute
+// shader serves 1 and 4 samples: image2DArray, z = sample. `spread` and `gather` go between the two forms.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "capture_format/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/graph/graph.h"
+
+namespace strata {
+
+struct FrameImages {
+    // What is recorded.
+    const Frame* recorded = nullptr;
+    const Features* features = nullptr;
+    Extent extent;              ///< of the view; depth 1
+    std::uint32_t samples = 1;  ///< 1 or 4
+
+    // Draw lists of the scene, all indexed triangles over the offered scene buffers (passes/shaders/scene.shared.h).
+    DrawList all_opaque;        ///< opaque and masked draws, before culling
+    DrawList opaque;            ///< after the culling stage
+    DrawList casters;           ///< opaque and masked draws that cast shadows
+    DrawList transparent;       ///< transparent draws in submission order, then emitters
+    DrawList back_to_front;     ///< the same, sorted by object; particles sorted within their emitter
+
+    // culling
+    Image visible;              ///< r32ui, 1024 wide: 1 where the opaque draw (y * 1024 + x of all_opaque) is drawn
+    // shadows
+    Image shadow_maps;          ///< d32f, one layer per map (see shadow slots in scene.shared.h), 0 nothing, 1 at the light
+    Image visibility;           ///< r16f, layer = slot * samples + sample: 1 lit, 0 shadowed
+    // gbuffer
+    Image depth;                ///< d32f, `samples` samples: reversed, near / z
+    Image depth_layers;         ///< r32f array, layer = sample: the same depth for shaders to read
+    Image gbuffer0, gbuffer1, gbuffer2;  ///< arrays, layer = sample; what is in them is the technique's (its decode.glsl)
+    std::uint32_t gbuffer_layout = 0;    ///< index_in_stage of the technique that wrote them: fixes "gbuffer_layout"
+    Image emission;             ///< rgba16f array: radiance of emissive and unlit surfaces; a is 1 on a surface, 0 on background
+    // edges
+    Image edges;                ///< r8ui: 1 where every sample of the pixel is shaded alone; none at 1 sample
+    // occlusion, indirect
+    Image occlusion;            ///< r16f array: ambient visibility; none when the stage is left out (1 everywhere)
+    Image indirect;             ///< rgba16f array: irradiance / pi from the indirect stage; none when left out
+    // lighting
+    Image light;                ///< rgba16f array: radiance reflected from lights; none when left out
+    // combine, transparency
+    Image color;                ///< rgba32f array: linear radiance, per sample
+    // film end
+    Image display;              ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
+};
+
+/// A member of FrameImages by its name.
+struct FrameImageRow {
+    std::string_view name;
+    Image FrameImages::*member;
+};
+std::span<const FrameImageRow> frame_images();
+/// Null when there is no such image.
+const FrameImageRow* find_frame_image(std::string_view name);
+
+/// The samples of a multisampled image as layers: a copy in general, the image itself where it has one sample and is no
+/// depth. Depth always becomes an r32f copy.
+Image spread(Graph&, const Image& multisampled, std::string_view name);
+/// The layers of an image as the samples of a multisampled one with the same format; at one sample the image itself.
+Image gather(Graph&, const Image& layered, std::string_view name);
+
+}  // namespace strata

@@ -1,0 +1,28 @@
+// Images in double precision on the CPU.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace strata {
+
+/// width x height x layers texels of four doubles; layer = sample where an image has samples.
+struct ReferenceImage {
+    std::uint32_t width = 0, height = 0, layers = 1;
+    std::vector<glm::dvec4> texels;
+    std::vector<bool> undecided = {};  ///< empty, or one per texel: coverage hangs on rounding there, do not compare
+
+    ReferenceImage() = default;
+    ReferenceImage(std::uint32_t w, std::uint32_t h, std::uint32_t l = 1, glm::dvec4 fill = glm::dvec4(0))
+        : width(w), height(h), layers(l), texels(std::size_t(w) * h * l, fill) {}
+
+    std::size_t index(std::uint32_t x, std::uint32_t y, std::uint32_t layer = 0) const {
+        return (std::size_t(layer) * height + y) * width + x;
+    }
+    glm::dvec4& at(std::uint32_t x, std::uint32_t y, std::uint32_t layer = 0) { return texels[index(x, y, layer)]; }
+    const glm::dvec4& at(std::uint32_t x, std::uint32_t y, std::uint32_t layer = 0) const { return texels[index(x, y, layer)]; }
+};
+
+}  // namespace strata

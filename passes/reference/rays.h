@@ -1,0 +1,49 @@
+// Rays against the capture's triangles, in double: closest hit and visibility.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+
+namespace strata {
+
+struct Hit {
+    double distance = 0;
+    std::uint32_t draw = 0, triangle = 0;
+    glm::dvec3 barycentric{0};
+    bool front_facing = true;
+};
+
+enum class RayMask { opaque, shadow_casters };
+
+/// A bounding volume hierarchy over a frame's opaque and masked draws, view space.
+class RayScene {
+public:
+    RayScene(const Frame&, RayMask);
+    /// Nearest hit with begin < distance < end; direction need not be unit (distance is in its lengths).
+    std::optional<Hit> closest(glm::dvec3 origin, glm::dvec3 direction, double begin, double end) const;
+    /// Whether nothing lies between begin and end.
+    bool clear(glm::dvec3 origin, glm::dvec3 direction, double begin, double end) const;
+
+private:
+    struct Node {
+        glm::dvec3 low, high;
+        std::uint32_t first = 0, count = 0;  ///< leaf: triangles; inner: first child, count 0
+    };
+    struct Triangle {
+        glm::dvec3 a, b, c;
+        std::uint32_t draw, triangle;
+    };
+    void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+    bool solid(const Triangle&, const glm::dvec3& barycentric) const;  ///< alpha test
+
+    const Frame* frame_;
+    std::vector<Node> nodes_;
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace strata

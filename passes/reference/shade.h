@@ -1,0 +1,51 @@
+// Materials and lights in double, written from the formulas and not from the shaders.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+#include "passes/reference/fragments.h"
+
+namespace strata {
+
+/// A point of a surface with its material evaluated. View space.
+struct SurfacePoint {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0, 0, -1};   ///< shading normal, unit, facing the eye
+    glm::dvec3 base_color{1};      ///< linear
+    double alpha = 1;              ///< after base color, vertex color and texture
+    double metallic = 0, roughness = 1, occlusion = 1;
+    glm::dvec3 emissive{0};
+    glm::dvec3 transmission{0};
+    LightingModel model = LightingModel::ggx;
+};
+
+/// The material at a raster point: attributes interpolated, textures sampled (bilinear and trilinear in double; the level
+/// of detail from the uv derivatives of the triangle's plane at that pixel, as passes/shaders/material.glsl defines it).
+SurfacePoint surface_at(const Frame&, const RasterPoint&);
+
+/// Reflected radiance towards the eye at the origin from one light without shadow: L_o = f E.
+glm::dvec3 reflected(const Frame&, const SurfacePoint&, const Light&);
+/// The sun as a light, or nothing in its irradiance.
+Light sun_light(const Frame&);
+/// Diffuse light from the hemisphere: albedo (1 - metallic) mix(ground, sky, .5 + .5 n_world.y), times occlusion.
+glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
+
+/// BRDF times nothing: f(l, v) per steradian for unit vectors, both on the normal's side (lighting chapter 0.5).
+glm::dvec3 brdf(const SurfacePoint&, glm::dvec3 to_light, glm::dvec3 to_eye);
+
+/// Remaining share and added radiance of the fog at view depth z.
+struct FogAt {
+    double remains = 1;
+    glm::dvec3 added{0};
+};
+FogAt fog_at(const Frame&, double z);
+
+/// World position to view space.
+glm::dvec3 to_view(const Frame&, const glm::dvec3& world);
+/// Where a view-space ray through a sample of a pixel goes, z = 1 (lighting chapter 0.1). Sample offsets: deferred 0.4.
+glm::dvec3 pixel_ray(const Frame&, double px, double py);
+/// Position of a sample within its pixel, 0..1; (.5, .5) at one sample.
+glm::dvec2 sample_position(std::uint32_t samples, std::uint32_t sample);
+
+}  // namespace strata

@@ -1,0 +1,22 @@
+// Finds techniques by name and by stage. The table itself is written by the build from the list in passes/CMakeLists.txt.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "passes/technique.h"
+
+namespace strata {
+
+/// Every technique on the list, in the list's order.
+std::span<const Technique> techniques();
+
+/// Fails with the nearest known name: "no technique transparency/weigthed; did you mean transparency/weighted?"
+Result<const Technique*> find_technique(std::string_view name);
+/// The techniques of a stage, in the list's order; the first is the stage's default.
+std::vector<const Technique*> techniques_of(Stage);
+/// The technique's place among those of its stage: what generated shader switches (gbuffer decoders) use.
+std::uint32_t index_in_stage(const Technique&);
+
+}  // namespace strata

@@ -1,0 +1,13 @@
+// The scene's buffers, offered to every shader by their block names. Include it and use what you need: what a shader does not
+// use is neither bound nor uploaded for it.
+#extension GL_EXT_scalar_block_layout : require
+#include "passes/shaders/scene.shared.h"
+
+layout(set = 1, binding = 0, scalar) readonly buffer View { ViewRecord view; };
+layout(set = 1, binding = 1, scalar) readonly buffer Vertices { Vertex vertices[]; };
+layout(set = 1, binding = 2, scalar) readonly buffer Draws { DrawRecord draws[]; };
+layout(set = 1, binding = 3, scalar) readonly buffer Materials { MaterialRecord materials[]; };
+layout(set = 1, binding = 4, scalar) readonly buffer Textures { TextureRecord textures[]; };
+layout(set = 1, binding = 5, scalar) readonly buffer Texels { uint texels[]; };
+layout(set = 1, binding = 6, scalar) readonly buffer Lights { LightRecord lights[]; };
+layout(set = 1, binding = 7, scalar) readonly buffer Shadows { ShadowRecord shadows[]; };

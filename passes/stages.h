@@ -1,0 +1,59 @@
+// The stages of a frame in order, and per stage: when it is not needed, what it owns, its truth and its judge.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture_format/frame_features.h"
+#include "passes/reference/image.h"
+
+namespace strata {
+
+enum class Stage : std::uint32_t {
+    culling, shadows, extinction, gbuffer, edges, rain, occlusion, indirect, lighting, sun_shafts, combine, transparency, lens, film,
+    count_,
+};
+
+/// Images of a frame by the names of frame_images.h, read back or computed in double.
+using ImageSet = std::map<std::string, ReferenceImage, std::less<>>;
+
+/// What a model or a truth starts from: the recorded frame and the images as they were before the stage ran.
+struct StageInput {
+    const Frame& frame;
+    const ImageSet& before;
+};
+
+/// One named number with its unit; smaller is better. The first figure of a judge is the stage's error.
+struct Figure {
+    std::string name, unit;
+    double value = 0;
+};
+
+using Truth = ImageSet (*)(const StageInput&);
+using Judge = std::vector<Figure> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+struct StageInfo {
+    Stage stage;
+    std::string_view name;
+    std::string_view purpose;
+    /// Why a frame with these features does not need the stage, or nothing.
+    std::optional<std::string> (*unwanted)(const Features&);
+    /// Images of frame_images.h the stage writes; the first is the one that is judged and shown.
+    std::vector<std::string_view> outputs;
+    Truth truth = nullptr;   ///< null: the stage has no technique yet
+    Judge judge = nullptr;
+    /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong.
+    std::vector<std::string_view> scenarios;
+};
+
+/// Every stage, in the order of a frame.
+std::span<const StageInfo> stages();
+const StageInfo& info(Stage);
+inline std::string_view name(Stage stage) { return info(stage).name; }
+std::optional<Stage> find_stage(std::string_view name);
+
+}  // namespace strata

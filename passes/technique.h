@@ -1,0 +1,159 @@
+// What a technique says about itself. Command line, inspector, report and test matrix are loops over these values.
+// One function per technique folder returns one; the list in passes/CMakeLists.txt is its registration.
+#pragma once
+
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "capture_format/frame_features.h"
+#include "capture_format/result.h"
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+#include "passes/reference/fragments.h"
+#include "passes/stages.h"
+
+namespace strata {
+
+enum class Scalar : std::uint32_t { real, integer };
+enum class Scale : std::uint32_t { linear, logarithmic };
+
+/// A parameter: it is the command line's option, the slider, the sweep range, the JSON key and the help text.
+struct Param {
+    std::string_view name;
+    double low = 0, high = 1, fallback = 0;
+    std::string_view help;
+    Scale scale = Scale::linear;
+    std::span<const std::string_view> choices = {};  ///< an integer parameter's values by name, from 0
+    Scalar scalar = Scalar::real;  ///< set by param<>()
+    std::size_t offset = 0;        ///< set by param<>()
+};
+
+namespace detail {
+template <typename Member>
+struct MemberOf;
+template <typename Struct, typename Field>
+struct MemberOf<Field Struct::*> {
+    using Owner = Struct;
+    using Type = Field;
+};
+template <auto Member>
+std::size_t offset_of() {
+    using Owner = typename MemberOf<decltype(Member)>::Owner;
+    const Owner owner{};
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(owner.*Member)) - reinterpret_cast<const std::byte*>(&owner));
+}
+}  // namespace detail
+
+/// Ties a row to the field it sets: a float, an int32 or a uint32.
+template <auto Member>
+Param param(Param row) {
+    using Field = typename detail::MemberOf<decltype(Member)>::Type;
+    static_assert(std::is_same_v<Field, float> || std::is_same_v<Field, std::int32_t> || std::is_same_v<Field, std::uint32_t>);
+    row.scalar = std::is_same_v<Field, float> ? Scalar::real : Scalar::integer;
+    row.offset = detail::offset_of<Member>();
+    return row;
+}
+
+/// A number the shaders count, with the place of its uint32 in the technique's counter struct.
+struct Counter {
+    std::string_view name, help;
+    std::size_t offset = 0;  ///< set by counter<>()
+};
+
+template <auto Member>
+Counter counter(Counter row) {
+    static_assert(std::is_same_v<typename detail::MemberOf<decltype(Member)>::Type, std::uint32_t>);
+    row.offset = detail::offset_of<Member>();
+    return row;
+}
+
+/// The values of a technique's parameters, in the order of its rows.
+class Settings {
+public:
+    Settings() = default;
+    /// Every parameter at its fallback.
+    explicit Settings(std::span<const Param> params);
+
+    /// Fails with the range or the known names. Accepts a choice by name or number.
+    Result<void> set(std::string_view name, std::string_view value);
+    Result<void> set(std::string_view name, double value);
+    double get(std::string_view name) const;
+    /// "falloff=20": what `--set` accepts.
+    std::vector<std::string> lines() const;
+    std::span<const Param> params() const { return params_; }
+
+    /// The values as the struct that C++ and GLSL share.
+    template <typename Block>
+    Block as() const {
+        Block block{};
+        write(std::as_writable_bytes(std::span(&block, 1)));
+        return block;
+    }
+
+    friend bool operator==(const Settings& a, const Settings& b) { return a.values_ == b.values_; }
+
+private:
+    void write(std::span<std::byte>) const;
+
+    std::span<const Param> params_;
+    std::vector<double> values_;
+};
+
+/// What a device must have beyond the baseline.
+enum class Capability : std::uint32_t { buffer_int64_atomics, fragment_interlock, count_ };
+std::string_view name(Capability);
+using Capabilities = std::vector<Capability>;
+
+using AddFunction = void (*)(Graph&, FrameImages&, const Settings&);
+
+/// Something a technique does at another stage than its own: before it (preparing) or after it (finishing).
+struct Act {
+    Stage at;
+    AddFunction add;
+};
+
+/// A picture of a technique's inside. `add` makes it as an rgba32f image of the frame's extent with one layer.
+struct DebugView {
+    std::string_view name, help, unit;
+    double low = 0, high = 1;  ///< shown from black to white, in unit
+    Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
+};
+
+/// The method on one pixel (or sample): its fragments in submission order over what is behind. Linear radiance.
+using PixelModel = glm::dvec3 (*)(std::span<const Fragment>, glm::dvec3 behind, const Settings&);
+/// The method on whole images: returns the stage's outputs.
+using ImageModel = ImageSet (*)(const StageInput&, const Settings&);
+using Model = std::variant<std::monostate, PixelModel, ImageModel>;
+
+/// How far the GPU may be from the model, relative to max(|model|, its root mean square). An empty reason fails a test.
+struct Tolerance {
+    double rmse = 0, worst = 0;
+    std::string_view because;
+};
+
+struct Technique {
+    Stage stage;
+    std::string_view name;      ///< "transparency/weighted": its folder below passes/
+    std::string_view title;
+    std::string_view source;    ///< paper or talk
+    std::string_view summary;   ///< one sentence: what it does and how it fails
+    std::vector<Param> params = {};
+    std::vector<Counter> counters = {};
+    std::size_t counter_bytes = 0;  ///< sizeof its counter struct
+    std::vector<DebugView> views = {};
+    Capabilities needs = {};
+    /// Features it cannot do: the report says "not supported" where a frame has one.
+    std::vector<Feature> cannot = {};
+    AddFunction add = nullptr;
+    std::vector<Act> also = {};
+    Model model = {};
+    Tolerance tolerance = {};
+};
+
+}  // namespace strata

@@ -1,0 +1,135 @@
+# add_techniques(target stage/name...): compiles each folder's sources and shaders, collects its *_test.cpp for the test
+# programs, and writes what must know all techniques: the table, the embedded shaders and the G-buffer decoders.
+
+set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
+
+# One SPIR-V file from one GLSL file, rebuilt when anything it includes changes. Appends to the variable named by spirv_list.
+function(compile_shader source spirv_list)
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/passes ${source})
+    set(spirv ${CMAKE_BINARY_DIR}/shaders/${name}.spv)
+    get_filename_component(folder ${spirv} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(
+        OUTPUT ${spirv}
+        COMMAND Vulkan::glslangValidator --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} -I${CMAKE_BINARY_DIR}/generated
+                --depfile ${spirv}.d -o ${spirv} ${source}
+        DEPENDS ${source} DEPFILE ${spirv}.d
+        COMMENT "GLSL ${name}")
+    set(${spirv_list} ${${spirv_list}} ${spirv} PARENT_SCOPE)
+endfunction()
+
+# All shaders in one assembly file (.incbin) and a C++ table of their names.
+function(embed_shaders target)
+    set(assembly ".section .rodata\n")
+    set(externs "")
+    set(rows "")
+    set(index 0)
+    foreach(spirv IN LISTS ARGN)
+        file(RELATIVE_PATH name ${CMAKE_BINARY_DIR}/shaders ${spirv})
+        string(REGEX REPLACE "\\.spv$" "" name ${name})
+        string(APPEND assembly ".balign 4\n.global strata_shader_${index}\n.global strata_shader_${index}_end\n"
+            "strata_shader_${index}:\n.incbin \"${spirv}\"\nstrata_shader_${index}_end:\n")
+        string(APPEND externs "extern const std::uint32_t strata_shader_${index}[], strata_shader_${index}_end[];\n")
+        string(APPEND rows "    {\"${name}\", {strata_shader_${index}, strata_shader_${index}_end}},\n")
+        math(EXPR index "${index} + 1")
+    endforeach()
+    string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
+    file(CONFIGURE OUTPUT ${generated_passes}/embedded_shaders.S CONTENT "${assembly}" @ONLY)
+    file(CONFIGURE OUTPUT ${generated_passes}/embedded_shaders.cpp CONTENT
+"// Written by passes/techniques.cmake.
+#include \"passes/graph/shader.h\"
+
+extern \"C\" {
+${externs}}
+
+namespace strata {
+std::span<const EmbeddedShader> embedded_shaders() {
+    static const EmbeddedShader table[] = {
+${rows}    };
+    return table;
+}
+}  // namespace strata
+" @ONLY)
+    set_source_files_properties(${generated_passes}/embedded_shaders.S PROPERTIES OBJECT_DEPENDS "${ARGN}")
+    target_sources(${target} PRIVATE ${generated_passes}/embedded_shaders.S ${generated_passes}/embedded_shaders.cpp)
+endfunction()
+
+# The table of techniques.
+function(write_technique_table target)
+    set(declarations "")
+    set(rows "")
+    foreach(technique IN LISTS ARGN)
+        get_filename_component(stage ${technique} DIRECTORY)
+        get_filename_component(name ${technique} NAME)
+        string(APPEND declarations "namespace ${stage} { Technique ${name}(); }\n")
+        string(APPEND rows "        ${stage}::${name}(),\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${generated_passes}/technique_table.cpp CONTENT
+"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
+#include \"passes/registry.h\"
+
+namespace strata {
+${declarations}
+std::span<const Technique> techniques() {
+    static const std::vector<Technique> table{
+${rows}    };
+    return table;
+}
+}  // namespace strata
+" @ONLY)
+    target_sources(${target} PRIVATE ${generated_passes}/technique_table.cpp)
+endfunction()
+
+# A switch over the decode.glsl of every G-buffer technique, in the list's order (index_in_stage).
+function(write_gbuffer_decoders)
+    set(includes "")
+    set(cases "")
+    set(index 0)
+    foreach(technique IN LISTS ARGN)
+        get_filename_component(stage ${technique} DIRECTORY)
+        get_filename_component(name ${technique} NAME)
+        if(stage STREQUAL "gbuffer")
+            string(APPEND includes "#include \"passes/${technique}/decode.glsl\"\n")
+            string(APPEND cases "    if (layout_index == ${index}u) return decode_${name}(g0, g1, g2, pixel)\;\n")
+            math(EXPR index "${index} + 1")
+        endif()
+    endforeach()
+    file(CONFIGURE OUTPUT ${generated_passes}/gbuffer/decoders.glsl CONTENT
+"// Written by passes/techniques.cmake: every G-buffer technique's decode.glsl.
+${includes}
+Surface decode_gbuffer(uint layout_index, vec4 g0, vec4 g1, vec4 g2, vec2 pixel) {
+${cases}    return no_surface()\;
+}
+" @ONLY)
+endfunction()
+
+function(add_techniques target)
+    set(listed "")
+    set(tests "")
+    foreach(technique IN LISTS ARGN)
+        set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${technique})
+        get_filename_component(name ${technique} NAME)
+        if(NOT EXISTS ${folder}/${name}.cpp)
+            message(STATUS "technique ${technique} is on the list but not there yet")
+            continue()
+        endif()
+        list(APPEND listed ${technique})
+        file(GLOB technique_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+        file(GLOB technique_tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+        if(technique_tests)
+            list(REMOVE_ITEM technique_sources ${technique_tests})
+        endif()
+        target_sources(${target} PRIVATE ${technique_sources})
+        list(APPEND tests ${technique_tests})
+    endforeach()
+    write_technique_table(${target} ${listed})
+    write_gbuffer_decoders(${listed})
+
+    set(spirv "")
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.frag)
+    foreach(shader IN LISTS shaders)
+        compile_shader(${shader} spirv)
+    endforeach()
+    embed_shaders(${target} ${spirv})
+    set_property(GLOBAL PROPERTY strata_technique_tests ${tests})
+endfunction()

@@ -1,0 +1,17 @@
+// Times with their spread.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace strata {
+
+/// Median and median absolute deviation of repeated measurements, milliseconds.
+struct Spread {
+    double median = 0, mad = 0, low = 0, high = 0;
+    std::size_t repeats = 0;
+};
+
+Spread spread_of(std::span<const double> values);
+
+}  // namespace strata

@@ -1,0 +1,94 @@
+// Open a capture on a device, choose techniques, run, read back, peek, judge: the one API of CLI, inspector and tests.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture_format/reader.h"
+#include "replay/frame_plan.h"
+#include "replay/gpu/device.h"
+#include "replay/host_image.h"
+#include "replay/measure/timing.h"
+
+namespace strata {
+
+/// What to replay and what to bring back.
+struct Request {
+    std::size_t frame = 0;                 ///< index in the capture
+    std::vector<std::string> uses, sets;   ///< as on the command line, see choose()
+    std::vector<Feature> force;            ///< features switched on though the frame lacks them
+    std::vector<std::string> outputs = {"display"};  ///< names of frame_images.h, or "stage/technique:view" debug views
+    std::string until;                     ///< last step to run: part of its name; empty: all
+    std::uint32_t extent_divisor = 1;      ///< replays at extent / divisor, for quick truths
+    std::uint32_t samples = 0;             ///< overrides the recorded samples when not 0
+    std::uint32_t timed_runs = 0;          ///< 0: no timing, memo allowed; else that many timed runs after a warm-up
+};
+
+struct StepRecord {
+    std::string stage, technique, name;
+    std::size_t index = 0;
+    bool from_memo = false;
+    std::optional<Spread> ms;              ///< with timing
+};
+
+struct CounterRecord {
+    std::string technique, name;
+    std::uint64_t value = 0;
+};
+
+/// What one run gave.
+struct Run {
+    std::vector<StepRecord> steps;
+    std::vector<SkippedStage> skipped;
+    std::vector<CulledStep> culled;
+    std::vector<CounterRecord> counters;
+    std::map<std::string, HostImage> images;    ///< by the names asked for; names the frame does not have are absent
+    std::map<std::string, std::string> choices; ///< stage to "technique key=value ..."
+    std::optional<Spread> frame_ms;             ///< with timing: sum of the steps
+    std::map<std::string, Spread> stage_ms;     ///< with timing: sum of a stage's steps
+    std::uint64_t image_bytes = 0, buffer_bytes = 0;
+    std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage
+    std::size_t steps_executed = 0, steps_from_memo = 0;
+    std::size_t pipelines_created = 0;          ///< during this run
+};
+
+/// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
+struct Accuracy {
+    std::vector<Figure> method;                 ///< from the stage's judge
+    double model_rmse = 0, model_worst = 0;     ///< relative, see Tolerance
+    std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
+    std::uint32_t worst_x = 0, worst_y = 0, worst_layer = 0;
+    glm::dvec4 worst_got{0}, worst_wanted{0};
+    std::string truth_name = "truth";           ///< or the technique that stood in
+    std::string not_supported;                  ///< why there is no answer, where the technique cannot do the frame
+};
+
+class Session {
+public:
+    static Result<std::unique_ptr<Session>> open(const std::filesystem::path& capture, const DeviceChoice&);
+    /// A frame made in code (tests, scenarios).
+    static Result<std::unique_ptr<Session>> open(std::vector<Frame> frames, const DeviceChoice&);
+    virtual ~Session() = default;
+
+    virtual const DeviceInfo& device() const = 0;
+    virtual std::string capture_id() const = 0;
+    virtual std::size_t frame_count() const = 0;
+    virtual Result<Frame> frame(std::size_t) = 0;
+
+    virtual Result<Run> run(const Request&) = 0;
+    /// The plan of a request, without running it.
+    virtual Result<Plan> plan(const Request&, std::vector<SkippedStage>* skipped = nullptr) = 0;
+    /// Any image after any step: step by index in the plan, image by its name in the graph.
+    virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
+    /// Runs the request's technique of a stage and compares with its model and with the stage's truth.
+    virtual Result<Accuracy> judge(const Request&, Stage) = 0;
+
+    /// Drops every kept stage output.
+    virtual void forget_memo() = 0;
+};
+
+}  // namespace strata

@@ -1,0 +1,12 @@
+// PrintTo for our values: without it GoogleTest prints bytes, and names of parametrized tests change between builds.
+#include "tests/support/print.h"
+
+#include <ostream>
+
+namespace strata {
+
+void PrintTo(const Error& error, std::ostream* out) { *out << "error " << static_cast<int>(error.fault) << ": " << error.sentence; }
+
+void PrintTo(const Technique& technique, std::ostream* out) { *out << technique.name; }
+
+}  // namespace strata
