@@ -33,13 +33,17 @@ struct FrameImages {
     Image visible;              ///< r32ui, 1024 wide: 1 where the opaque draw (y * 1024 + x of all_opaque) is drawn
     // shadows
     Image shadow_maps;          ///< d32f, one layer per map (see shadow slots in scene.shared.h), 0 nothing, 1 at the light
-    Image visibility;           ///< r16f, layer = slot * samples + sample: 1 lit, 0 shadowed
+    Image visibility;           ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
     // gbuffer
     Image depth;                ///< d32f, `samples` samples: reversed, near / z
     Image depth_layers;         ///< r32f array, layer = sample: the same depth for shaders to read
     Image gbuffer0, gbuffer1, gbuffer2;  ///< arrays, layer = sample; what is in them is the technique's (its decode.glsl)
     std::uint32_t gbuffer_layout = 0;    ///< index_in_stage of the technique that wrote them: fixes "gbuffer_layout"
     Image emission;             ///< rgba16f array: radiance of emissive and unlit surfaces; a is 1 on a surface, 0 on background
+    // what the G-buffer holds, decoded; computed only when somebody asks for it (passes/gbuffer/surfaces.comp)
+    Image surface_normal;       ///< rgba32f array: view-space normal xyz, view z (0: no surface)
+    Image surface_color;        ///< rgba32f array: base color, roughness
+    Image surface_material;     ///< rgba32f array: lighting model, metallic, occlusion
     // edges
     Image edges;                ///< r8ui: 1 where every sample of the pixel is shaded alone; none at 1 sample
     // occlusion, indirect

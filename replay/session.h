@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture_format/reader.h"
+#include "passes/graph/plan.h"
 #include "replay/frame_plan.h"
 #include "replay/gpu/device.h"
 #include "replay/host_image.h"

@@ -115,7 +115,7 @@ struct LightRecord {
     float cos_outer;
     uint shadow;            // first slot in shadows, no_index without
     uint shadow_slots;      // cascades of the sun, 1 for spots
-    uint visibility_layer;  // slot * samples + sample in the visibility image, no_index without
+    uint visibility_layer;  // its first layer (sample 0) in the visibility image, no_index without
 };
 
 // One shadow map: a layer of shadow_maps, its own size in its upper left corner.
