@@ -12,7 +12,7 @@ namespace strata {
 
 struct GltfOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
-    std::int32_t camera = -1;   ///< index of a glTF camera; -1: the first, or a framing camera when there is none
+    std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
 };
 
 struct ImportedScene {

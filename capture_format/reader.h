@@ -20,7 +20,7 @@ struct CaptureSummary {
     std::uint64_t file_bytes = 0, blob_bytes_stored = 0, blob_bytes_raw = 0;
     std::size_t frames = 0, blobs = 0;
     bool cut_short = false;
-    std::string notes;             ///< free text of the notes section
+    std::string notes;  ///< free text of the notes section
 };
 
 class Capture {
@@ -31,13 +31,16 @@ public:
     ~Capture();
 
     std::size_t frame_count() const;
-    /// Decodes and checks one frame.
+    /// Decodes and checks one frame. Blobs that the frame shares with the one asked for before are not decompressed again.
     Result<Frame> frame(std::size_t index) const;
-    /// 32 hex digits over the contents: equal files have equal ids wherever they lie.
+    /// 32 hex digits over the frames and their blobs: equal files have equal ids wherever they lie, and notes, thumbnail and
+    /// expectations do not change it.
     const std::string& id() const;
     const CaptureSummary& summary() const;
     /// Small RGBA8 picture, empty when there is none.
     const Texture& thumbnail() const;
+    /// What append_expectation() added, oldest first.
+    const std::vector<std::string>& expectations() const;
 
 private:
     struct Contents;

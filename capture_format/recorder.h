@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "capture_format/frame.h"
 #include "capture_format/result.h"
@@ -33,7 +34,8 @@ public:
     void weather(const Rain&);
     void camera(const Lens&, const Film&);
     void stage(StageChoice);
-    /// Writes the frame; what was written before survives a killed process.
+    /// Checks and writes the frame; what was written before survives a killed process. A frame that check_frame() refuses is
+    /// left out and later ones may follow; after a failed write or calls out of order every call returns that error.
     Result<void> end_frame();
 
     /// A whole frame at once.
@@ -48,5 +50,8 @@ private:
     explicit Recorder(std::unique_ptr<Writer>);
     std::unique_ptr<Writer> writer_;
 };
+
+/// Appends what a replay is expected to give (text, as the replayer writes it) to a finished capture. Its id stays the same.
+Result<void> append_expectation(const std::filesystem::path&, std::string_view expectation);
 
 }  // namespace strata

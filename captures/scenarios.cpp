@@ -1,1 +1,56 @@
 #include "captures/scenarios.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "capture_format/nearest_name.h"
+#include "captures/scenarios/builders.h"
+
+namespace strata {
+namespace {
+
+constexpr auto table = std::to_array<Scenario>({
+    {"three_cards", "What leaks through three almost opaque cards at almost one depth?", 160, 90, scenario::three_cards},
+    {"smoke_grenade", "Is a character seen inside thick smoke, or through it?", 320, 180, scenario::smoke_grenade},
+    {"glass_and_smoke", "Do colored glass, smoke and a lit room agree about what lies between them?", 160, 90,
+     scenario::glass_and_smoke},
+    {"empty", "What does a frame cost that contains nothing?", 64, 36, scenario::empty},
+    {"opaque_only", "Does a stage that is not needed stay out of the way?", 96, 54, scenario::opaque_only},
+    {"one_pane", "Is one layer over a background exact?", 64, 36, scenario::one_pane},
+    {"three_panes", "Does the order of submission show where three colors overlap?", 64, 36, scenario::three_panes},
+    {"interpenetrating_panes", "Does sorting by object fail where panes cross each other?", 96, 54,
+     scenario::interpenetrating_panes},
+    {"sixty_layers", "What happens beyond the number of layers a method keeps?", 64, 36, scenario::sixty_layers},
+    {"two_hundred_layers", "Do two hundred layers of one percent survive thresholds and half floats?", 64, 36,
+     scenario::two_hundred_layers},
+    {"pane_at_the_lens", "Does a layer just behind the near plane ruin a method's depth range?", 64, 36,
+     scenario::pane_at_the_lens},
+    {"red_and_green_glass", "Is transmittance a color: what is seen through red glass and green glass?", 64, 36,
+     scenario::red_and_green_glass},
+    {"additive_sparks", "Do sparks without coverage stay bright, and dim behind a pane?", 96, 54, scenario::additive_sparks},
+    {"coincident_panes", "Which of three panes at exactly one depth is in front?", 64, 36, scenario::coincident_panes},
+    {"nan_particles", "Does a particle that is not a number stay out of its neighbors?", 64, 36, scenario::nan_particles},
+    {"one_sphere", "Does a sphere in uniform light reflect its albedo and no more?", 64, 36, scenario::one_sphere},
+    {"sun_and_boxes", "Where do the cascades of the sun's shadow meet, and does it show?", 160, 90, scenario::sun_and_boxes},
+    {"spot_and_box", "Is the shadow of one box in one spot light where it should be?", 96, 54, scenario::spot_and_box},
+    {"materials", "Do the lighting models differ where they should, roughness by roughness?", 160, 90, scenario::materials},
+    {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
+    {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},
+    {"foggy_panes", "Is fog between the layers, rather than over the picture?", 96, 54, scenario::foggy_panes},
+});
+
+}  // namespace
+
+std::span<const Scenario> scenarios() { return table; }
+
+Result<const Scenario*> find_scenario(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const Scenario& scenario : table) {
+        if (scenario.name == name) return &scenario;
+        names.push_back(scenario.name);
+    }
+    return fail(Fault::usage, "no scenario {}{}", name, did_you_mean(name, names));
+}
+
+}  // namespace strata

@@ -150,6 +150,8 @@ struct Technique {
     Capabilities needs = {};
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
+    /// Exact up to rounding: may stand in for the stage's truth where that is too slow, once its own error is known.
+    bool stands_in_for_truth = false;
     AddFunction add = nullptr;
     std::vector<Act> also = {};
     Model model = {};

@@ -14,6 +14,7 @@
 #include "replay/gpu/device.h"
 #include "replay/host_image.h"
 #include "replay/measure/timing.h"
+#include "replay/memo.h"
 
 namespace strata {
 
@@ -26,19 +27,11 @@ struct Request {
     std::string until;                     ///< last step to run: part of its name; empty: all
     std::uint32_t extent_divisor = 1;      ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;             ///< overrides the recorded samples when not 0
-    std::uint32_t timed_runs = 0;          ///< 0: no timing, memo allowed; else that many timed runs after a warm-up
 };
 
 struct StepRecord {
-    std::string stage, technique, name;
-    std::size_t index = 0;
-    bool from_memo = false;
+    std::string scope, name;               ///< "transparency: transparency/weighted", the shader
     std::optional<Spread> ms;              ///< with timing
-};
-
-struct CounterRecord {
-    std::string technique, name;
-    std::uint64_t value = 0;
 };
 
 /// What one run gave.
@@ -50,11 +43,19 @@ struct Run {
     std::map<std::string, HostImage> images;    ///< by the names asked for; names the frame does not have are absent
     std::map<std::string, std::string> choices; ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;             ///< with timing: sum of the steps
-    std::map<std::string, Spread> stage_ms;     ///< with timing: sum of a stage's steps
+    std::map<std::string, Spread> stage_ms;     ///< with timing: sum of the steps of the stage's technique
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
-    std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage
-    std::size_t steps_executed = 0, steps_from_memo = 0;
+    std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
+    std::size_t acts_executed = 0, acts_from_memo = 0;
     std::size_t pipelines_created = 0;          ///< during this run
+    std::vector<std::string> notes;             ///< what had to be reduced to fit the device
+};
+
+/// A texel where result and model differ most, relative as in Tolerance.
+struct WorstTexel {
+    std::string image;
+    std::uint32_t x = 0, y = 0, layer = 0;
+    glm::dvec4 got{0}, wanted{0};
 };
 
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
@@ -62,16 +63,18 @@ struct Accuracy {
     std::vector<Figure> method;                 ///< from the stage's judge
     double model_rmse = 0, model_worst = 0;     ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
-    std::uint32_t worst_x = 0, worst_y = 0, worst_layer = 0;
-    glm::dvec4 worst_got{0}, worst_wanted{0};
-    std::string truth_name = "truth";           ///< or the technique that stood in
+    WorstTexel worst;
     std::string not_supported;                  ///< why there is no answer, where the technique cannot do the frame
 };
 
+/// What a result is compared with. The model of a frame of a million samples takes minutes: it may be left out.
+enum class Against { model_and_truth, truth };
+
 class Session {
 public:
-    static Result<std::unique_ptr<Session>> open(const std::filesystem::path& capture, const DeviceChoice&);
-    /// A frame made in code (tests, scenarios).
+    static Result<std::unique_ptr<Session>> open(const std::filesystem::path& capture, const DeviceChoice&,
+                                                 Partial = Partial::refused);
+    /// Frames made in code (tests, scenarios).
     static Result<std::unique_ptr<Session>> open(std::vector<Frame> frames, const DeviceChoice&);
     virtual ~Session() = default;
 
@@ -80,13 +83,22 @@ public:
     virtual std::size_t frame_count() const = 0;
     virtual Result<Frame> frame(std::size_t) = 0;
 
+    /// Runs once. Stage outputs that are still valid come from the memo.
     virtual Result<Run> run(const Request&) = 0;
+    /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread.
+    virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats) = 0;
     /// The plan of a request, without running it.
-    virtual Result<Plan> plan(const Request&, std::vector<SkippedStage>* skipped = nullptr) = 0;
+    struct PlannedFrame {
+        Plan plan;
+        std::vector<SkippedStage> skipped;
+    };
+    virtual Result<PlannedFrame> plan(const Request&) = 0;
     /// Any image after any step: step by index in the plan, image by its name in the graph.
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
-    /// Runs the request's technique of a stage and compares with its model and with the stage's truth.
-    virtual Result<Accuracy> judge(const Request&, Stage) = 0;
+    /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
+    virtual Result<ImageSet> truth(const Request&, Stage) = 0;
+    /// Runs the request's technique of a stage and compares with its model and with the stage's truth (computed unless given).
+    virtual Result<Accuracy> judge(const Request&, Stage, Against = Against::model_and_truth, const ImageSet* truth = nullptr) = 0;
 
     /// Drops every kept stage output.
     virtual void forget_memo() = 0;

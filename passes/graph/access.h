@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace strata {
@@ -25,7 +26,30 @@ enum class Access : std::uint32_t {
 std::string_view name(Access);
 /// Whether the access changes the resource.
 bool writes(Access);
-/// Whether the access needs what was there before.
+/// Whether the access needs what was there before. Attachments and stores may leave texels as they were; that is not meant here.
 bool reads(Access);
+
+/// Everything one step does to one part of a resource at once, such as testing depth against an image it also samples.
+class AccessSet {
+public:
+    constexpr AccessSet() = default;
+    constexpr AccessSet(Access access) : bits_(access == Access::none ? 0u : 1u << static_cast<std::uint32_t>(access)) {}
+    constexpr bool has(Access access) const { return (bits_ & AccessSet(access).bits_) != 0; }
+    constexpr bool empty() const { return bits_ == 0; }
+    constexpr AccessSet& operator|=(AccessSet other) {
+        bits_ |= other.bits_;
+        return *this;
+    }
+    friend constexpr bool operator==(AccessSet, AccessSet) = default;
+
+private:
+    std::uint32_t bits_ = 0;
+};
+
+bool writes(AccessSet);
+/// A writing one if there is any, else the first in the enumerators' order; none for the empty set.
+Access leading(AccessSet);
+/// "depth_tested and sampled"; "none" for the empty set.
+std::string names(AccessSet);
 
 }  // namespace strata

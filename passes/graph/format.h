@@ -21,6 +21,7 @@ struct FormatRow {
     FormatKind kind;
 };
 
+// clang-format off
 constexpr FormatRow format_rows[] = {
     {Format::r8_unorm, "r8_unorm", 1, 1, FormatKind::real},      {Format::rgba8_unorm, "rgba8_unorm", 4, 4, FormatKind::real},
     {Format::r16_unorm, "r16_unorm", 2, 1, FormatKind::real},    {Format::rgba16_unorm, "rgba16_unorm", 8, 4, FormatKind::real},
@@ -31,6 +32,7 @@ constexpr FormatRow format_rows[] = {
     {Format::r32ui, "r32ui", 4, 1, FormatKind::integer},         {Format::rg32ui, "rg32ui", 8, 2, FormatKind::integer},
     {Format::rgba32ui, "rgba32ui", 16, 4, FormatKind::integer},  {Format::d32f, "d32f", 4, 1, FormatKind::depth},
 };
+// clang-format on
 
 /// The row of a format; rows stand in the enumerators' order.
 constexpr const FormatRow& row(Format format) { return format_rows[static_cast<std::uint32_t>(format)]; }

@@ -1,8 +1,12 @@
 // A compiled shader and what it says about itself: names, kinds and sizes, by reflection of its SPIR-V.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,10 +26,11 @@ struct ShaderBinding {
     std::string name;
     std::uint32_t set = 0, binding = 0;
     BindingKind kind = BindingKind::storage_buffer;
-    bool read = true, written = false;     ///< from readonly / writeonly
+    bool read = true, written = false;  ///< from readonly / writeonly
     ImageDimension dimension = ImageDimension::two;
     bool arrayed = false, multisampled = false;
-    bool integer = false;                  ///< usampler / uimage
+    bool integer = false;          ///< usampler / uimage
+    std::optional<Format> format = {};  ///< storage images: the declared format, if it is one of ours
 };
 
 struct ShaderConstant {
@@ -34,14 +39,17 @@ struct ShaderConstant {
     std::uint32_t bytes = 4;
 };
 
-/// A member of a block, for the layout tests: nested structs are flattened as "outer.inner".
+/// A member of a block, for the layout tests: nested structs are flattened as "outer.inner", after the row of "outer" itself.
 struct BlockMember {
     std::string block, name;
-    std::uint32_t offset = 0, bytes = 0;
+    std::uint32_t offset = 0, bytes = 0;  ///< offset in the block, in the first element of arrays; 0 bytes: a runtime array
+    std::string holder;                   ///< the struct it is a member of; the block at the top
+    std::uint32_t offset_in_holder = 0;
+    std::uint32_t stride = 0;  ///< from element to element, 0 for what is no array
 };
 
 struct Shader {
-    std::string name;                      ///< "transparency/weighted/resolve.comp"
+    std::string name;  ///< "transparency/weighted/resolve.comp"
     ShaderStage stage = ShaderStage::compute;
     std::span<const std::uint32_t> code;
     std::uint64_t hash = 0;
@@ -49,8 +57,9 @@ struct Shader {
     std::vector<ShaderConstant> constants;
     std::vector<BlockMember> members;
     std::uint32_t push_bytes = 0;
-    Extent group{1, 1, 1};
-    std::uint32_t color_outputs = 0;       ///< fragment: highest location + 1
+    Extent group{1, 1, 1};                       ///< threads; where a specialization constant says so, its default
+    std::array<std::string, 3> group_constants;  ///< their names where local_size_?_id is used, else empty
+    std::uint32_t color_outputs = 0;             ///< fragment: highest location + 1
 };
 
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.
@@ -59,15 +68,20 @@ Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code);
 /// The shaders by name. Looking one up reflects it the first time: a shader no stage needs is never touched.
 class ShaderLibrary {
 public:
+    ShaderLibrary();
     /// The shaders built into the program.
     static const ShaderLibrary& built_in();
     void add(Shader);
     /// Null when there is none.
     const Shader* find(std::string_view name) const;
     std::vector<std::string> names() const;
+    /// Shaders reflected or added so far: what "only what the scene calls for" counts.
+    std::size_t reflected() const;
 
 private:
+    std::map<std::string, std::span<const std::uint32_t>, std::less<>> sources_;  ///< not looked up yet or already in shaders_
     mutable std::map<std::string, Shader, std::less<>> shaders_;
+    std::unique_ptr<std::mutex> mutex_;  ///< guards shaders_: sessions on several threads share the built-in library
 };
 
 /// One shader as the build embedded it.

@@ -1,5 +1,15 @@
 // Every fragment of a frame, per sample, rasterized in double: coverage by the top-left rule on positions snapped to 1/256
 // pixel, as the device does; samples whose coverage hangs on less than one snap step are marked undecided.
+//
+// Front faces: the outward side of a triangle (a, b, c) is where cross(b - a, c - a) points in object space, carried to view
+// space by the inverse transpose of object-to-view. That is glTF's rule, and a mirrored transform needs no special case.
+// Back faces of opaque and masked single-sided draws are culled; transparent and double-sided draws keep both.
+//
+// Particles are quads in the view plane: corners 0..3 at (-1,-1), (1,-1), (1,1), (-1,1) times size in view x (right) and y (up),
+// turned counter-clockwise by rotation; triangles 0-1-2 and 0-2-3; uv of corner 3 is uv_frame's left top, v grows downwards,
+// so corner 0 has (left, top + height). They are front facing, their normal is (0, 0, -1).
+//
+// Jitter is added to clip space x / w and y / w, y down: positive jitter moves the image right and down.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +26,12 @@ namespace strata {
 
 /// A transparent event: L_out = p + e + t L_behind. Fog is already in it (transparency chapter 0.4).
 struct Fragment {
-    double depth = 0;            ///< view z in metres, depth offset applied: what ordering uses
-    glm::dvec3 color{0};         ///< premultiplied scattered radiance p
-    glm::dvec3 transmittance{1}; ///< t per channel
-    glm::dvec3 emission{0};      ///< e, added without coverage
-    double alpha = 0;            ///< scalar coverage
-    std::uint32_t submission = 0;///< later submissions are nearer at equal depth
+    double depth = 0;              ///< view z in metres, depth offset applied: what ordering uses
+    glm::dvec3 color{0};           ///< premultiplied scattered radiance p
+    glm::dvec3 transmittance{1};   ///< t per channel
+    glm::dvec3 emission{0};        ///< e, added without coverage
+    double alpha = 0;              ///< scalar coverage
+    std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
 };
 
 /// A point of a triangle under a sample, before any shading.
@@ -31,18 +41,41 @@ struct RasterPoint {
     std::uint32_t triangle = 0;  ///< within the draw (particle * 2 + half for emitters)
     glm::dvec3 barycentric{0};   ///< perspective-correct, at the sample (or at the pixel's center, see RasterOptions)
     double depth = 0;            ///< device depth near / z at the sample
+    double depth_slope = 0;      ///< how much device depth changes per pixel, in x or y
     bool front_facing = true;
+    bool covered = true;         ///< false: a near miss
     bool undecided = false;
 };
 
 enum class ShadeAt { sample, pixel_center };
 struct RasterOptions {
     ShadeAt shade_at = ShadeAt::sample;
+    bool near_misses = false;  ///< visit samples, too, that are outside by less than a snap step (covered = false)
 };
 
 /// Calls `visit` for every covered sample of the given draws, in submission order within each pixel row. Not thread safe
 /// towards `visit` between different rows: rows run in parallel.
 void rasterize(const Frame&, std::span<const std::uint32_t> draws, RasterOptions, const std::function<void(const RasterPoint&)>& visit);
+
+/// Opaque and masked draws, in submission order.
+std::vector<std::uint32_t> opaque_draws(const Frame&);
+/// Transparent draws in submission order, then one index per emitter.
+std::vector<std::uint32_t> transparent_draws(const Frame&);
+
+/// The nearest surface under every sample.
+struct VisiblePoints {
+    std::uint32_t width = 0, height = 0, samples = 1;
+    std::vector<RasterPoint> points;  ///< depth 0 and draw no_index where there is no surface; `undecided` is set there, too
+
+    std::size_t index(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const {
+        return (std::size_t(sample) * height + y) * width + x;
+    }
+    const RasterPoint& at(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const { return points[index(x, y, sample)]; }
+};
+
+/// Depth test GREATER_OR_EQUAL in submission order. Masked points below their cutoff are not there. Undecided: coverage,
+/// two depths within float rounding (or within what a snap step of a slope makes of them), or an alpha on its cutoff.
+VisiblePoints visible_points(const Frame&, std::span<const std::uint32_t> draws, RasterOptions = {.shade_at = ShadeAt::pixel_center});
 
 /// The transparent fragments of every sample.
 class FragmentLists {
@@ -53,19 +86,25 @@ public:
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
     std::uint32_t samples() const { return samples_; }
-    std::uint64_t total() const { return total_; }
+    std::uint64_t total() const;
+    /// The most fragments of one sample.
     std::uint32_t deepest() const;
 
 private:
     friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&);
+    /// One pixel row: the lists of its samples (x * samples + sample) after each other.
+    struct Row {
+        std::vector<Fragment> fragments;
+        std::vector<std::size_t> begin;       ///< one more than there are samples in the row
+        std::vector<std::uint8_t> undecided;
+    };
     std::uint32_t width_, height_, samples_;
-    std::uint64_t total_ = 0;
-    std::vector<std::vector<Fragment>> lists_;
-    std::vector<bool> undecided_;
+    std::vector<Row> rows_;
 };
 
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
-/// sanitized as transparency chapter 0.2 says.
+/// sanitized as transparency chapter 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order of two
+/// that do not commute hangs on float rounding.
 FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth);
 
 }  // namespace strata

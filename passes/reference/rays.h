@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -20,11 +21,13 @@ struct Hit {
 
 enum class RayMask { opaque, shadow_casters };
 
-/// A bounding volume hierarchy over a frame's opaque and masked draws, view space.
+/// A bounding volume hierarchy over a frame's opaque and masked draws, view space. Both faces of every triangle are hit;
+/// masked ones only where their alpha (texture at mip 0) reaches the cutoff. Keeps a reference to the frame.
 class RayScene {
 public:
     RayScene(const Frame&, RayMask);
-    /// Nearest hit with begin < distance < end; direction need not be unit (distance is in its lengths).
+    /// Nearest hit with begin < distance < end; direction need not be unit (distance is in its lengths). At equal distance
+    /// the first in submission order.
     std::optional<Hit> closest(glm::dvec3 origin, glm::dvec3 direction, double begin, double end) const;
     /// Whether nothing lies between begin and end.
     bool clear(glm::dvec3 origin, glm::dvec3 direction, double begin, double end) const;
@@ -37,9 +40,16 @@ private:
     struct Triangle {
         glm::dvec3 a, b, c;
         std::uint32_t draw, triangle;
+        double handedness;  ///< of the draw's transform
     };
+    /// A part of a ray.
+    struct Span;
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
     bool solid(const Triangle&, const glm::dvec3& barycentric) const;  ///< alpha test
+    std::optional<Hit> intersect(const Triangle&, const Span&) const;
+    /// Calls accept(hit) for the hits in the span; it may shorten the span, and returns whether to go on.
+    template <typename Accept>
+    void traverse(Span&, const Accept&) const;
 
     const Frame* frame_;
     std::vector<Node> nodes_;

@@ -24,7 +24,8 @@ struct SurfacePoint {
 /// of detail from the uv derivatives of the triangle's plane at that pixel, as passes/shaders/material.glsl defines it).
 SurfacePoint surface_at(const Frame&, const RasterPoint&);
 
-/// Reflected radiance towards the eye at the origin from one light without shadow: L_o = f E.
+/// Reflected radiance towards the eye at the origin from one light without shadow: L_o = f E. Directional, omni and round
+/// spot; other types reflect nothing, and clip planes, blockers and projected textures are not applied.
 glm::dvec3 reflected(const Frame&, const SurfacePoint&, const Light&);
 /// The sun as a light, or nothing in its irradiance.
 Light sun_light(const Frame&);
@@ -33,6 +34,10 @@ glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
 
 /// BRDF times nothing: f(l, v) per steradian for unit vectors, both on the normal's side (lighting chapter 0.5).
 glm::dvec3 brdf(const SurfacePoint&, glm::dvec3 to_light, glm::dvec3 to_eye);
+
+/// Burley's diffuse lobe relative to Lambert: plain, and with Frostbite's energy bias and factor. Cosines in 0..1.
+double burley(double roughness, double n_l, double n_v, double l_h);
+double renormalized_burley(double roughness, double n_l, double n_v, double l_h);
 
 /// Remaining share and added radiance of the fog at view depth z.
 struct FogAt {

@@ -1,5 +1,7 @@
 // The scene's buffers, offered to every shader by their block names. Include it and use what you need: what a shader does not
 // use is neither bound nor uploaded for it.
+#ifndef PASSES_SHADERS_SCENE_GLSL
+#define PASSES_SHADERS_SCENE_GLSL
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/shaders/scene.shared.h"
 
@@ -11,3 +13,5 @@ layout(set = 1, binding = 4, scalar) readonly buffer Textures { TextureRecord te
 layout(set = 1, binding = 5, scalar) readonly buffer Texels { uint texels[]; };
 layout(set = 1, binding = 6, scalar) readonly buffer Lights { LightRecord lights[]; };
 layout(set = 1, binding = 7, scalar) readonly buffer Shadows { ShadowRecord shadows[]; };
+
+#endif

@@ -1,0 +1,23 @@
+// The small payloads of a capture: the thumbnail's picture and the limits of its texts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "capture_format/frame.h"
+#include "capture_format/result.h"
+
+namespace strata {
+
+/// Versions of the payloads' grammars: notes and expect are UTF-8 text.
+inline constexpr std::uint32_t picture_version = 1, notes_version = 1, expect_version = 1;
+/// What a reader is willing to copy.
+inline constexpr std::size_t longest_notes = std::size_t{1} << 20, longest_expectation = std::size_t{1} << 26;
+
+/// Fails unless the picture is RGBA8 with one mip and up to 1024 texels each way.
+Result<std::vector<std::byte>> encode_picture(const Texture&);
+Result<Texture> decode_picture(std::span<const std::byte>);
+
+}  // namespace strata

@@ -1,0 +1,160 @@
+// Opens the container, takes stock of its sections, decodes frames on demand. What a frame means is decided elsewhere.
+#include "capture_format/reader.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+
+#include <xxhash.h>
+
+#include "capture_format/blob_store.h"
+#include "capture_format/container.h"
+#include "capture_format/decode_frame.h"
+#include "capture_format/picture.h"
+#include "capture_format/upgrade.h"
+
+namespace strata {
+
+struct Capture::Contents {
+    Container container;
+    std::optional<BlobStore> blobs;   ///< refers to the container, so it opens when that has its place
+    std::mutex decoding;              ///< frame() fills and empties the blob store
+    std::vector<std::size_t> frames;  ///< section numbers
+    std::string id;
+    CaptureSummary summary;
+    Texture thumbnail;
+    std::vector<std::string> expectations;
+
+    explicit Contents(Container opened) : container(std::move(opened)) {}
+    Result<void> read();
+    void summarize();
+    Result<void> take(std::size_t section);
+    Result<void> take_frame(std::size_t section);
+    Result<std::string> text(std::size_t section, std::size_t longest) const;
+};
+
+namespace {
+
+/// XXH3-128 over what frames and blobs sections are, checksums included, in file order.
+std::string identify(std::span<const Section> sections) {
+    std::vector<std::uint64_t> words;
+    for (const Section& section : sections) {
+        if (section.type != SectionType::frame && section.type != SectionType::blobs) continue;
+        const std::uint64_t kind = static_cast<std::uint64_t>(section.type) << 32 | section.version;
+        words.insert(words.end(), {kind, section.stored_bytes, section.raw_bytes, section.checksum});
+    }
+    const XXH128_hash_t hash = XXH3_128bits(words.data(), words.size() * sizeof(std::uint64_t));
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+Error at(const Container& container, std::size_t section, const Error& error) {
+    return fail(error.fault, "{}: {}", container.whereabouts(section), error.sentence);
+}
+
+}  // namespace
+
+Result<std::string> Capture::Contents::text(std::size_t number, std::size_t longest) const {
+    const auto stored = container.stored(number);
+    if (!stored) return stored.error();
+    if (stored->size() > longest) {
+        return fail(Fault::bad_input, "{} has {} bytes; {} are the most", container.whereabouts(number), stored->size(), longest);
+    }
+    return std::string(reinterpret_cast<const char*>(stored->data()), stored->size());
+}
+
+Result<void> Capture::Contents::take_frame(std::size_t number) {
+    const Section& section = container.sections()[number];
+    if (const auto known = check_format_version(section.version, container.whereabouts(number)); !known) return known;
+    summary.format_version = std::max(summary.format_version, section.version);
+    frames.push_back(number);
+    return {};
+}
+
+/// Takes stock of one section. Those of types or text versions this program does not know are left alone.
+Result<void> Capture::Contents::take(std::size_t number) {
+    const Section& section = container.sections()[number];
+    if (section.type == SectionType::frame) return take_frame(number);
+    if (section.type == SectionType::thumbnail && section.version == picture_version) {
+        const auto stored = container.stored(number);
+        if (!stored) return stored.error();
+        Result<Texture> picture = decode_picture(*stored);
+        if (!picture) return at(container, number, picture.error());
+        thumbnail = *std::move(picture);
+    }
+    if (section.type == SectionType::notes && section.version == notes_version) {
+        Result<std::string> notes = text(number, longest_notes);
+        if (!notes) return notes.error();
+        summary.notes = *std::move(notes);
+    }
+    if (section.type == SectionType::expect && section.version == expect_version) {
+        Result<std::string> expectation = text(number, longest_expectation);
+        if (!expectation) return expectation.error();
+        expectations.push_back(*std::move(expectation));
+    }
+    return {};
+}
+
+void Capture::Contents::summarize() {
+    summary.container_version = container.version();
+    if (frames.empty()) summary.format_version = format_version;
+    summary.file_bytes = container.file_bytes();
+    summary.blob_bytes_stored = blobs->stored_bytes();
+    summary.blob_bytes_raw = blobs->raw_bytes();
+    summary.frames = frames.size();
+    summary.blobs = blobs->size();
+    summary.cut_short = container.damage().has_value();
+}
+
+Result<void> Capture::Contents::read() {
+    Result<BlobStore> opened = BlobStore::open(container);
+    if (!opened) return opened.error();
+    blobs = *std::move(opened);
+    for (std::size_t i = 0; i < container.sections().size(); ++i) {
+        if (const Result<void> taken = take(i); !taken) return taken;
+    }
+    summarize();
+    id = identify(container.sections());
+    return {};
+}
+
+Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) {
+    Result<Container> container = Container::open(path);
+    if (!container) return container.error();
+    if (container->damage() && partial == Partial::refused) {
+        return fail(Fault::bad_input, "{}; what is whole before it can be read if partial captures are allowed",
+                    container->damage()->sentence);
+    }
+    auto contents = std::make_unique<Contents>(*std::move(container));
+    if (const Result<void> read = contents->read(); !read) return read.error();
+    return Capture(std::move(contents));
+}
+
+Capture::Capture(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+Capture::Capture(Capture&&) noexcept = default;
+Capture& Capture::operator=(Capture&&) noexcept = default;
+Capture::~Capture() = default;
+
+std::size_t Capture::frame_count() const { return contents_->frames.size(); }
+const std::string& Capture::id() const { return contents_->id; }
+const CaptureSummary& Capture::summary() const { return contents_->summary; }
+const Texture& Capture::thumbnail() const { return contents_->thumbnail; }
+const std::vector<std::string>& Capture::expectations() const { return contents_->expectations; }
+
+Result<Frame> Capture::frame(std::size_t index) const {
+    Contents& contents = *contents_;
+    if (index >= contents.frames.size()) {
+        return fail(Fault::usage, "there is no frame {}: the capture has {}, counted from 0", index, contents.frames.size());
+    }
+    const std::size_t number = contents.frames[index];
+    const auto stored = contents.container.stored(number);
+    if (!stored) return stored.error();
+    const std::lock_guard lock(contents.decoding);
+    Result<Frame> decoded = decode_frame(*stored, *contents.blobs);
+    contents.blobs->keep_only_used();
+    if (!decoded) return at(contents.container, number, decoded.error());
+    Frame frame = upgrade(*std::move(decoded), contents.container.sections()[number].version);
+    if (const Result<void> checked = check_frame(frame); !checked) return at(contents.container, number, checked.error());
+    return frame;
+}
+
+}  // namespace strata

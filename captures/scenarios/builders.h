@@ -1,0 +1,39 @@
+// One function per scenario; captures/scenarios.cpp holds the table.
+#pragma once
+
+#include <cstdint>
+
+#include "capture_format/frame.h"
+#include "captures/scenarios.h"
+
+namespace strata::scenario {
+
+// smoke, glass, and what leaks through
+Frame three_cards(std::uint32_t frame, const ScenarioOptions&);
+Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions&);
+Frame glass_and_smoke(std::uint32_t frame, const ScenarioOptions&);
+// layers.cpp
+Frame one_pane(std::uint32_t frame, const ScenarioOptions&);
+Frame three_panes(std::uint32_t frame, const ScenarioOptions&);
+Frame interpenetrating_panes(std::uint32_t frame, const ScenarioOptions&);
+Frame sixty_layers(std::uint32_t frame, const ScenarioOptions&);
+Frame two_hundred_layers(std::uint32_t frame, const ScenarioOptions&);
+Frame pane_at_the_lens(std::uint32_t frame, const ScenarioOptions&);
+Frame red_and_green_glass(std::uint32_t frame, const ScenarioOptions&);
+Frame coincident_panes(std::uint32_t frame, const ScenarioOptions&);
+Frame foggy_panes(std::uint32_t frame, const ScenarioOptions&);
+// particles.cpp
+Frame additive_sparks(std::uint32_t frame, const ScenarioOptions&);
+Frame nan_particles(std::uint32_t frame, const ScenarioOptions&);
+// surfaces.cpp
+Frame empty(std::uint32_t frame, const ScenarioOptions&);
+Frame opaque_only(std::uint32_t frame, const ScenarioOptions&);
+Frame one_sphere(std::uint32_t frame, const ScenarioOptions&);
+Frame materials(std::uint32_t frame, const ScenarioOptions&);
+// illumination.cpp
+Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
+Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
+Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
+Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
+
+}  // namespace strata::scenario

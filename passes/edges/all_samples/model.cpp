@@ -1,0 +1,12 @@
+// Every pixel is an edge where there is more than one sample.
+#include "passes/technique.h"
+
+namespace strata::edges {
+
+ImageSet all_samples_model(const StageInput& input, const Settings&) {
+    const View& view = input.frame.view;
+    if (view.samples == 1) return {};
+    return {{"edges", ReferenceImage(view.width, view.height, 1, glm::dvec4(1, 0, 0, 1))}};
+}
+
+}  // namespace strata::edges

@@ -1,0 +1,12 @@
+// Which pixels need every sample shaded: those whose samples do not all hold the same surface.
+#pragma once
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// "edges": 1 where any sample's G-buffer or emission texel differs in any bit from sample 0 (deferred chapter 3.2, D1), or
+/// where only some samples are covered. Empty at one sample.
+ImageSet edges_truth(const StageInput&);
+
+}  // namespace strata

@@ -1,0 +1,75 @@
+#include "passes/frame_images.h"
+
+#include <cassert>
+
+namespace strata {
+namespace {
+
+constexpr FrameImageRow rows[] = {
+    {"visible", &FrameImages::visible},
+    {"shadow_maps", &FrameImages::shadow_maps},
+    {"visibility", &FrameImages::visibility},
+    {"depth", &FrameImages::depth},
+    {"depth_layers", &FrameImages::depth_layers},
+    {"gbuffer0", &FrameImages::gbuffer0},
+    {"gbuffer1", &FrameImages::gbuffer1},
+    {"gbuffer2", &FrameImages::gbuffer2},
+    {"emission", &FrameImages::emission},
+    {"surface_normal", &FrameImages::surface_normal},
+    {"surface_color", &FrameImages::surface_color},
+    {"surface_material", &FrameImages::surface_material},
+    {"edges", &FrameImages::edges},
+    {"occlusion", &FrameImages::occlusion},
+    {"indirect", &FrameImages::indirect},
+    {"light", &FrameImages::light},
+    {"color", &FrameImages::color},
+    {"display", &FrameImages::display},
+};
+
+std::string spread_shader(const Shape& shape) {
+    switch (row(shape.format).kind) {
+        case FormatKind::depth:
+            return shape.samples > 1 ? "shaders/spread_depth.comp" : "shaders/spread_depth_single.comp";
+        case FormatKind::integer:
+            return "shaders/spread_integer.comp";
+        case FormatKind::real:
+            break;
+    }
+    return "shaders/spread_real.comp";
+}
+
+}  // namespace
+
+std::span<const FrameImageRow> frame_images() { return rows; }
+
+const FrameImageRow* find_frame_image(std::string_view name) {
+    for (const FrameImageRow& candidate : rows)
+        if (candidate.name == name) return &candidate;
+    return nullptr;
+}
+
+Image spread(Graph& graph, const Image& multisampled, std::string_view name) {
+    const Shape shape = graph.shape(multisampled);
+    assert(shape.layers == 1 && shape.mips == 1);
+    const bool is_depth = row(shape.format).kind == FormatKind::depth;
+    if (shape.samples == 1 && !is_depth) return multisampled;
+    Image layers = graph.create(
+        std::string(name), {.extent = shape.extent, .format = is_depth ? Format::r32f : shape.format, .layers = shape.samples});
+    graph.compute(spread_shader(shape))
+        .samples("samples", multisampled)
+        .stores("layers", layers)
+        .over({shape.extent.width, shape.extent.height, shape.samples});
+    return layers;
+}
+
+Image gather(Graph& graph, const Image& layered, std::string_view name) {
+    const Shape shape = graph.shape(layered);
+    assert(shape.samples == 1 && shape.mips == 1 && row(shape.format).kind != FormatKind::depth);
+    if (shape.layers == 1) return layered;
+    Image samples = graph.create(std::string(name), {.extent = shape.extent, .format = shape.format, .samples = shape.layers});
+    const bool is_integer = row(shape.format).kind == FormatKind::integer;
+    graph.fullscreen(is_integer ? "shaders/gather_integer" : "shaders/gather_real").samples("layers", layered).covers(samples);
+    return samples;
+}
+
+}  // namespace strata

@@ -1,0 +1,74 @@
+#include "passes/gbuffer/codes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace strata::gbuffer {
+namespace {
+
+constexpr double smallest_normal = 0x1p-14, largest_half = 65504;
+constexpr std::uint32_t codes_per_sign = 30720, first_normal = 0x0400, first_negative_normal = 0x8400;
+
+double linear_to_srgb(double c) { return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
+double srgb_to_linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+
+/// The nearest of levels + 1 equal steps of 0..1, as its number.
+std::uint32_t level(double value, std::uint32_t levels) {
+    return static_cast<std::uint32_t>(std::floor(std::clamp(value, 0.0, 1.0) * levels + 0.5));
+}
+
+}  // namespace
+
+std::uint16_t half_bits(double value) {
+    const std::uint32_t sign = std::signbit(value) ? 0x8000u : 0u;
+    const double size = std::abs(value);
+    if (size >= 65520) return static_cast<std::uint16_t>(sign | 0x7c00u);
+    const int exponent = size == 0 ? -14 : std::max(std::ilogb(size), -14);
+    // Steps of 2^(exponent - 10); 2048 of them are the next exponent's first half float, which the sum below gives by itself.
+    const auto steps = static_cast<std::uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));
+    return static_cast<std::uint16_t>(sign | (static_cast<std::uint32_t>(exponent + 14) * 1024 + steps));
+}
+
+double half_value(std::uint16_t bits) {
+    const int exponent = (bits >> 10) & 31, fraction = bits & 1023;
+    double size = 0;
+    if (exponent == 31)
+        size = fraction == 0 ? HUGE_VAL : NAN;
+    else
+        size = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    return (bits & 0x8000) != 0 ? -size : size;
+}
+
+std::uint16_t half_of_code(std::uint32_t code) {
+    assert(code < code_count);
+    return static_cast<std::uint16_t>(code < codes_per_sign ? code + first_normal : code - codes_per_sign + first_negative_normal);
+}
+
+std::uint32_t code_of_half(std::uint16_t bits) { return (bits & 0x7fffu) - first_normal + (bits >> 15) * codes_per_sign; }
+
+double nearest_half(double value) {
+    const double size = std::abs(value);
+    double rounded = 0;
+    if (size < smallest_normal)
+        rounded = size < smallest_normal / 2 ? 0 : smallest_normal;
+    else
+        rounded = half_value(half_bits(std::min(size, largest_half)));
+    return std::copysign(rounded, value);
+}
+
+std::uint32_t material_code(const SurfacePoint& p) {
+    return (static_cast<std::uint32_t>(p.model) * 60 + level(p.metallic, 59)) * 256 + level(p.occlusion, 255);
+}
+
+SurfacePoint stored_material(SurfacePoint p) {
+    const std::uint32_t code = code_of_half(half_of_code(material_code(p)));
+    p.occlusion = double(code % 256) / 255;
+    p.metallic = double(code / 256 % 60) / 59;
+    p.model = static_cast<LightingModel>(code / 256 / 60);
+    for (int c = 0; c < 3; ++c) p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
+    p.roughness = level(p.roughness, 255) / 255.0;
+    return p;
+}
+
+}  // namespace strata::gbuffer

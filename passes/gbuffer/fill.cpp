@@ -1,0 +1,39 @@
+#include "passes/gbuffer/fill.h"
+
+#include "passes/gbuffer/surfaces.h"
+#include "passes/registry.h"
+
+namespace strata::gbuffer {
+namespace {
+
+/// A cleared raster target. At one sample it is the layered image itself and has its name.
+Image target(Graph& graph, const FrameImages& frame, std::string_view name, Format format) {
+    const std::string raster_name = frame.samples > 1 ? std::string(name) + " samples" : std::string(name);
+    Image image = graph.create(raster_name, {.extent = frame.extent, .format = format, .samples = frame.samples});
+    graph.clear(image, {});
+    return image;
+}
+
+}  // namespace
+
+void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
+    Image gbuffer0 = target(graph, frame, "gbuffer0", Format::rgba16f);
+    Image gbuffer1 = target(graph, frame, "gbuffer1", Format::rgba8_unorm);
+    Image emission = target(graph, frame, "emission", Format::rgba16f);
+    frame.depth = graph.create("depth", {.extent = frame.extent, .format = Format::d32f, .samples = frame.samples});
+    graph.clear(frame.depth, {});
+    if (frame.opaque.count > 0)
+        graph.draw(std::string(technique) + "/fill", frame.opaque)
+            .covers(gbuffer0)
+            .covers(gbuffer1)
+            .covers(emission)
+            .writes_depth(frame.depth);
+    frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
+    frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");
+    frame.emission = spread(graph, emission, "emission");
+    frame.depth_layers = spread(graph, frame.depth, "depth_layers");
+    frame.gbuffer_layout = index_in_stage(**find_technique(technique));
+    add_surfaces(graph, frame);
+}
+
+}  // namespace strata::gbuffer

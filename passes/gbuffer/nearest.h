@@ -1,0 +1,25 @@
+// The nearest opaque surface under every sample of a frame, in double, and its images: what truth and models start from.
+#pragma once
+
+#include <vector>
+
+#include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
+#include "passes/stages.h"
+
+namespace strata::gbuffer {
+
+struct NearestSurface {
+    bool exists = false;
+    bool undecided = false;  ///< coverage, depth order or alpha test hang on rounding
+    SurfacePoint point;      ///< attributes at the sample or at the pixel's center
+    double depth = 0;        ///< device depth near / z, always at the sample
+};
+
+/// In the order of ReferenceImage's texels, layer = sample. Backs of one-sided faces and what the alpha test cuts are not there.
+std::vector<NearestSurface> nearest_surfaces(const Frame&, ShadeAt);
+
+/// surface_normal, surface_color, surface_material, emission and depth_layers as passes/frame_images.h defines them.
+ImageSet surface_images(const Frame&, const std::vector<NearestSurface>&);
+
+}  // namespace strata::gbuffer

@@ -1,0 +1,37 @@
+// Layout B of deferred 2.1 in double, half floats exact: attributes of the pixel's center, stored and read back.
+#include "passes/gbuffer/packed/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/gbuffer/codes.h"
+#include "passes/gbuffer/nearest.h"
+#include "passes/technique.h"
+
+namespace strata::gbuffer {
+
+glm::dvec2 packed_halves(const glm::dvec3& n) {
+    const double x = nearest_half((n.x + 1) / 2);
+    return {n.z < 0 ? -x : x, nearest_half((n.y + 1) / 2)};
+}
+
+glm::dvec3 packed_normal(const glm::dvec2& q) {
+    const glm::dvec2 xy = 2.0 * glm::abs(q) - 1.0;
+    const double z = std::sqrt(std::max(0.0, 1 - glm::dot(xy, xy)));
+    return glm::normalize(glm::dvec3(xy, std::signbit(q.x) ? -z : z));
+}
+
+double packed_depth(double z, double near) { return nearest_half(std::max(z, near)); }
+
+ImageSet packed_model(const StageInput& input, const Settings&) {
+    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center);
+    for (NearestSurface& s : surfaces) {
+        if (!s.exists) continue;
+        s.point = stored_material(s.point);
+        s.point.normal = packed_normal(packed_halves(s.point.normal));
+        s.point.position.z = packed_depth(s.point.position.z, input.frame.view.near);
+    }
+    return surface_images(input.frame, surfaces);
+}
+
+}  // namespace strata::gbuffer

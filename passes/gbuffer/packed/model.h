@@ -1,0 +1,15 @@
+// The half floats of the packed layout in double.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace strata::gbuffer {
+
+/// q of deferred 2.4 as the half floats that are stored.
+glm::dvec2 packed_halves(const glm::dvec3& normal);
+glm::dvec3 packed_normal(const glm::dvec2& halves);
+
+/// View depth z as it is stored: the nearest half float from the near plane to 65504 m.
+double packed_depth(double z, double near);
+
+}  // namespace strata::gbuffer

@@ -1,0 +1,29 @@
+// G-buffer of 96 bits as shipped: two normal components with the third's sign, and view depth, as half floats.
+#include "passes/gbuffer/fill.h"
+#include "passes/technique.h"
+
+namespace strata::gbuffer {
+
+ImageSet packed_model(const StageInput&, const Settings&);
+
+namespace {
+
+void add(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/packed"); }
+
+}  // namespace
+
+Technique packed() {
+    return {.stage = Stage::gbuffer,
+            .name = "gbuffer/packed",
+            .title = "Clear Sky packing, 96 bits",
+            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
+            .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
+            .add = add,
+            .model = packed_model,
+            .tolerance = {.rmse = 3e-3,
+                          .worst = 0.08,
+                          .because = "a float on a rounding boundary takes the neighbouring half: where z of the normal goes to 0 that "
+                                     "is up to 0.044 of it (sqrt(2 * 2^-10)); colors as in 8 bits sRGB, 0.0087 linear"}};
+}
+
+}  // namespace strata::gbuffer

@@ -1,0 +1,29 @@
+// What a G-buffer texel means, whichever layout wrote it. Include passes/gbuffer/decoders.glsl after it for decode_gbuffer().
+#ifndef PASSES_GBUFFER_SURFACE_GLSL
+#define PASSES_GBUFFER_SURFACE_GLSL
+#include "passes/shaders/camera.glsl"
+#include "passes/shaders/material_point.glsl"
+
+struct Surface {
+    bool exists;      // false on the background: nothing else is then defined
+    vec3 normal;      // view space, unit
+    float z;          // view depth at the pixel's center, metres
+    vec3 base_color;  // linear
+    float roughness;
+    float metallic;
+    float occlusion;  // of the material
+    uint lighting_model;
+};
+
+Surface no_surface() { return Surface(false, vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0u); }
+
+// The G-buffer holds attributes of the pixel's center for every sample, so positions are reconstructed there too (deferred 2.2).
+vec3 surface_position(Surface s, uvec2 pixel) { return view_position(vec2(pixel) + 0.5, s.z); }
+
+// What is lit. Emission has an image of its own.
+MaterialPoint lit_point(Surface s, uvec2 pixel) {
+    return MaterialPoint(surface_position(s, pixel), s.normal, s.base_color, 1.0, s.metallic, s.roughness, s.occlusion, vec3(0.0),
+                         vec3(0.0), s.lighting_model, 0u);
+}
+
+#endif

@@ -1,0 +1,11 @@
+// The G-buffer decoded into float images, for whoever asks: reports, models, debug views.
+#pragma once
+
+#include "passes/frame_images.h"
+
+namespace strata::gbuffer {
+
+/// Declares frame.surface_normal, surface_color and surface_material from the G-buffer; culled when nobody keeps them.
+void add_surfaces(Graph&, FrameImages&);
+
+}  // namespace strata::gbuffer

@@ -1,0 +1,344 @@
+// Declaring a frame. Handles are checked here, names in compile().
+#include "passes/graph/graph.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/core.h>
+
+namespace strata {
+namespace {
+
+/// A stale handle would silently read what a later step wrote; it is our mistake, in every build.
+[[noreturn]] void stop_for_stale_handle(std::string_view name, std::uint32_t has, std::uint32_t newest) {
+    fmt::print(stderr, "stale handle of '{}': it is version {}, the newest is {}; pass written images by reference\n", name, has,
+               newest);
+    std::abort();
+}
+
+Step shader_step(std::string name, std::vector<std::string> shaders, Work work) {
+    return {.name = std::move(name), .shaders = std::move(shaders), .work = std::move(work)};
+}
+
+template <typename Record>
+std::uint32_t newest_with_name(const std::vector<Record>& records, std::string_view name) {
+    for (std::size_t i = records.size(); i-- > 0;)
+        if (records[i].name == name) return static_cast<std::uint32_t>(i);
+    return static_cast<std::uint32_t>(records.size());
+}
+
+}  // namespace
+
+std::uint64_t bytes(const Shape& shape) {
+    std::uint64_t texels = 0;
+    for (std::uint32_t mip = 0; mip < shape.mips; ++mip) {
+        const auto along = [mip](std::uint32_t size) { return std::uint64_t{std::max(1u, size >> mip)}; };
+        texels += along(shape.extent.width) * along(shape.extent.height) * along(shape.extent.depth);
+    }
+    return texels * shape.layers * shape.samples * row(shape.format).bytes;
+}
+
+// ---- builders
+
+template <typename Self>
+Step& StepBuilder<Self>::step() {
+    return graph_->steps_[step_];
+}
+
+template <typename Self>
+void StepBuilder<Self>::set_push(std::span<const std::byte> block) {
+    step().push.assign(block.begin(), block.end());
+}
+
+template <typename Self>
+void StepBuilder<Self>::bind(std::string name, Access access, Image image, Buffer buffer, Part part, Filter filter) {
+    step().bindings.push_back({std::move(name), access, image, buffer, part, filter});
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::samples(std::string name, const Image& image, Filter filter, Part part) {
+    graph_->check_fresh(image);
+    bind(std::move(name), Access::sampled, image, {}, part, filter);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::loads(std::string name, const Image& image, Part part) {
+    graph_->check_fresh(image);
+    bind(std::move(name), Access::loaded, image, {}, part);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::stores(std::string name, Image& image, Part part) {
+    graph_->advance(image);
+    bind(std::move(name), Access::stored, image, {}, part);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::updates(std::string name, Image& image, Part part) {
+    graph_->advance(image);
+    bind(std::move(name), Access::updated, image, {}, part);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::loads(std::string name, const Buffer& buffer) {
+    graph_->check_fresh(buffer);
+    bind(std::move(name), Access::loaded, {}, buffer);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::stores(std::string name, Buffer& buffer) {
+    graph_->advance(buffer);
+    bind(std::move(name), Access::stored, {}, buffer);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::updates(std::string name, Buffer& buffer) {
+    graph_->advance(buffer);
+    bind(std::move(name), Access::updated, {}, buffer);
+    return self();
+}
+
+template <typename Self>
+Self& StepBuilder<Self>::fixes(std::string name, SpecValue value) {
+    step().fixed.push_back({std::move(name), value});
+    return self();
+}
+
+ComputePass& ComputePass::over(Extent threads) {
+    std::get<ComputeWork>(step().work).over = threads;
+    return *this;
+}
+
+ComputePass& ComputePass::groups(Extent count) {
+    std::get<ComputeWork>(step().work).groups = count;
+    return *this;
+}
+
+ComputePass& ComputePass::indirect(const Buffer& arguments, std::uint64_t offset) {
+    graph_->check_fresh(arguments);
+    auto& work = std::get<ComputeWork>(step().work);
+    work.arguments = arguments;
+    work.arguments_offset = offset;
+    bind("group counts", Access::indirect, {}, arguments);
+    return *this;
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::attach(Access access, Image& image, Part part, Blend blend) {
+    this->graph_->advance(image);
+    this->step().attachments.push_back({access, image, part, blend});
+    return this->self();
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::covers(Image& image, Part part) {
+    return attach(Access::color_written, image, part, Blend::none);
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::adds_to(Image& image, Part part) {
+    return attach(Access::color_blended, image, part, Blend::add);
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::multiplies(Image& image, Part part) {
+    return attach(Access::color_blended, image, part, Blend::multiply);
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::composites(Image& image, Part part) {
+    return attach(Access::color_blended, image, part, Blend::dual_source_over);
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::tests_depth(const Image& image, Part part) {
+    this->graph_->check_fresh(image);
+    this->step().attachments.push_back({Access::depth_tested, image, part, Blend::none});
+    return this->self();
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::writes_depth(Image& image, Part part) {
+    return attach(Access::depth_written, image, part, Blend::none);
+}
+
+template <typename Self>
+Self& RasterBuilder<Self>::within(Extent pixels) {
+    Work& work = this->step().work;
+    if (auto* draw = std::get_if<DrawWork>(&work)) draw->viewport = pixels;
+    if (auto* fullscreen = std::get_if<FullscreenWork>(&work)) fullscreen->viewport = pixels;
+    return this->self();
+}
+
+DrawPass& DrawPass::culls(Cull side) {
+    std::get<DrawWork>(step().work).cull = side;
+    return *this;
+}
+
+DrawPass& DrawPass::counted(const Buffer& count, std::uint64_t offset) {
+    graph_->check_fresh(count);
+    auto& work = std::get<DrawWork>(step().work);
+    work.count = count;
+    work.count_offset = offset;
+    bind("draw count", Access::indirect, {}, count);
+    return *this;
+}
+
+template class StepBuilder<ComputePass>;
+template class StepBuilder<DrawPass>;
+template class StepBuilder<FullscreenPass>;
+template class RasterBuilder<DrawPass>;
+template class RasterBuilder<FullscreenPass>;
+
+// ---- graph
+
+void Graph::check_fresh(Image image) const {
+    if (image && image.version != record(image).version)
+        stop_for_stale_handle(record(image).name, image.version, record(image).version);
+}
+
+void Graph::check_fresh(Buffer buffer) const {
+    if (buffer && buffer.version != record(buffer).version)
+        stop_for_stale_handle(record(buffer).name, buffer.version, record(buffer).version);
+}
+
+void Graph::advance(Image& image) {
+    check_fresh(image);
+    if (image) image.version = ++images_[image.id].version;
+}
+
+void Graph::advance(Buffer& buffer) {
+    check_fresh(buffer);
+    if (buffer) buffer.version = ++buffers_[buffer.id].version;
+}
+
+std::size_t Graph::append(Step step) {
+    step.scope = static_cast<std::uint32_t>(scopes_.size() - 1);
+    steps_.push_back(std::move(step));
+    return steps_.size() - 1;
+}
+
+void Graph::enter(std::string scope, std::uint32_t stage, std::uint64_t counter_bytes) {
+    scopes_.push_back({std::move(scope), stage, {}});
+    if (counter_bytes == 0) return;
+    Buffer counters = create("counters of " + scopes_.back().name, counter_bytes);
+    buffers_[counters.id].weak = true;
+    clear(counters, 0);
+    scopes_.back().counters = counters;
+    offers_.push_back({"Counters", counters, static_cast<std::uint32_t>(scopes_.size() - 1)});
+    keep(counters);
+}
+
+Image Graph::create(std::string name, Shape shape) {
+    images_.push_back({.name = std::move(name), .shape = shape});
+    return {static_cast<std::uint32_t>(images_.size() - 1), 0};
+}
+
+Image Graph::import(std::string name, Shape shape, ImportId id) {
+    images_.push_back({.name = std::move(name), .shape = shape, .import = id});
+    return {static_cast<std::uint32_t>(images_.size() - 1), 0};
+}
+
+Buffer Graph::create(std::string name, std::uint64_t size) {
+    buffers_.push_back({.name = std::move(name), .bytes = size});
+    return {static_cast<std::uint32_t>(buffers_.size() - 1), 0};
+}
+
+Buffer Graph::import(std::string name, std::uint64_t size, ImportId id) {
+    buffers_.push_back({.name = std::move(name), .bytes = size, .import = id});
+    return {static_cast<std::uint32_t>(buffers_.size() - 1), 0};
+}
+
+ComputePass Graph::compute(std::string shader) {
+    std::vector<std::string> shaders{shader};
+    return {*this, append(shader_step(std::move(shader), std::move(shaders), ComputeWork{}))};
+}
+
+DrawPass Graph::draw(std::string shader, DrawList list) {
+    check_fresh(list.commands);
+    check_fresh(list.indices);
+    Step step = shader_step(shader, {shader + ".vert", shader + ".frag"}, DrawWork{.list = list});
+    if (list.commands) step.bindings.push_back({.name = "draw commands", .access = Access::indirect, .buffer = list.commands});
+    if (list.indices) step.bindings.push_back({.name = "indices", .access = Access::indexed, .buffer = list.indices});
+    return {*this, append(std::move(step))};
+}
+
+FullscreenPass Graph::fullscreen(std::string shader) {
+    return {*this, append(shader_step(shader, {"shaders/fullscreen.vert", shader + ".frag"}, FullscreenWork{}))};
+}
+
+void Graph::clear(Image& image, ClearValue value) {
+    advance(image);
+    append(shader_step("clear " + record(image).name, {}, ClearWork{.image = image, .value = value}));
+}
+
+void Graph::clear(Buffer& buffer, std::uint32_t word) {
+    advance(buffer);
+    append(shader_step("clear " + record(buffer).name, {},
+                       ClearWork{.buffer = buffer, .value = {{static_cast<double>(word), 0, 0, 0}}}));
+}
+
+void Graph::copy(const Image& from, Image& to) {
+    check_fresh(from);
+    advance(to);
+    append(shader_step("copy " + record(from).name + " to " + record(to).name, {}, CopyWork{.from = from, .to = to}));
+}
+
+void Graph::copy(const Buffer& from, Buffer& to) {
+    check_fresh(from);
+    advance(to);
+    append(
+        shader_step("copy " + record(from).name + " to " + record(to).name, {}, CopyWork{.buffer_from = from, .buffer_to = to}));
+}
+
+void Graph::keep(Image image) {
+    const auto same = [&](Image kept) { return kept.id == image.id; };
+    if (image && std::ranges::none_of(kept_images_, same)) kept_images_.push_back(image);
+}
+
+void Graph::keep(Buffer buffer) {
+    const auto same = [&](Buffer kept) { return kept.id == buffer.id; };
+    if (buffer && std::ranges::none_of(kept_buffers_, same)) kept_buffers_.push_back(buffer);
+}
+
+void Graph::offer(std::string name, Buffer buffer) { offers_.push_back({std::move(name), buffer, std::nullopt}); }
+
+Image Graph::find_image(std::string_view name) const {
+    const std::uint32_t id = newest_with_name(images_, name);
+    return id < images_.size() ? Image{id, images_[id].version} : Image{};
+}
+
+Buffer Graph::find_buffer(std::string_view name) const {
+    const std::uint32_t id = newest_with_name(buffers_, name);
+    return id < buffers_.size() ? Buffer{id, buffers_[id].version} : Buffer{};
+}
+
+void Graph::drop_scope(std::uint32_t scope) {
+    std::erase_if(steps_, [scope](const Step& step) { return step.scope == scope; });
+}
+
+void Graph::insert_in_scope(Step step) {
+    const auto after = std::ranges::find_if(steps_, [&](const Step& other) { return other.scope > step.scope; });
+    steps_.insert(after, std::move(step));
+}
+
+void Graph::restore(std::uint32_t scope, const Image& from, Image to) {
+    Step step = shader_step("restore " + record(to).name, {}, CopyWork{.from = from, .to = to});
+    step.scope = scope;
+    insert_in_scope(std::move(step));
+}
+
+void Graph::restore(std::uint32_t scope, const Buffer& from, Buffer to) {
+    Step step = shader_step("restore " + record(to).name, {}, CopyWork{.buffer_from = from, .buffer_to = to});
+    step.scope = scope;
+    insert_in_scope(std::move(step));
+}
+
+}  // namespace strata

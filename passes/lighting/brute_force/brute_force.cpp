@@ -1,0 +1,48 @@
+// Every light on every sample: what other lighting techniques are measured against.
+#include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/technique.h"
+
+namespace strata::lighting {
+
+ImageSet brute_force_model(const StageInput&, const Settings&);
+
+namespace {
+
+void add(Graph& graph, FrameImages& frame, const Settings&) {
+    if (!frame.gbuffer0) return;
+    frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
+    graph.compute("lighting/brute_force/shade.comp")
+        .samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
+        .samples("visibility", frame.visibility)
+        .samples("edges", frame.edges)
+        .stores("light", frame.light)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
+        .fixes("has_visibility", frame.visibility ? 1u : 0u)
+        .fixes("has_edges", frame.edges ? 1u : 0u)
+        .over({frame.extent.width, frame.extent.height, frame.samples});
+}
+
+}  // namespace
+
+Technique brute_force() {
+    return {.stage = Stage::lighting,
+            .name = "lighting/brute_force",
+            .title = "Every light on every sample",
+            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
+            .summary = "Loops over all lights for each sample; exact up to half floats, and its time grows with the lights that miss.",
+            .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
+                         counter<&BruteForceCounters::samples_shaded>(
+                             {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
+            .counter_bytes = sizeof(BruteForceCounters),
+            .cannot = {Feature::area_lights, Feature::projected_textures, Feature::blockers, Feature::portals, Feature::clip_planes},
+            .add = add,
+            .model = brute_force_model,
+            .tolerance = {.rmse = 1e-3,
+                          .worst = 4e-3,
+                          .because = "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
+                                     "of alpha 0.002 by 1e-4 of its width"}};
+}
+
+}  // namespace strata::lighting

@@ -1,0 +1,47 @@
+#include "passes/lighting/every_light.h"
+
+#include "passes/shadows/shadow_views.h"
+
+namespace strata::lighting {
+
+EveryLight::EveryLight(const StageInput& input)
+    : frame_(&input.frame),
+      normal_(&input.before.at("surface_normal")),
+      color_(&input.before.at("surface_color")),
+      material_(&input.before.at("surface_material")) {
+    for (const Light& light : shadow_lights(input.frame)) lights_.push_back({.light = light});
+    const auto visibility = input.before.find("visibility");
+    if (visibility == input.before.end()) return;
+    visibility_ = &visibility->second;
+    std::uint32_t layer = 0;
+    for (const std::uint32_t light : shadowed_lights(shadow_views(input.frame))) {
+        lights_[light].visibility_layer = layer;
+        layer += input.frame.view.samples;
+    }
+}
+
+SurfacePoint EveryLight::surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    const glm::dvec4 &normal = normal_->at(x, y, sample), &color = color_->at(x, y, sample), &material = material_->at(x, y, sample);
+    SurfacePoint p;
+    p.position = pixel_ray(*frame_, x + 0.5, y + 0.5) * normal.w;
+    p.normal = glm::dvec3(normal);
+    p.base_color = glm::dvec3(color);
+    p.roughness = color.w;
+    p.model = static_cast<LightingModel>(static_cast<std::uint32_t>(material.x));
+    p.metallic = material.y;
+    p.occlusion = material.z;
+    return p;
+}
+
+glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    if (normal_->at(x, y, sample).w <= 0) return glm::dvec3(0);
+    const SurfacePoint p = surface(x, y, sample);
+    glm::dvec3 sum(0);
+    for (const ShadowedLight& l : lights_) {
+        const double visible = l.visibility_layer == no_index ? 1 : visibility_->at(x, y, l.visibility_layer + sample).x;
+        if (visible > 0) sum += visible * reflected(*frame_, p, l.light);
+    }
+    return sum;
+}
+
+}  // namespace strata::lighting

@@ -1,0 +1,34 @@
+// Every light on every sample of a decoded G-buffer, in double: what the truth is and what brute force does.
+#pragma once
+
+#include <vector>
+
+#include "passes/reference/shade.h"
+#include "passes/stages.h"
+
+namespace strata::lighting {
+
+class EveryLight {
+public:
+    /// Reads surface_normal, surface_color, surface_material and, where it exists, visibility.
+    explicit EveryLight(const StageInput&);
+
+    std::uint32_t width() const { return normal_->width; }
+    std::uint32_t height() const { return normal_->height; }
+    std::uint32_t samples() const { return normal_->layers; }
+    /// Radiance reflected to the eye; zero where there is no surface. Positions are the pixel center's, as readers' are.
+    glm::dvec3 at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;
+
+private:
+    struct ShadowedLight {
+        Light light;
+        std::uint32_t visibility_layer = no_index;  ///< of sample 0
+    };
+    SurfacePoint surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;
+
+    const Frame* frame_;
+    const ReferenceImage *normal_, *color_, *material_, *visibility_ = nullptr;
+    std::vector<ShadowedLight> lights_;
+};
+
+}  // namespace strata::lighting

@@ -1,0 +1,11 @@
+// The truth of lighting: every light on every sample in double, from the surfaces and the visibility that earlier stages gave,
+// so that this stage is judged alone.
+#pragma once
+
+#include "passes/stages.h"
+
+namespace strata {
+
+ImageSet lighting_truth(const StageInput&);
+
+}  // namespace strata

@@ -1,0 +1,222 @@
+// Transparent events per sample, and the nearest surfaces. Rows are independent, so bits do not depend on threads.
+#include "passes/reference/fragments.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "passes/reference/raster.h"
+#include "passes/reference/surfaces.h"
+
+namespace strata {
+namespace {
+
+// Depths a float cannot tell apart after an interpolation, relative: two ulps.
+constexpr double depth_rounding = 0x1p-22;
+// Smaller coverage and emission than this is not an event (transparency chapter 0.2).
+constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;
+
+double finite(double value) { return std::isfinite(value) ? value : 0; }
+glm::dvec3 finite(const glm::dvec3& v) { return {finite(v.x), finite(v.y), finite(v.z)}; }
+
+// Radiance a transparent mesh reflects without shadows; unlit surfaces show their base color.
+glm::dvec3 lit(const Frame& frame, const SurfacePoint& surface) {
+    if (surface.model == LightingModel::unlit) return surface.base_color;
+    glm::dvec3 sum = hemisphere_light(frame, surface);
+    const Light sun = sun_light(frame);
+    if (sun.intensity != glm::vec3(0)) sum += reflected(frame, surface, sun);
+    for (const Light& light : frame.lights) sum += reflected(frame, surface, light);
+    return sum;
+}
+
+Fragment event(AlphaMode mode, double alpha, const SurfacePoint& surface, const glm::dvec3& light) {
+    Fragment result;
+    if (mode == AlphaMode::additive) {
+        result.emission = alpha * (light + surface.emissive);
+        return result;
+    }
+    result.alpha = alpha;
+    result.transmittance = 1.0 - alpha * (1.0 - surface.transmission);
+    result.color = mode == AlphaMode::premultiplied ? light + alpha * surface.emissive : alpha * (light + surface.emissive);
+    return result;
+}
+
+// surface.base_color is c, its emissive e before fading.
+Fragment particle_event(AlphaMode mode, double particle_alpha, const SurfacePoint& surface, double fade) {
+    const double alpha = std::clamp(finite(surface.alpha * fade), 0.0, 1.0);
+    Fragment result;
+    result.emission = surface.emissive * fade;
+    if (mode == AlphaMode::additive) {
+        result.emission += alpha * surface.base_color;
+        return result;
+    }
+    result.alpha = alpha;
+    result.transmittance = glm::dvec3(1 - alpha);
+    result.color = surface.base_color * (mode == AlphaMode::premultiplied ? particle_alpha * fade : alpha);
+    return result;
+}
+
+void fog(const Frame& frame, double z, Fragment& fragment) {
+    const FogAt at = fog_at(frame, z);
+    fragment.color = fragment.color * at.remains + fragment.alpha * at.added;
+    fragment.emission *= at.remains;
+}
+
+// The event of a point, or nothing where it is too faint to count.
+std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, const RasterTriangle& triangle, double opaque_depth) {
+    const double z = double(frame.view.near) / point.depth;
+    if (!std::isfinite(z)) return std::nullopt;
+    const SurfacePoint surface = surface_at(frame, point, triangle.corners);
+    Fragment fragment;
+    double depth_offset = 0;
+    if (const Material* material = material_of(frame, point.draw)) {
+        const double alpha = std::clamp(finite(surface.alpha), 0.0, 1.0);
+        fragment = event(material->alpha_mode, alpha, surface, lit(frame, surface));
+    } else {
+        const Emitter& emitter = frame.emitters[point.draw - frame.draws.size()];
+        const Particle& particle = emitter.particles[point.triangle / 2];
+        const double room = double(frame.view.near) / opaque_depth - z;
+        const bool soft = emitter.soft_depth_fade > 0 && opaque_depth > 0;
+        const double fade = soft ? std::clamp(room / double(emitter.soft_depth_fade), 0.0, 1.0) : 1.0;
+        fragment = particle_event(emitter.alpha_mode, particle.alpha, surface, fade);
+        depth_offset = particle.depth_offset;
+    }
+    fog(frame, z, fragment);
+    fragment.color = finite(fragment.color);
+    fragment.emission = finite(fragment.emission);
+    const double brightest = std::max({fragment.emission.x, fragment.emission.y, fragment.emission.z});
+    if (fragment.alpha < smallest_alpha && brightest < smallest_emission) return std::nullopt;
+    fragment.depth = z - depth_offset;
+    fragment.submission = triangle.ordinal;
+    return fragment;
+}
+
+enum class DepthTest { fails, passes, undecided_fails, undecided_passes };
+
+// GREATER_OR_EQUAL on floats.
+DepthTest depth_test(const RasterPoint& point, double opaque_depth) {
+    const bool passes = static_cast<float>(point.depth) >= static_cast<float>(opaque_depth);
+    const bool close = opaque_depth > 0 && std::abs(point.depth - opaque_depth) <= depth_tolerance(point);
+    if (close) return passes ? DepthTest::undecided_passes : DepthTest::undecided_fails;
+    return passes ? DepthTest::passes : DepthTest::fails;
+}
+
+// Fragments of one row in the order they were found, with the sample each belongs to.
+struct FoundRow {
+    std::vector<Fragment> fragments;
+    std::vector<std::uint32_t> slots;
+};
+
+// Whether the result depends on the order of two fragments whose depths a float cannot tell apart. Exact ties are decided by
+// submission; events that cover nothing commute.
+bool order_is_undecided(std::span<const Fragment> list) {
+    std::vector<const Fragment*> sorted(list.size());
+    std::transform(list.begin(), list.end(), sorted.begin(), [](const Fragment& f) { return &f; });
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Fragment* a, const Fragment* b) { return a->depth < b->depth; });
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        const double gap = sorted[i]->depth - sorted[i - 1]->depth;
+        const bool commute = sorted[i]->transmittance == glm::dvec3(1) && sorted[i - 1]->transmittance == glm::dvec3(1);
+        if (!commute && gap > 0 && gap <= std::abs(sorted[i]->depth) * depth_rounding) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void rasterize(const Frame& frame, std::span<const std::uint32_t> draws, RasterOptions options,
+               const std::function<void(const RasterPoint&)>& visit) {
+    const Raster raster(frame, draws);
+    oneapi::tbb::parallel_for(std::uint32_t{0}, frame.view.height, [&](std::uint32_t y) {
+        raster.row(y, options, [&](const RasterPoint& point, const RasterTriangle&) { visit(point); });
+    });
+}
+
+std::vector<std::uint32_t> opaque_draws(const Frame& frame) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
+        const AlphaMode mode = material_of(frame, i)->alpha_mode;
+        if (mode == AlphaMode::opaque || mode == AlphaMode::mask) result.push_back(i);
+    }
+    return result;
+}
+
+std::vector<std::uint32_t> transparent_draws(const Frame& frame) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
+        const AlphaMode mode = material_of(frame, i)->alpha_mode;
+        if (mode != AlphaMode::opaque && mode != AlphaMode::mask) result.push_back(i);
+    }
+    const std::size_t meshes = result.size();
+    result.resize(meshes + frame.emitters.size());
+    std::iota(result.begin() + static_cast<std::ptrdiff_t>(meshes), result.end(), static_cast<std::uint32_t>(frame.draws.size()));
+    return result;
+}
+
+FragmentLists::FragmentLists(std::uint32_t width, std::uint32_t height, std::uint32_t samples)
+    : width_(width), height_(height), samples_(samples), rows_(height) {
+    const std::size_t slots = std::size_t(width) * samples;
+    for (Row& row : rows_) {
+        row.begin.assign(slots + 1, 0);
+        row.undecided.assign(slots, 0);
+    }
+}
+
+std::span<const Fragment> FragmentLists::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    const Row& row = rows_[y];
+    const std::size_t slot = std::size_t(x) * samples_ + sample;
+    return std::span(row.fragments).subspan(row.begin[slot], row.begin[slot + 1] - row.begin[slot]);
+}
+
+bool FragmentLists::undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+    return rows_[y].undecided[std::size_t(x) * samples_ + sample] != 0;
+}
+
+std::uint64_t FragmentLists::total() const {
+    return std::accumulate(rows_.begin(), rows_.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const Row& row) { return sum + row.fragments.size(); });
+}
+
+std::uint32_t FragmentLists::deepest() const {
+    std::size_t most = 0;
+    for (const Row& row : rows_) {
+        for (std::size_t i = 1; i < row.begin.size(); ++i) most = std::max(most, row.begin[i] - row.begin[i - 1]);
+    }
+    return static_cast<std::uint32_t>(most);
+}
+
+FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth) {
+    const View& view = frame.view;
+    FragmentLists lists(view.width, view.height, view.samples);
+    const std::vector<std::uint32_t> draws = transparent_draws(frame);
+    const Raster raster(frame, draws);
+    oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
+        FragmentLists::Row& row = lists.rows_[y];
+        FoundRow found;
+        raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
+            const double opaque_depth = depth.at(point.x, point.y, point.sample).x;
+            const DepthTest test = depth_test(point, opaque_depth);
+            if (test == DepthTest::fails) return;
+            const std::optional<Fragment> fragment = event_at(frame, point, triangle, opaque_depth);
+            if (!fragment) return;
+            const std::uint32_t slot = point.x * view.samples + point.sample;
+            if (point.undecided || test != DepthTest::passes) row.undecided[slot] = 1;
+            if (!point.covered || test == DepthTest::undecided_fails) return;
+            found.fragments.push_back(*fragment);
+            found.slots.push_back(slot);
+            ++row.begin[slot + 1];
+        });
+        for (std::size_t i = 1; i < row.begin.size(); ++i) row.begin[i] += row.begin[i - 1];
+        row.fragments.resize(found.fragments.size());
+        std::vector<std::size_t> next(row.begin.begin(), row.begin.end() - 1);
+        for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[next[found.slots[i]]++] = found.fragments[i];
+        for (std::uint32_t slot = 0; slot < row.undecided.size(); ++slot) {
+            if (order_is_undecided(lists.at(slot / view.samples, y, slot % view.samples))) row.undecided[slot] = 1;
+        }
+    });
+    return lists;
+}
+
+}  // namespace strata

@@ -1,0 +1,15 @@
+// Materials at points whose triangle is already known.
+#pragma once
+
+#include "passes/reference/shade.h"
+#include "passes/reference/triangles.h"
+
+namespace strata {
+
+/// As the one of shade.h, for view-space corners at hand.
+SurfacePoint surface_at(const Frame&, const RasterPoint&, const Corners&);
+
+/// Coverage of a material at a point of its triangle, texture at mip 0: what rays test, having no pixel to filter over.
+double alpha_at(const Frame&, std::uint32_t draw, std::uint32_t triangle, const glm::dvec3& barycentric);
+
+}  // namespace strata

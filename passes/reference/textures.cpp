@@ -1,0 +1,104 @@
+// Filtering from the definition: no tables but the 256 values of the sRGB curve.
+#include "passes/reference/textures.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace strata {
+namespace {
+
+std::size_t texel_bytes(TextureFormat format) {
+    switch (format) {
+        case TextureFormat::rgba16f: return 8;
+        case TextureFormat::rgba32f: return 16;
+        default: return 4;
+    }
+}
+
+std::uint32_t mip_size(std::uint32_t size, std::uint32_t mip) { return std::max(1u, size >> mip); }
+
+// Texels before a mip: mips follow each other, finest first.
+std::size_t mip_offset(const Texture& texture, std::uint32_t mip) {
+    std::size_t texels = 0;
+    for (std::uint32_t m = 0; m < mip; ++m) texels += std::size_t(mip_size(texture.width, m)) * mip_size(texture.height, m);
+    return texels;
+}
+
+std::uint32_t wrapped(std::int64_t index, std::uint32_t size, AddressMode mode) {
+    const std::int64_t n = size;
+    if (mode == AddressMode::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(index, 0, n - 1));
+    const std::int64_t period = mode == AddressMode::mirror ? 2 * n : n;
+    std::int64_t within = index % period;
+    if (within < 0) within += period;
+    return static_cast<std::uint32_t>(within < n ? within : period - 1 - within);
+}
+
+// A coordinate in texels, kept where its floor fits an integer; what is not finite reads the first texel.
+double bounded(double texels) { return std::isfinite(texels) ? std::clamp(texels, -1e15, 1e15) : 0.0; }
+
+}  // namespace
+
+double srgb_to_linear(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std::uint32_t y) {
+    static const std::array<double, 256> srgb = [] {
+        std::array<double, 256> table{};
+        for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgb_to_linear(double(i) / 255);
+        return table;
+    }();
+    const std::size_t index = mip_offset(texture, mip) + std::size_t(y) * mip_size(texture.width, mip) + x;
+    const std::byte* bytes = texture.texels.data() + index * texel_bytes(texture.format);
+    if (texture.format == TextureFormat::rgba32f) {
+        std::array<float, 4> v;
+        std::memcpy(v.data(), bytes, sizeof v);
+        return {v[0], v[1], v[2], v[3]};
+    }
+    if (texture.format == TextureFormat::rgba16f) {
+        std::array<std::uint16_t, 4> v;
+        std::memcpy(v.data(), bytes, sizeof v);
+        return {glm::unpackHalf1x16(v[0]), glm::unpackHalf1x16(v[1]), glm::unpackHalf1x16(v[2]), glm::unpackHalf1x16(v[3])};
+    }
+    const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
+    const double alpha = double(byte(3)) / 255;
+    if (texture.format == TextureFormat::rgba8_srgb) return {srgb[byte(0)], srgb[byte(1)], srgb[byte(2)], alpha};
+    return {double(byte(0)) / 255, double(byte(1)) / 255, double(byte(2)) / 255, alpha};
+}
+
+glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
+    const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
+    const double u = bounded(uv.x * width - 0.5), v = bounded(uv.y * height - 0.5);
+    const double left = std::floor(u), top = std::floor(v), right_share = u - left, bottom_share = v - top;
+    const auto column = [&](int step) { return wrapped(static_cast<std::int64_t>(left) + step, width, texture.address); };
+    const auto row = [&](int step) { return wrapped(static_cast<std::int64_t>(top) + step, height, texture.address); };
+    const std::uint32_t x0 = column(0), x1 = column(1), y0 = row(0), y1 = row(1);
+    const glm::dvec4 upper = glm::mix(texel(texture, mip, x0, y0), texel(texture, mip, x1, y0), right_share);
+    const glm::dvec4 lower = glm::mix(texel(texture, mip, x0, y1), texel(texture, mip, x1, y1), right_share);
+    return glm::mix(upper, lower, bottom_share);
+}
+
+glm::dvec4 trilinear(const Texture& texture, const glm::dvec2& uv, double lod) {
+    const double clamped = std::isnan(lod) ? 0 : std::clamp(lod, 0.0, double(texture.mips - 1));
+    const std::uint32_t fine = static_cast<std::uint32_t>(clamped);
+    const double coarser_share = clamped - fine;
+    const glm::dvec4 first = bilinear(texture, fine, uv);
+    if (coarser_share == 0) return first;
+    return glm::mix(first, bilinear(texture, fine + 1, uv), coarser_share);
+}
+
+double level_of_detail(const Texture& texture, const glm::dvec2& uv_per_x, const glm::dvec2& uv_per_y) {
+    const glm::dvec2 size(texture.width, texture.height);
+    return std::log2(std::max(glm::length(uv_per_x * size), glm::length(uv_per_y * size)));
+}
+
+glm::dvec2 transformed(const TextureUse& use, const glm::dvec2& uv) {
+    const auto& t = use.transform;
+    return {t[0] * uv.x + t[1] * uv.y + t[2], t[3] * uv.x + t[4] * uv.y + t[5]};
+}
+
+}  // namespace strata

@@ -1,0 +1,33 @@
+#include "passes/registry.h"
+
+#include "capture_format/nearest_name.h"
+
+namespace strata {
+
+Result<const Technique*> find_technique(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const Technique& technique : techniques()) {
+        if (technique.name == name) return &technique;
+        known.push_back(technique.name);
+    }
+    return fail(Fault::usage, "no technique {}{}", name, did_you_mean(name, known));
+}
+
+std::vector<const Technique*> techniques_of(Stage stage) {
+    std::vector<const Technique*> found;
+    for (const Technique& technique : techniques())
+        if (technique.stage == stage) found.push_back(&technique);
+    return found;
+}
+
+std::uint32_t index_in_stage(const Technique& technique) {
+    std::uint32_t index = 0;
+    for (const Technique* other : techniques_of(technique.stage)) {
+        if (other->name == technique.name) return index;
+        ++index;
+    }
+    assert(false && "index_in_stage: the technique is not on the list");
+    return index;
+}
+
+}  // namespace strata

@@ -1,0 +1,25 @@
+// From pixels to view space and through the fog. Any shader stage.
+#ifndef PASSES_SHADERS_CAMERA_GLSL
+#define PASSES_SHADERS_CAMERA_GLSL
+#include "passes/shaders/scene.glsl"
+
+// Where the eye's ray through a point of the image goes, z = 1 (lighting chapter 0.1). Pixel centers are at +.5.
+vec3 view_ray(vec2 pixel) {
+    const vec2 ndc = vec2(2.0, -2.0) * pixel / vec2(view.extent) + vec2(-1.0, 1.0);
+    return vec3((ndc - view.ndc_offset) / view.ndc_scale, 1.0);
+}
+
+// Metres from reversed device depth; what was never covered (0) is infinitely far: ask before dividing by it.
+float view_z(float device_depth) { return view.near / device_depth; }
+
+vec3 view_position(vec2 pixel, float z) { return view_ray(pixel) * z; }
+
+// Share of the radiance at view depth z that reaches the eye.
+float fog_remains(float z) { return exp(-view.fog_density * z); }
+
+// Radiance the fog up to view depth z adds.
+vec3 fog_added(float z) { return (1.0 - fog_remains(z)) * view.fog_color; }
+
+vec3 apply_fog(vec3 radiance, float z) { return radiance * fog_remains(z) + fog_added(z); }
+
+#endif

@@ -1,0 +1,15 @@
+// Only depth is kept; masked casters have holes where the G-buffer has them, at the map's own level of detail.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/shaders/material.glsl"
+
+layout(location = 0) in vec4 in_uv;
+layout(location = 1) in float in_alpha;
+layout(location = 2) flat in uint in_draw;
+
+void main() {
+    const MaterialRecord material = materials[draws[in_draw].material];
+    if (material.alpha_mode != alpha_mask) return;  // the same for the whole triangle: derivatives below are safe
+    const float alpha = material.base_color.a * in_alpha * texture_at(material.base_color_texture, in_uv).a;
+    if (alpha < material.mask_cutoff) discard;
+}

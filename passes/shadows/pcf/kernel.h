@@ -1,0 +1,29 @@
+// The filter kernel in double over a shadow map of one layer (deferred chapter 5.1 and 5.2, reversed depth).
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "passes/reference/image.h"
+
+namespace strata::shadows {
+
+/// Where a map is looked up.
+struct Lookup {
+    std::uint32_t layer = 0;
+    std::uint32_t size = 0;   ///< texels per edge, in the layer's upper left corner
+    glm::dvec2 u{0};          ///< texel units, centers at +.5
+    double depth = 0;         ///< of the biased receiver: lit where it is at least the map's
+    double doubt = 0;         ///< how far float arithmetic may have moved the depth
+};
+
+struct Filtered {
+    double lit = 1;           ///< share of the kernel's weight
+    bool undecided = false;   ///< a texel with weight is within `doubt` of the receiver
+};
+
+/// taps x taps texels with the weights of (taps - 1)^2 bilinear taps, fractions cut to 1/256. Outside the map is lit.
+Filtered filter_map(const ReferenceImage& maps, const Lookup&, std::int64_t taps);
+
+}  // namespace strata::shadows

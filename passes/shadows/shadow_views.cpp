@@ -1,0 +1,169 @@
+// Where shadow maps look from.
+#include "passes/shadows/shadow_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "passes/culling/opaque_draws.h"
+#include "passes/reference/bounds.h"
+#include "passes/reference/shade.h"
+
+namespace strata {
+
+namespace {
+
+// A kernel of 8 texels reaches 4 from its center; half a texel of rounding and 2 of snapping come on top.
+constexpr double margin_texels = 8;
+// Origins move in steps of 4 texels, so that grids of 4 x 4 blocks over the map are stable too (deferred chapter 5.8).
+constexpr double snap_texels = 4;
+// Half angle from which a perspective map is useless: tan 85 degrees is 11.4.
+constexpr double widest_half_angle = 85 * 3.14159265358979323846 / 180;
+
+double margin(std::uint32_t size) { return std::min(margin_texels, size / 8.0); }
+
+// A matrix from its rows, each (x, y, z, 1) dotted.
+glm::dmat4 from_rows(const glm::dvec4& u, const glm::dvec4& v, const glm::dvec4& depth, const glm::dvec4& w) {
+    return glm::transpose(glm::dmat4(u, v, depth, w));
+}
+
+// The sphere around the part of the view's pyramid between two depths, on the view axis: touching all 8 corners, or centered
+// on the far end where the pyramid is so wide that this is smaller. Depends on no position: its size never changes.
+Sphere slice_sphere(const View& view, double begin, double end) {
+    // One pixel more than the view: jitter moves the picture by up to half of one.
+    const double x = (1 + 2.0 / view.width + std::abs(double(view.projection[2][0]))) / std::abs(double(view.projection[0][0]));
+    const double y = (1 + 2.0 / view.height + std::abs(double(view.projection[2][1]))) / std::abs(double(view.projection[1][1]));
+    const double k = x * x + y * y;
+    const double center = std::min(end, 0.5 * (begin + end) * (1 + k));
+    const auto corner = [&](double z) { return std::sqrt(k * z * z + (z - center) * (z - center)); };
+    return {{0, 0, center}, std::max(corner(begin), corner(end))};
+}
+
+
+// The sun's axes in the world: fixed by its direction alone, so that texels stay where they are when the camera moves.
+struct SunAxes {
+    glm::dvec3 along, u, v;
+};
+
+SunAxes sun_axes(const Sun& sun) {
+    const glm::dvec3 along = glm::normalize(glm::dvec3(sun.direction));
+    const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, along));
+    return {along, u, glm::cross(along, u)};
+}
+
+ShadowView sun_view(const Frame& frame, const Sphere& slice, std::span<const Sphere> casters) {
+    const std::uint32_t size = std::max(frame.sun.shadow.map_size, 1u);
+    const double texel = 2 * slice.radius / (size - 2 * margin(size));
+    const SunAxes axes = sun_axes(frame.sun);
+    // Map coordinate along an axis: (world . axis - corner) / (size * texel), the corner on a grid fixed in the world.
+    const auto row = [&](const glm::dvec3& axis) {
+        const glm::dvec3 in_view = frame.view.to_view * axis;
+        const double grid = snap_texels * texel;
+        const double origin = glm::dot(frame.view.origin, axis);
+        const double center = std::round((glm::dot(slice.center, in_view) + origin) / grid) * grid;
+        const double corner = center - 0.5 * size * texel;
+        return glm::dvec4(in_view, origin - corner) / (size * texel);
+    };
+    const glm::dvec3 along = frame.view.to_view * axes.along;
+    const double last = glm::dot(slice.center, along) + slice.radius;
+    double first = last - 2 * slice.radius;
+    for (const Sphere& caster : casters) first = std::min(first, glm::dot(caster.center, along) - caster.radius);
+    first -= 1e-3 * (last - first);  // so that no caster is clipped for a rounded depth above 1
+    ShadowView view;
+    view.view_to_map = from_rows(row(axes.u), row(axes.v), glm::dvec4(-along, last) / (last - first), {0, 0, 0, 1});
+    view.size = size;
+    view.bias = double(frame.sun.shadow.bias);
+    view.texel = texel;
+    return view;
+}
+
+void add_cascades(const Frame& frame, std::span<const Sphere> casters, std::vector<ShadowView>& views) {
+    const double near = double(frame.view.near);
+    const double far = std::max(double(frame.sun.shadow_distance), 2 * near);
+    const std::vector<double> ends = cascade_ends(near, far, std::max(frame.sun.cascades, 1u), cascade_share);
+    double begin = near, blended_from = near;
+    for (const double end : ends) {
+        ShadowView view = sun_view(frame, slice_sphere(frame.view, blended_from, end), casters);
+        view.range_begin = begin;
+        view.range_end = end;
+        views.push_back(view);
+        blended_from = end - cascade_blend * (end - begin);
+        begin = end;
+    }
+}
+
+ShadowView spot_view(const Frame& frame, const Light& light) {
+    const std::uint32_t size = std::max(light.shadow.map_size, 1u);
+    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
+    glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
+    u = glm::normalize(u - along * glm::dot(u, along));
+    const glm::dvec3 v = glm::cross(along, u);
+    const glm::dvec3 position = to_view(frame, light.position);
+    // Wider than the cone by the margin, so that kernels at its rim find their texels.
+    const double wider = size / (size - 2 * margin(size));
+    const auto slope = [&](float half_angle) { return wider * std::tan(std::min(double(half_angle), widest_half_angle)); };
+    const double slope_u = slope(light.outer_angle);
+    const double slope_v = light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u;
+    const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
+    const glm::dvec4 w = row(along);
+    ShadowView view;
+    view.view_to_map = from_rows(0.5 * (w + row(u) / slope_u), 0.5 * (w + row(v) / slope_v),
+                                 {0, 0, 0, std::max(0.05, 0.01 * double(light.range))}, w);
+    view.size = size;
+    view.bias = double(light.shadow.bias);
+    view.range_end = double(std::numeric_limits<float>::max());
+    view.texel = 2 * std::max(slope_u, slope_v) / size;
+    return view;
+}
+
+bool has_map(const Light& light) {
+    return light.shadow.casts && (light.type == LightType::round_spot || light.type == LightType::square_spot) &&
+           light.range > 0 && light.intensity != glm::vec3(0);
+}
+
+bool sun_shines(const Frame& frame) { return frame.sun.irradiance != glm::vec3(0); }
+
+}  // namespace
+
+std::vector<double> cascade_ends(double near, double far, std::uint32_t count, double share) {
+    std::vector<double> ends;
+    for (std::uint32_t i = 1; i <= count; ++i) {
+        const double t = double(i) / count;
+        ends.push_back(i == count ? far : share * near * std::pow(far / near, t) + (1 - share) * (near + (far - near) * t));
+    }
+    return ends;
+}
+
+std::vector<Light> shadow_lights(const Frame& frame) {
+    std::vector<Light> lights;
+    if (sun_shines(frame)) lights.push_back(sun_light(frame));
+    lights.insert(lights.end(), frame.lights.begin(), frame.lights.end());
+    return lights;
+}
+
+std::vector<ShadowView> shadow_views(const Frame& frame) {
+    std::vector<ShadowView> views;
+    if (sun_shines(frame) && frame.sun.shadow.casts) {
+        std::vector<Sphere> casters;
+        for (const std::uint32_t draw : caster_draws(frame)) casters.push_back(bounding_sphere(frame, draw));
+        add_cascades(frame, casters, views);
+    }
+    const std::uint32_t first_local = sun_shines(frame) ? 1 : 0;
+    for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
+        if (!has_map(frame.lights[i])) continue;
+        views.push_back(spot_view(frame, frame.lights[i]));
+        views.back().light = first_local + i;
+    }
+    return views;
+}
+
+std::vector<std::uint32_t> shadowed_lights(std::span<const ShadowView> views) {
+    std::vector<std::uint32_t> lights;
+    for (const ShadowView& view : views) {
+        if (lights.empty() || lights.back() != view.light) lights.push_back(view.light);
+    }
+    return lights;
+}
+
+}  // namespace strata

@@ -1,0 +1,42 @@
+// Where shadow maps look from: one view per cascade of the sun and per shadowed spot, in double. The scene uploads them as
+// ShadowRecord; a view's place in the list is its slot and its layer of shadow_maps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+
+namespace strata {
+
+/// (u, v, depth, w) = view_to_map * (p, 1): after division by w the map covers uv 0..1 and depth is 1 at the light, 0 far.
+struct ShadowView {
+    glm::dmat4 view_to_map{1};
+    std::uint32_t light = 0;  ///< in the order of shadow_lights()
+    std::uint32_t size = 0;   ///< texels per edge
+    double bias = 0;          ///< metres towards the light along its rays
+    double range_begin = 0;   ///< view depth from which a cascade serves ...
+    double range_end = 0;     ///< ... and until which; its last tenth blends into the next cascade, the last one's into lit
+    double texel = 0;         ///< edge of a texel in metres: anywhere for the sun, at one metre along the axis for spots
+};
+
+/// Of the lights that can have maps (the sun, round and square spots), shine and cast. Others cast no mapped shadow.
+std::vector<ShadowView> shadow_views(const Frame&);
+
+/// Lights in the order of the device's light list: the sun first when it shines, then Frame::lights.
+std::vector<Light> shadow_lights(const Frame&);
+/// Lights that have views, each once: the k-th owns the layers k * samples ... of FrameImages::visibility.
+std::vector<std::uint32_t> shadowed_lights(std::span<const ShadowView>);
+
+/// Ends of the splits of near..far: share * logarithmic + (1 - share) * uniform (Zhang et al. 2006, lighting chapter 6.4).
+std::vector<double> cascade_ends(double near, double far, std::uint32_t count, double share);
+
+/// Share of the logarithmic scheme (CSM_LAMBDA, lighting chapter 8.1).
+inline constexpr double cascade_share = 0.75;
+/// Share of a cascade's depth over which it blends into the next (lighting chapter 6.4).
+inline constexpr double cascade_blend = 0.1;
+
+}  // namespace strata

@@ -1,0 +1,35 @@
+// Objects from back to front, each blended over what is there: what most renderers do.
+#include "passes/technique.h"
+#include "passes/transparency/alpha_blend/alpha_blend.shared.h"
+#include "passes/transparency/event_draw.h"
+
+namespace strata::transparency {
+
+ImageSet alpha_blend_model(const StageInput&, const Settings&);  // model.cpp
+
+namespace {
+
+void add(Graph& graph, FrameImages& images, const Settings&) {
+    Image color = gather(graph, images.color, "alpha_blend color");
+    draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
+    images.color = spread(graph, color, graph.record(images.color).name);
+}
+
+}  // namespace
+
+Technique alpha_blend() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/alpha_blend",
+        .title = "Object-sorted alpha blending",
+        .source = "Porter and Duff 1984, SIGGRAPH; painter's order by object",
+        .summary = "One blended draw, objects far to near: cheapest; wrong where objects interpenetrate, contain or overlap themselves.",
+        .counters = {counter<&AlphaBlendCounters::fragments>({.name = "fragments", .help = "visible transparent fragments blended"})},
+        .counter_bytes = sizeof(AlphaBlendCounters),
+        .add = add,
+        .model = alpha_blend_model,
+        .tolerance = {.rmse = 1e-3, .worst = 2e-2, .because = "lit, filtered and blended in float; highlights of small roughness amplify it"},
+    };
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,91 @@
+// The transparent event under a sample, from the varyings of draw.vert: L_out = p + e + t L_behind (transparency chapter 0.1).
+// Every technique draws the same events; they differ in how they combine them. gl_SampleID makes the shader run per sample.
+// event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
+#ifndef PASSES_TRANSPARENCY_EVENT_GLSL
+#define PASSES_TRANSPARENCY_EVENT_GLSL
+#include "passes/shaders/camera.glsl"
+#include "passes/shaders/lights.glsl"
+#include "passes/shaders/material.glsl"
+#include "passes/transparency/sanitize.glsl"
+
+layout(location = 0) sample in vec3 in_position;
+layout(location = 1) sample in vec3 in_normal;
+layout(location = 2) sample in vec4 in_tangent;
+layout(location = 3) sample in vec4 in_uv;
+layout(location = 4) sample in vec4 in_color;
+layout(location = 5) sample in vec4 in_emissive;  // of particles; w: depth offset towards the eye
+layout(location = 6) flat in uint in_draw;
+
+layout(constant_id = 0) const uint first_emitter = 0u;  // draws from here on are emitters
+layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
+layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
+
+struct Event {
+    float z;       // view depth, depth offset applied: what ordering uses
+    float alpha;   // scalar coverage
+    vec3 p, t, e;  // premultiplied scattered radiance, transmittance, emission; fog is in them
+    bool visible;
+};
+
+// How much of a soft particle is left this far in front of the opaque surface behind it.
+float faded() {
+    const float metres = draws[in_draw].soft_fade;
+    if (soft_fade == 0u || metres <= 0.0) return 1.0;
+    const float opaque = texelFetch(depth_layers, ivec3(gl_FragCoord.xy, gl_SampleID), 0).r;
+    return opaque > 0.0 ? clamp((view_z(opaque) - in_position.z) / metres, 0.0, 1.0) : 1.0;
+}
+
+// All lights without shadows, sky and ground; an unlit material is its own light.
+vec3 lit(MaterialPoint m) {
+    if (m.lighting_model == model_unlit) return m.base_color;
+    vec3 sum = hemisphere_light(m);
+    for (uint i = 0u; i < view.light_count; ++i) sum += reflected(m, lights[i]);
+    return sum;
+}
+
+Event blended(float alpha, vec3 p, vec3 transmission) {
+    return Event(in_position.z, alpha, p, 1.0 - alpha * (1.0 - transmission), vec3(0.0), true);
+}
+
+Event additive(vec3 e) { return Event(in_position.z, 0.0, vec3(0.0), vec3(1.0), e, true); }
+
+Event mesh_event(MaterialPoint m) {
+    const float a = valid_alpha(m.alpha);
+    const vec3 scattered = lit(m);
+    if (m.alpha_mode == alpha_additive) return additive(a * (scattered + m.emissive));
+    if (m.alpha_mode == alpha_premultiplied) return blended(a, scattered + a * m.emissive, m.transmission);
+    return blended(a, a * (scattered + m.emissive), m.transmission);
+}
+
+// m is the emitter's texture alone: the particle's color is kept out of it.
+Event particle_event(MaterialPoint m) {
+    const float fade = faded(), a = valid_alpha(in_color.a * m.alpha * fade);
+    const vec3 c = in_color.rgb * m.base_color, e = in_emissive.rgb * m.base_color * (m.alpha * fade);
+    if (m.alpha_mode == alpha_additive) return additive(e + a * c);
+    const vec3 p = m.alpha_mode == alpha_premultiplied ? c * (in_color.a * fade) : a * c;
+    Event event = blended(a, p, vec3(0.0));
+    event.e = e;
+    return event;
+}
+
+// Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact (chapter 0.4).
+void add_fog(inout Event event) {
+    const float remains = fog_remains(in_position.z);
+    event.p = event.p * remains + event.alpha * (1.0 - remains) * view.fog_color;
+    event.e *= remains;
+}
+
+Event transparent_event() {
+    const bool particle = in_draw >= first_emitter;
+    const vec4 color = particle ? vec4(1.0) : in_color;
+    const MaterialPoint m = material_point(in_draw, in_position, in_normal, in_tangent, in_uv, color, gl_FrontFacing);
+    Event event = particle ? particle_event(m) : mesh_event(m);
+    if (view.fog_density > 0.0) add_fog(event);
+    event.p = finite_or_zero(event.p);
+    event.e = finite_or_zero(event.e);
+    event.visible = is_finite(in_position.z) && !invisible(event.alpha, event.e);
+    event.z -= in_emissive.w;
+    return event;
+}
+
+#endif

@@ -1,0 +1,17 @@
+#include "passes/transparency/event_draw.h"
+
+#include <utility>
+
+namespace strata {
+
+DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, const FrameImages& images) {
+    const bool soft = images.features->has(Feature::soft_particles);
+    DrawPass pass = graph.draw(std::move(shader), list);
+    pass.tests_depth(images.depth)
+        .samples("depth_layers", soft ? images.depth_layers : Image{})
+        .fixes("soft_fade", soft ? 1u : 0u)
+        .fixes("first_emitter", static_cast<std::uint32_t>(images.recorded->draws.size()));
+    return pass;
+}
+
+}  // namespace strata

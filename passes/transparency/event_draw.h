@@ -1,0 +1,14 @@
+// The draw of transparent geometry as every technique does it: tested against opaque depth, with what event.glsl declares bound.
+#pragma once
+
+#include <string>
+
+#include "passes/frame_images.h"
+#include "passes/graph/graph.h"
+
+namespace strata {
+
+/// Declares a draw of `list` with a fragment shader that includes passes/transparency/event.glsl. Chain the technique's own verbs.
+DrawPass draw_events(Graph&, std::string shader, const DrawList& list, const FrameImages&);
+
+}  // namespace strata

@@ -1,0 +1,14 @@
+// How far a transparency technique is from the exact blend, over the samples whose coverage is decided.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// rmse and worst pixel in radiance, rmse relative to the truth's root mean square, bias (mean signed error: above 0 things
+/// shine through that should not, or nothing hides them), and the share of samples more than 1/255 off after the tone curve.
+std::vector<Figure> transparency_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

@@ -1,0 +1,20 @@
+// The order of object-sorted transparency: sort_priority first, then the view depth of the object's bounding sphere's center,
+// far to near. One rule for the scene's index buffers and for the model of transparency/alpha_blend.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "capture_format/frame.h"
+
+namespace strata {
+
+/// Draws with a transparent material and emitters with particles (as draws.size() + emitter): lower sort_priority first, then
+/// farther centers first, then earlier submission first. The center is that of the mesh's box, transformed; an emitter's is
+/// that of the box of its particles' centers.
+std::vector<std::uint32_t> back_to_front_draws(const Frame&);
+
+/// Indices into Emitter::particles, descending view z of center minus depth_offset, then ascending index.
+std::vector<std::uint32_t> back_to_front_particles(const Frame&, const Emitter&);
+
+}  // namespace strata

@@ -1,0 +1,21 @@
+// Bad numbers stop here (transparency chapter 0.2): every transparent shader gets its events through event.glsl, which uses
+// these. NaN is found by its bits; comparing x != x is optimized away by fast-math drivers.
+#ifndef PASSES_TRANSPARENCY_SANITIZE_GLSL
+#define PASSES_TRANSPARENCY_SANITIZE_GLSL
+
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7fffffffu) < 0x7f800000u; }
+
+float finite_or_zero(float x) { return is_finite(x) ? x : 0.0; }
+
+vec3 finite_or_zero(vec3 x) { return vec3(finite_or_zero(x.r), finite_or_zero(x.g), finite_or_zero(x.b)); }
+
+// Coverage in 0..1; 0 where it is no number.
+float valid_alpha(float alpha) { return clamp(finite_or_zero(alpha), 0.0, 1.0); }
+
+// An event that nobody could see. Not 1/255: 200 layers of .01 must survive.
+bool invisible(float alpha, vec3 emission) {
+    const float least_alpha = 1e-5, least_emission = 1e-6;
+    return alpha < least_alpha && max(emission.r, max(emission.g, emission.b)) < least_emission;
+}
+
+#endif

@@ -1,0 +1,176 @@
+// Facts about exact sorted blending (transparency chapter 1, oracles R1 to R10) and about how its memory is bounded.
+#include "passes/transparency/sorted_lists/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passes/transparency/row_bounds.h"
+#include "passes/transparency/truth.h"
+#include "tests/support/cards.h"
+
+namespace strata {
+namespace {
+
+Fragment layer(double depth, double alpha, double color) {
+    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
+}
+
+/// Model and truth are written differently and must agree to the last digits.
+double blend(std::span<const Fragment> fragments, double behind) {
+    const glm::dvec3 model = transparency::sorted_blend(fragments, glm::dvec3(behind));
+    const glm::dvec3 truth = exact_blend(fragments, glm::dvec3(behind));
+    EXPECT_NEAR(model.x, truth.x, 1e-14);
+    return model.x;
+}
+
+std::vector<Fragment> ramp(std::size_t layers, double alpha) {
+    std::vector<Fragment> fragments;
+    for (std::size_t i = 0; i < layers; ++i) fragments.push_back(layer(1 + double(i), alpha, double(i) / double(layers - 1)));
+    return fragments;
+}
+
+/// Mean over all orders of submission: the fair target at equal depths.
+double mean_over_orders(std::vector<Fragment> fragments) {
+    std::vector<std::size_t> order(fragments.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    double sum = 0, orders = 0;
+    do {
+        std::vector<Fragment> submitted;
+        for (const std::size_t i : order) submitted.push_back(fragments[i]);
+        sum += blend(submitted, 0);
+        orders += 1;
+    } while (std::ranges::next_permutation(order).found);
+    return sum / orders;
+}
+
+TEST(SortedBlending, LetsHalfOfTheBackgroundThroughHalfOfEachLayer) {
+    const std::array fragments{layer(1, .5, 1), layer(2, .5, 0)};
+    EXPECT_DOUBLE_EQ(blend(fragments, 0), .5);
+    EXPECT_DOUBLE_EQ(blend(fragments, 1), .75);
+}
+
+TEST(SortedBlending, GivesTheSameBitsInAnyOrderOfSubmission) {
+    std::vector<Fragment> fragments = ramp(5, .3);
+    const double expected = blend(fragments, .7);
+    while (std::ranges::next_permutation(fragments, std::ranges::less{}, &Fragment::depth).found)
+        EXPECT_EQ(blend(fragments, .7), expected);
+}
+
+TEST(SortedBlending, MultipliesTheColorsOfGlass) {
+    Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1}, green{.depth = 2, .transmittance = {.2, 1, .2}, .alpha = 1};
+    const glm::dvec3 seen = transparency::sorted_blend(std::array{red, green}, glm::dvec3(1));
+    EXPECT_NEAR(seen.x, .2, 1e-15);
+    EXPECT_NEAR(seen.y, .2, 1e-15);
+    EXPECT_NEAR(seen.z, .04, 1e-15);
+}
+
+TEST(SortedBlending, DimsEmissionByWhatStandsInFrontOfIt) {
+    const std::array fragments{layer(1, .5, 0), Fragment{.depth = 2, .emission = glm::dvec3(.3)}};
+    EXPECT_DOUBLE_EQ(blend(fragments, 0), .15);
+}
+
+TEST(SortedBlending, KeepsTwoHundredThinLayers) {
+    std::vector<Fragment> fragments(200, layer(1, .01, 1));
+    EXPECT_NEAR(blend(fragments, 0), .8660203251, 1e-10);
+    EXPECT_NEAR(1 - blend(fragments, 0), .1339796749, 1e-10);
+    EXPECT_NEAR(blend(ramp(200, .01), 0), .296181, 1e-6);
+    EXPECT_NEAR(blend(ramp(20, .3), 0), .121869, 1e-6);
+}
+
+TEST(SortedBlending, HidesEverythingBehindAnOpaqueLayer) {
+    const std::array fragments{layer(1, 1, .25), layer(2, .5, 1000), Fragment{.depth = 3, .emission = glm::dvec3(1e6)}};
+    EXPECT_EQ(blend(fragments, 1e9), .25);
+}
+
+TEST(SortedBlending, PutsTheLaterSubmissionInFrontAtEqualDepth) {
+    const Fragment white = layer(1, .5, 1), black = layer(1, .5, 0);
+    EXPECT_DOUBLE_EQ(blend(std::array{black, white}, 0), .5);
+    EXPECT_DOUBLE_EQ(blend(std::array{white, black}, 0), .25);
+    EXPECT_DOUBLE_EQ(mean_over_orders({white, black}), .375);
+}
+
+TEST(SortedBlending, GivesUnequalLayersAtEqualDepthTheirSymmetricShares) {
+    EXPECT_NEAR(mean_over_orders({layer(1, .9, 1), layer(1, .1, 0)}), .855, 1e-15);
+    EXPECT_NEAR(mean_over_orders({layer(1, .9, 0), layer(1, .1, 1)}), .055, 1e-15);
+}
+
+TEST(SortedBlending, BlendsTheMicroExampleOfTheChapter) {
+    EXPECT_DOUBLE_EQ(blend(std::array{layer(1, .5, 1), layer(2, .5, 0), layer(4, .5, 1)}, 0), .625);
+}
+
+TEST(SortedBlending, MixesFoggedLayersAsTheFogItselfWould) {
+    // Chapter 0.4: alpha .5, c 1 where the fog leaves .8 and adds .1, over black where it leaves .5 and adds .3.
+    const Fragment fogged{.depth = 1, .color = glm::dvec3(.5 * .8 + .5 * .1), .transmittance = glm::dvec3(.5), .alpha = .5};
+    EXPECT_DOUBLE_EQ(blend(std::array{fogged}, .3), .6);
+}
+
+TEST(SortedTruth, BlendsCardsInTheirOrderOfDepthPerSample) {
+    const std::array cards{Card{.center = {0, 0, 2}, .color = {1, 1, 1, .5}}, Card{.center = {0, 0, 4}, .color = {0, 0, 0, .5}}};
+    const Frame frame = frame_of_cards(cards, 8);
+    const ImageSet before{{"color", ReferenceImage(8, 8, 1, glm::dvec4(1))}, {"depth_layers", ReferenceImage(8, 8)}};
+    const ImageSet truth = transparency_truth({frame, before});
+    for (const glm::dvec4& texel : truth.at("color").texels) EXPECT_DOUBLE_EQ(texel.x, .75);
+}
+
+TEST(RowBounds, CountEveryPixelOfAFullScreenQuadOnce) {
+    Frame frame = frame_of_cards({}, 8);
+    frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, 5}, .size = 20}}});
+    EXPECT_THAT(transparent_row_bounds(frame, {8, 8, 1}), testing::Each(8u));
+}
+
+TEST(RowBounds, CountNothingBehindTheEye) {
+    Frame frame = frame_of_cards({}, 8);
+    frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, -5}, .size = 20}}});
+    EXPECT_THAT(transparent_row_bounds(frame, {8, 8, 1}), testing::Each(0u));
+}
+
+TEST(RowBounds, AreNeverBelowWhatIsCovered) {
+    std::vector<Card> cards;
+    for (int i = 0; i < 40; ++i) {
+        const double t = i;
+        cards.push_back({.center = {2 * std::sin(7 * t), 2 * std::cos(3 * t), .2 + 5 * std::abs(std::sin(t))},
+                         .half = float(.05 + 3 * std::abs(std::sin(5 * t))),
+                         .color = glm::vec4(.5f),
+                         .tilt = 1.5 * std::sin(11 * t)});
+    }
+    Frame frame = frame_of_cards(cards, 32);
+    frame.emitters.push_back({.name = "smoke", .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
+    const FragmentLists lists = transparent_fragments(frame, ReferenceImage(32, 32));
+    const std::vector<std::uint64_t> bounds = transparent_row_bounds(frame, {32, 32, 1});
+    std::uint64_t bound = 0;
+    for (std::uint32_t y = 0; y < 32; ++y) {
+        std::uint64_t covered = 0;
+        for (std::uint32_t x = 0; x < 32; ++x) covered += lists.at(x, y).size();
+        EXPECT_LE(covered, bounds[y]) << "row " << y;
+        bound += bounds[y];
+    }
+    EXPECT_GT(lists.total(), 1000u);
+    EXPECT_LT(bound, 2 * lists.total()) << "a bound twice too high wastes memory";
+}
+
+TEST(RowBands, HoldEveryRowOnceAndNoMoreThanTheirLimit) {
+    const std::array<std::uint64_t, 7> rows{10, 10, 50, 60, 5, 5, 100};
+    const std::vector<RowBand> bands = row_bands(rows, 120);
+    ASSERT_EQ(bands.size(), 3u);
+    EXPECT_EQ(bands[0].rows, 2u);
+    EXPECT_EQ(bands[1].first_row, 2u);
+    EXPECT_EQ(bands[1].rows, 4u);
+    EXPECT_EQ(bands[1].bound, 120u);
+    EXPECT_EQ(bands[2].first_row, 6u);
+    EXPECT_EQ(bands[2].rows, 1u);
+}
+
+TEST(RowBands, GrowBeyondTheLimitRatherThanSplitAQuadOfPixels) {
+    const std::array<std::uint64_t, 4> rows{1000, 1000, 1, 1};
+    const std::vector<RowBand> bands = row_bands(rows, 10);
+    ASSERT_EQ(bands.size(), 2u);
+    EXPECT_EQ(bands[0].bound, 2000u);
+}
+
+}  // namespace
+}  // namespace strata

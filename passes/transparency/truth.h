@@ -1,0 +1,18 @@
+// What every transparency technique approximates: all fragments of a sample, sorted by depth and blended, in double.
+#pragma once
+
+#include <span>
+
+#include "passes/reference/fragments.h"
+#include "passes/stages.h"
+
+namespace strata {
+
+/// One sample's fragments in submission order over what is behind: C = sum T (p + e) + T_total L_behind, near to far. Of equal
+/// depths the later submission is nearer.
+glm::dvec3 exact_blend(std::span<const Fragment>, glm::dvec3 behind);
+
+/// `color` as it should be after transparency, per sample (transparency chapter 1).
+ImageSet transparency_truth(const StageInput&);
+
+}  // namespace strata

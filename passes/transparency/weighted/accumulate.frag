@@ -1,0 +1,23 @@
+// McGuire and Bavoil 2013: adds weighted colors and coverages, multiplies what is left of the background.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/weighted/weights.glsl"
+
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_sum;
+layout(location = 1) out vec4 out_reveal;
+layout(push_constant, scalar) uniform Push { WeightedParams params; };
+layout(set = 0, binding = 1, scalar) buffer Counters { WeightedCounters counters; };
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    atomicAdd(counters.fragments, 1u);
+    // Colored glass covers less than its alpha: alpha (1 - mean k) = mean (1 - t) (McGuire and Mara 2016).
+    const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
+    const vec3 color = event.p + event.e;
+    const float weight = weight_of(params.weight, event.z * params.scale, view.near * params.scale, coverage, color);
+    out_sum = vec4(color, coverage) * weight;
+    out_reveal = vec4(event.t, 1.0);
+}

@@ -1,0 +1,57 @@
+#include "passes/transparency/weighted/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/transparency/sample_blend.h"
+
+namespace strata::transparency {
+namespace {
+
+double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
+
+double bounded(double weight) { return std::max(1e-2, std::min(3e3, weight)); }
+
+// A sum of half floats holds no more: hardware's infinity and lavapipe's largest number are both read as this.
+constexpr double largest_half = 65504;
+
+}  // namespace
+
+double weight_in_double(const WeightedParams& params, double near, const Fragment& f) {
+    const double z = f.depth * double(params.scale), from_200 = std::pow(z / 200, 6);
+    const double ninth = bounded(.03 / (1e-5 + std::pow(z / 200, 4)));
+    const glm::dvec3 p = f.color + f.emission;
+    switch (params.weight) {
+        case weight_w7: return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 5, 2) + from_200));
+        case weight_w8: return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 10, 3) + from_200));
+        case weight_w9: return coverage(f) * ninth;
+        // D = (zn zf / z - zf) / (zn - zf) with the far plane at infinity: 1 - D = zn / z.
+        case weight_w10: return coverage(f) * bounded(3e3 * std::pow(near / f.depth, 3));
+        case weight_blog: return std::max(std::min(1., std::max({p.x, p.y, p.z})), coverage(f)) * ninth;
+        default: return 1;
+    }
+}
+
+glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near) {
+    glm::dvec3 colors(0), through(1);
+    double coverages = 0;
+    for (const Fragment& fragment : fragments) {
+        const double weight = weight_in_double(params, near, fragment);
+        colors += (fragment.color + fragment.emission) * weight;
+        coverages += coverage(fragment) * weight;
+        through *= fragment.transmittance;
+    }
+    colors = glm::clamp(colors, -largest_half, largest_half);
+    return colors / std::max(std::min(coverages, largest_half), 1e-5) * (glm::dvec3(1) - through) + through * behind;
+}
+
+ImageSet weighted_model(const StageInput& input, const Settings& settings) {
+    const auto params = settings.as<WeightedParams>();
+    const double near = double(input.frame.view.near);
+    const SampleBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind) {
+        return weighted_blend(fragments, behind, params, near);
+    };
+    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,19 @@
+// The method in double precision, from the paper and not from the shader.
+#pragma once
+
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/weighted/weighted.shared.h"
+
+namespace strata::transparency {
+
+/// Weight of a fragment; coverage is 1 - mean(t). `near` is the near plane's distance, for w10.
+double weight_in_double(const WeightedParams&, double near, const Fragment&);
+
+/// One sample: the weighted average over what shows through.
+glm::dvec3 weighted_blend(std::span<const Fragment>, glm::dvec3 behind, const WeightedParams&, double near);
+
+ImageSet weighted_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

@@ -1,0 +1,64 @@
+// Weighted blended order-independent transparency: one additive pass, no order at all.
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/weighted/model.h"
+#include "passes/transparency/weighted/weighted.shared.h"
+
+namespace strata::transparency {
+namespace {
+
+// In the order of the constants in weighted.shared.h.
+constexpr std::string_view weights[] = {"w7", "w8", "w9", "w10", "blog", "constant"};
+
+/// Drawn with the frame's samples, read by sample.
+Image create_target(Graph& graph, const FrameImages& images, std::string name, Format format) {
+    return graph.create(std::move(name), Shape{.extent = images.extent, .format = format, .samples = images.samples});
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    const bool chromatic = images.features->has(Feature::chromatic);
+    Image sum = create_target(graph, images, "weighted sum", Format::rgba16f);
+    Image reveal = create_target(graph, images, "weighted reveal", chromatic ? Format::rgba16f : Format::r16f);
+    graph.clear(sum, {{0, 0, 0, 0}});
+    graph.clear(reveal, {{1, 1, 1, 1}});
+
+    draw_events(graph, "transparency/weighted/accumulate", images.transparent, images)
+        .adds_to(sum)
+        .multiplies(reveal)
+        .push(settings.as<WeightedParams>());
+
+    const Image sum_layers = spread(graph, sum, "weighted sum by sample");
+    const Image reveal_layers = spread(graph, reveal, "weighted reveal by sample");
+    graph.compute("transparency/weighted/resolve.comp")
+        .samples("sum", sum_layers)
+        .samples("reveal", reveal_layers)
+        .updates("color", images.color)
+        .fixes("chromatic", chromatic ? 1u : 0u)
+        .over({images.extent.width, images.extent.height, images.samples});
+}
+
+}  // namespace
+
+Technique weighted() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/weighted",
+        .title = "Weighted blended",
+        .source = "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D",
+        .summary = "Averages all fragments with weights falling with depth: one pass, fixed memory; near-opaque layers show what is behind.",
+        .params = {param<&WeightedParams::weight>({.name = "weight", .low = 0, .high = 5, .fallback = weight_w7,
+                                                   .help = "equation of the weight", .choices = weights}),
+                   param<&WeightedParams::scale>({.name = "scale", .low = 0.01, .high = 100, .fallback = 1,
+                                                  .help = "multiplies view depth: the weights were made for 0.1 to 500 units",
+                                                  .scale = Scale::logarithmic})},
+        .counters = {counter<&WeightedCounters::fragments>({.name = "fragments", .help = "visible transparent fragments blended"})},
+        .counter_bytes = sizeof(WeightedCounters),
+        .cannot = {Feature::additive},
+        .add = add,
+        .model = weighted_model,
+        .tolerance = {.rmse = 1e-2, .worst = 8e-2,
+                      .because = "sums and products are rounded to half floats at every blend: 200 layers of .01 reveal .1406, not .1340"},
+    };
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,55 @@
+// strata import: a glTF scene becomes a capture of one frame.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "capture_format/import_gltf.h"
+#include "capture_format/recorder.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+struct Options {
+    std::filesystem::path scene, output;
+    std::string size = "640x360";
+    GltfOptions gltf;
+    DeviceChoice device;
+};
+
+Result<void> import(const Options& options) {
+    const auto extent = extent_of(options.size);
+    if (!extent) return extent.error();
+    GltfOptions gltf = options.gltf;
+    std::tie(gltf.width, gltf.height) = *extent;
+    if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
+    const auto scene = import_gltf(options.scene, gltf);
+    if (!scene) return scene.error();
+    for (const std::string& warning : scene->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
+    if (const auto good = check_frame(scene->frame); !good) return good;
+
+    const std::filesystem::path output = options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
+    auto recorder = Recorder::create(output, "imported from " + options.scene.filename().string());
+    if (!recorder) return recorder.error();
+    if (const auto done = add_thumbnail(*recorder, scene->frame, options.device); !done) return done;
+    if (const auto done = recorder->record(scene->frame); !done) return done;
+    if (const auto done = recorder->finish(); !done) return done;
+    fmt::print(stderr, "imported {} draws, {} materials, {} textures, {} lights into {}\n", scene->frame.draws.size(),
+               scene->frame.materials.size(), scene->frame.textures.size(), scene->frame.lights.size(), output.string());
+    return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_import(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("scene", options->scene, "a .gltf or .glb file")->required();
+    app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
+    app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
+    app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
+    app.add_option("--camera", options->gltf.camera, "index of the scene's camera; default its first, or one that frames the scene");
+    app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
+    return [options] { return import(*options); };
+}
+
+}  // namespace strata

@@ -1,0 +1,108 @@
+// strata info: what a capture holds and what its frames call for. strata validate: whether all of it is sound.
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "capture_format/frame_features.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::filesystem::path capture;
+    std::size_t frame = 0;
+    bool allow_partial = false, json = false;
+};
+
+struct Count {
+    const char* name;
+    std::size_t value;
+};
+
+std::vector<Count> counts(const Frame& frame) {
+    std::size_t triangles = 0, particles = 0;
+    for (const Draw& draw : frame.draws) triangles += frame.meshes[draw.mesh].indices.size() / 3;
+    for (const Emitter& emitter : frame.emitters) particles += emitter.particles.size();
+    return {{"draws", frame.draws.size()},       {"triangles", triangles},           {"meshes", frame.meshes.size()},
+            {"materials", frame.materials.size()}, {"textures", frame.textures.size()}, {"emitters", frame.emitters.size()},
+            {"particles", particles},            {"lights", frame.lights.size()},    {"blockers", frame.blockers.size()},
+            {"portals", frame.portals.size()},   {"light_volumes", frame.light_volumes.size()}};
+}
+
+ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t index) {
+    const CaptureSummary& summary = capture.summary();
+    ordered_json json{{"schema", "strata.info"}, {"schema_version", 1}, {"capture", capture.id()},
+                      {"format_version", summary.format_version}, {"frames", summary.frames}, {"file_bytes", summary.file_bytes},
+                      {"blobs", summary.blobs}, {"blob_bytes_stored", summary.blob_bytes_stored},
+                      {"blob_bytes_raw", summary.blob_bytes_raw}, {"cut_short", summary.cut_short}, {"notes", summary.notes}};
+    ordered_json& of_frame = json["frame"];
+    of_frame = {{"index", index}, {"extent", {frame.view.width, frame.view.height}}, {"samples", frame.view.samples}};
+    for (const Count& count : counts(frame)) of_frame[count.name] = count.value;
+    const Features features = frame_features(frame);
+    of_frame["features"] = ordered_json::object();
+    for (const Feature feature : all_features())
+        if (features.has(feature)) of_frame["features"][std::string(name(feature))] = features.reason(feature);
+    return json;
+}
+
+void print(const Capture& capture, const Frame& frame, std::size_t index) {
+    const CaptureSummary& summary = capture.summary();
+    fmt::print("capture {}, format {}, {} frame{}, {} bytes{}\n", capture.id(), summary.format_version, summary.frames,
+               summary.frames == 1 ? "" : "s", summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
+    if (!summary.notes.empty()) fmt::print("notes: {}\n", summary.notes);
+    fmt::print("{} blobs, {} bytes stored for {}\n", summary.blobs, summary.blob_bytes_stored, summary.blob_bytes_raw);
+    fmt::print("\nframe {}: {} x {}, {} sample{} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height, frame.view.samples,
+               frame.view.samples == 1 ? "" : "s", frame.time);
+    for (const Count& count : counts(frame))
+        if (count.value) fmt::print("  {:>8} {}\n", count.value, count.name);
+    fmt::print("it calls for\n");
+    const Features features = frame_features(frame);
+    for (const Feature feature : all_features())
+        if (features.has(feature)) fmt::print("  {:<18} {}\n", name(feature), features.reason(feature));
+    for (const StageChoice& stage : frame.recorded_with) fmt::print("recorded with {} for {}\n", stage.technique, stage.stage);
+}
+
+Result<void> info(const Options& options) {
+    const auto capture = Capture::open(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
+    if (!capture) return capture.error();
+    const std::size_t count = capture->frame_count();
+    if (options.frame >= count) return fail(Fault::usage, "the capture has {} frames; there is no frame {}", count, options.frame);
+    const auto frame = capture->frame(options.frame);
+    if (!frame) return frame.error();
+    if (options.json) std::cout << json_of(*capture, *frame, options.frame).dump(2) << "\n";
+    else print(*capture, *frame, options.frame);
+    return {};
+}
+
+Result<void> validate(const Options& options) {
+    const auto capture = Capture::open(options.capture);
+    if (!capture) return capture.error();
+    for (std::size_t i = 0; i < capture->frame_count(); ++i)
+        if (const auto frame = capture->frame(i); !frame) return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
+    fmt::print("{}: {} frames, every section and every index is sound\n", options.capture.filename().string(), capture->frame_count());
+    return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_info(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("capture", options->capture, "a .strata file")->required();
+    app.add_option("--frame", options->frame, "which frame to describe, default 0");
+    app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
+    app.add_flag("--json", options->json, "one JSON object on stdout");
+    return [options] { return info(*options); };
+}
+
+std::function<Result<void>()> declare_validate(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("capture", options->capture, "a .strata file")->required();
+    return [options] { return validate(*options); };
+}
+
+}  // namespace strata

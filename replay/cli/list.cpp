@@ -1,0 +1,96 @@
+// strata list: stages with their techniques and parameters, scenarios, features.
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "capture_format/nearest_name.h"
+#include "captures/scenarios.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::string what;
+    bool names = false, scenarios = false, json = false;
+};
+
+std::string range_text(const Param& param) {
+    if (param.choices.empty()) return fmt::format("{:g} to {:g}, default {:g}", param.low, param.high, param.fallback);
+    std::string text;
+    for (const std::string_view choice : param.choices) text += fmt::format("{}{}", text.empty() ? "" : ", ", choice);
+    return fmt::format("{}; default {}", text, param.choices[static_cast<std::size_t>(param.fallback)]);
+}
+
+void print(const Technique& technique, const Options& options) {
+    if (options.names) {
+        fmt::print("{}\n", technique.name);
+        return;
+    }
+    fmt::print("  {:<28}{}. {}\n", technique.name, technique.title, technique.source);
+    if (options.what.empty()) return;
+    fmt::print("  {:<28}{}\n", "", technique.summary);
+    for (const Param& param : technique.params) fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
+    for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
+    for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
+    for (const Feature feature : technique.cannot) fmt::print("      cannot do {}\n", name(feature));
+}
+
+ordered_json json_of(const Technique& technique) {
+    ordered_json json{{"name", technique.name}, {"stage", name(technique.stage)}, {"title", technique.title},
+                      {"source", technique.source}, {"summary", technique.summary}, {"parameters", ordered_json::array()}};
+    for (const Param& param : technique.params)
+        json["parameters"].push_back({{"name", param.name}, {"low", param.low}, {"high", param.high}, {"default", param.fallback},
+                                      {"choices", param.choices}, {"help", param.help}});
+    for (const Counter& counter : technique.counters) json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});
+    return json;
+}
+
+Result<void> list_scenarios(const Options& options) {
+    for (const Scenario& scenario : scenarios())
+        if (options.names) fmt::print("{}\n", scenario.name);
+        else fmt::print("  {:<22}{}\n", scenario.name, scenario.question);
+    return {};
+}
+
+Result<void> list(const Options& options) {
+    if (options.scenarios) return list_scenarios(options);
+    bool found = options.what.empty();
+    ordered_json json{{"schema", "strata.list"}, {"schema_version", 1}, {"techniques", ordered_json::array()}};
+    for (const StageInfo& stage : stages()) {
+        const bool whole_stage = options.what.empty() || options.what == stage.name;
+        bool headed = false;
+        for (const Technique* technique : techniques_of(stage.stage)) {
+            if (!whole_stage && options.what != technique->name) continue;
+            found = true;
+            json["techniques"].push_back(json_of(*technique));
+            if (options.json) continue;
+            if (!headed && !options.names) fmt::print("{}: {}\n", stage.name, stage.purpose);
+            headed = true;
+            print(*technique, options);
+        }
+        if (whole_stage && !options.what.empty()) found = true;
+    }
+    if (!found) {
+        if (const auto technique = find_technique(options.what); !technique) return technique.error();
+    }
+    if (options.json) std::cout << json.dump(2) << "\n";
+    return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_list(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("what", options->what, "a stage or a technique: then with parameters, counters and views");
+    app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows");
+    app.add_flag("--names", options->names, "names only, one a line");
+    app.add_flag("--json", options->json, "one JSON object on stdout");
+    return [options] { return list(*options); };
+}
+
+}  // namespace strata

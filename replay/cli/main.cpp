@@ -1,0 +1,76 @@
+// strata: one verb per file, one row per verb. JSON and tables go to stdout, everything else to stderr.
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "replay/cli/revision.h"
+#include "replay/cli/verb.h"
+#include "replay/gpu/device.h"
+
+namespace strata {
+namespace {
+
+constexpr const char* exit_codes =
+    "exit codes: 0 ok, 1 over tolerance, 2 usage, 3 bad or truncated input, 4 the device lacks what is needed,\n"
+    "5 device failure, 6 expectation missing, 7 not repeatable";
+
+int report_error(const Error& error) {
+    fmt::print(stderr, "strata: {}\n", error.sentence);
+    return static_cast<int>(error.fault);
+}
+
+Result<void> list_gpus() {
+    const auto devices = list_devices();
+    if (!devices) return devices.error();
+    for (const DeviceInfo& device : *devices)
+        fmt::print("{}  {}  ({}, {} {}){}\n", device.index, device.name, device.kind, device.driver, device.driver_version,
+                   device.lacks.empty() ? "" : "  cannot replay: lacks " + device.lacks);
+    return {};
+}
+
+/// "strata help VERB" is "strata VERB --help".
+int run(int count, char** arguments) {
+    CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.", "strata");
+    app.footer(exit_codes);
+    app.set_version_flag("--version", std::string("strata 0.1.0 ") + tool_revision);
+    bool gpus = false;
+    app.add_flag("--list-gpus", gpus, "devices of this machine and whether they can replay");
+    app.require_subcommand(0, 1);
+
+    std::string help_about;
+    CLI::App* help = app.add_subcommand("help", "how a verb is used");
+    help->add_option("verb", help_about, "a verb");
+
+    std::vector<std::pair<CLI::App*, std::function<Result<void>()>>> runs;
+    for (const Verb& verb : verbs()) {
+        CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
+        runs.emplace_back(sub, verb.declare(*sub));
+    }
+    try {
+        app.parse(count, arguments);
+    } catch (const CLI::ParseError& error) {
+        const int code = app.exit(error, std::cout, std::cerr);
+        return code == 0 ? 0 : static_cast<int>(Fault::usage);
+    }
+    Result<void> done;
+    if (gpus) {
+        done = list_gpus();
+    } else if (help->parsed() && !help_about.empty()) {
+        done = fail(Fault::usage, "there is no verb '{}'; 'strata help' lists them", help_about);
+        for (const auto& [sub, verb] : runs)
+            if (sub->get_name() == help_about) {
+                fmt::print("{}", sub->help());
+                done = {};
+            }
+    } else if (help->parsed() || app.get_subcommands().empty()) {
+        fmt::print("{}", app.help());
+    } else {
+        for (const auto& [sub, verb] : runs)
+            if (sub->parsed()) done = verb();
+    }
+    return done ? 0 : report_error(done.error());
+}
+
+}  // namespace
+}  // namespace strata
+
+int main(int count, char** arguments) { return strata::run(count, arguments); }

@@ -1,0 +1,25 @@
+// What a verb of the command line is: one file, one row in verbs.cpp.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "capture_format/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace strata {
+
+struct Verb {
+    std::string_view name, summary;
+    /// Declares the options and returns what runs once they are parsed.
+    std::function<Result<void>()> (*declare)(CLI::App&);
+};
+
+/// Every verb, in the order of the help.
+std::span<const Verb> verbs();
+
+}  // namespace strata

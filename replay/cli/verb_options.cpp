@@ -1,0 +1,118 @@
+#include "replay/cli/verb_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "capture_format/nearest_name.h"
+#include "capture_format/recorder.h"
+
+namespace strata {
+namespace {
+
+constexpr std::uint32_t thumbnail_width = 160;
+
+template <typename Number>
+bool parse(std::string_view text, Number& number) {
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return problem == std::errc() && end == text.data() + text.size();
+}
+
+/// Display light as sRGB bytes, at most thumbnail_width wide, nearest texel.
+Texture thumbnail_of(const HostImage& display) {
+    const std::uint32_t step = std::max(1u, (display.shape.extent.width + thumbnail_width - 1) / thumbnail_width);
+    Texture texture{.name = "thumbnail", .format = TextureFormat::rgba8_srgb};
+    texture.width = std::max(1u, display.shape.extent.width / step);
+    texture.height = std::max(1u, display.shape.extent.height / step);
+    for (std::uint32_t y = 0; y < texture.height; ++y)
+        for (std::uint32_t x = 0; x < texture.width; ++x) {
+            const glm::dvec4 color = texel(display, x * step, y * step);
+            for (int c = 0; c < 3; ++c) {
+                const double v = std::isfinite(color[c]) ? std::clamp(color[c], 0.0, 1.0) : 0;
+                const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+                texture.texels.push_back(static_cast<std::byte>(std::lround(encoded * 255)));
+            }
+            texture.texels.push_back(std::byte{255});
+        }
+    return texture;
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, OpenOptions& options) {
+    app.add_option("capture", options.capture, "a .strata file")->required();
+    app.add_option("--gpu", options.device.gpu, "device by index or part of its name; see strata --list-gpus");
+    app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
+    app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
+}
+
+Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
+    return Session::open(options.capture, options.device, options.allow_partial ? Partial::allowed : Partial::refused);
+}
+
+void add_options(CLI::App& app, ChoiceOptions& options) {
+    app.add_option("--use", options.uses, "stage/technique; may be repeated")->allow_extra_args(false);
+    app.add_option("--set", options.sets, "key=value or stage/technique:key=value; may be repeated")->allow_extra_args(false);
+    app.add_option("--force", options.force, "feature or 'all': switch it on though the frame lacks it")->allow_extra_args(false);
+    app.add_option("--samples", options.samples, "samples per pixel instead of the recorded ones: 1 or 4");
+}
+
+Result<Request> request_of(const ChoiceOptions& options) {
+    Request request{.uses = options.uses, .sets = options.sets, .samples = options.samples};
+    for (const std::string& text : options.force) {
+        if (text == "all") {
+            request.force.assign(all_features().begin(), all_features().end());
+            continue;
+        }
+        const auto feature = find_feature(text);
+        std::vector<std::string_view> known;
+        for (const Feature candidate : all_features()) known.push_back(name(candidate));
+        if (!feature) return fail(Fault::usage, "there is no feature '{}'{}", text, did_you_mean(text, known));
+        request.force.push_back(*feature);
+    }
+    return request;
+}
+
+Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count) {
+    std::vector<std::size_t> indices;
+    if (text.empty())
+        for (std::size_t i = 0; i < count; ++i) indices.push_back(i);
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view part = std::string_view(text).substr(begin, end - begin);
+        const std::size_t dash = part.find('-');
+        std::size_t first = 0, last = 0;
+        const bool good = parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
+        if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
+        if (last >= count) return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, last);
+        for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
+        begin = end + 1;
+    }
+    return indices;
+}
+
+Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    std::pair<std::uint32_t, std::uint32_t> extent;
+    if (cross == text.npos || !parse(std::string_view(text).substr(0, cross), extent.first) ||
+        !parse(std::string_view(text).substr(cross + 1), extent.second) || extent.first == 0 || extent.second == 0 ||
+        extent.first > 16384 || extent.second > 16384)
+        return fail(Fault::usage, "--size takes WIDTHxHEIGHT, each 1 to 16384, not '{}'", text);
+    return extent;
+}
+
+Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceChoice& device) {
+    auto session = Session::open(std::vector<Frame>{frame}, device);
+    const auto run = session ? (*session)->run({}) : Result<Run>(session.error());
+    if (!run) {
+        fmt::print(stderr, "strata: no thumbnail: {}\n", run.error().sentence);
+        return {};
+    }
+    const auto display = run->images.find("display");
+    return display == run->images.end() ? Result<void>() : recorder.thumbnail(thumbnail_of(display->second));
+}
+
+}  // namespace strata

@@ -1,0 +1,42 @@
+// Options that several verbs take, and what they mean.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "replay/session.h"
+
+namespace CLI {
+class App;
+}
+
+namespace strata {
+
+/// Which capture on which device.
+struct OpenOptions {
+    std::filesystem::path capture;
+    DeviceChoice device;
+    bool allow_partial = false;
+};
+void add_options(CLI::App&, OpenOptions&);
+Result<std::unique_ptr<Session>> open(const OpenOptions&);
+
+/// How the frame is made: techniques, settings, forced features, samples.
+struct ChoiceOptions {
+    std::vector<std::string> uses, sets, force;
+    std::uint32_t samples = 0;
+};
+void add_options(CLI::App&, ChoiceOptions&);
+Result<Request> request_of(const ChoiceOptions&);
+
+/// "0,4-8" as frame indices below count; empty means all. Fails for frames that do not exist.
+Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count);
+/// "320x180".
+Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
+
+/// Makes a capture's thumbnail by replaying its first frame. Without a usable device there is none, and a line says so.
+Result<void> add_thumbnail(class Recorder&, const Frame&, const DeviceChoice&);
+
+}  // namespace strata

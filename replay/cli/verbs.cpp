@@ -1,0 +1,28 @@
+#include "replay/cli/verb.h"
+
+namespace strata {
+
+std::function<Result<void>()> declare_list(CLI::App&);
+std::function<Result<void>()> declare_record(CLI::App&);
+std::function<Result<void>()> declare_import(CLI::App&);
+std::function<Result<void>()> declare_info(CLI::App&);
+std::function<Result<void>()> declare_validate(CLI::App&);
+std::function<Result<void>()> declare_replay(CLI::App&);
+std::function<Result<void>()> declare_graph(CLI::App&);
+std::function<Result<void>()> declare_report(CLI::App&);
+
+std::span<const Verb> verbs() {
+    static constexpr Verb table[] = {
+        {"list", "stages, techniques with their parameters, scenarios", declare_list},
+        {"record", "run a scenario and record its frames", declare_record},
+        {"import", "make a capture of a glTF scene", declare_import},
+        {"info", "what is in a capture, and what its frames call for", declare_info},
+        {"validate", "check every byte and every index of a capture", declare_validate},
+        {"replay", "run every pass again; write EXR, PNG and JSON", declare_replay},
+        {"graph", "the plan of a frame: steps, barriers, memory, what is left out and why", declare_graph},
+        {"report", "every technique of a stage: error against time", declare_report},
+    };
+    return table;
+}
+
+}  // namespace strata

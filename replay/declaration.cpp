@@ -1,0 +1,161 @@
+#include "replay/declaration.h"
+
+#include <algorithm>
+
+#include "capture_format/nearest_name.h"
+
+namespace strata {
+namespace {
+
+FrameImages start(const Sources& sources, Graph& graph) {
+    const Frame& frame = sources.loaded.frame;
+    FrameImages images{.recorded = &frame,
+                       .features = &sources.loaded.features,
+                       .extent = {frame.view.width, frame.view.height, 1},
+                       .samples = frame.view.samples};
+    sources.scene.import_into(graph, images);
+    return images;
+}
+
+/// The view "stage/technique:view", where its technique is the chosen one.
+Result<Image> add_view(Graph& graph, FrameImages& images, const Choices& choices, std::string_view output) {
+    const std::size_t colon = output.find(':');
+    const std::string_view technique = output.substr(0, colon), view = output.substr(colon + 1);
+    for (const auto& [stage, choice] : choices) {
+        if (choice.technique->name != technique) continue;
+        std::vector<std::string_view> known;
+        for (const DebugView& candidate : choice.technique->views) {
+            known.push_back(candidate.name);
+            if (candidate.name != view) continue;
+            graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage));
+            return candidate.add(graph, images, choice.settings);
+        }
+        return fail(Fault::usage, "{} has no view '{}'{}", technique, view, did_you_mean(view, known));
+    }
+    return fail(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
+}
+
+/// Fills Declaration::outputs and keeps them.
+Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
+    for (const std::string& output : wanted) {
+        Image image;
+        if (output.find(':') != std::string::npos) {
+            const auto view = add_view(d.graph, d.images, d.choices, output);
+            if (!view) return view.error();
+            image = *view;
+        } else {
+            const FrameImageRow* row = find_frame_image(output);
+            std::vector<std::string_view> known;
+            for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
+            if (!row) return fail(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
+            image = d.images.*row->member;
+        }
+        if (!image) continue;  // its stage was left out
+        if (d.graph.shape(image).samples > 1)
+            return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output, d.images.samples);
+        d.outputs[output] = image;
+        d.graph.keep(image);
+    }
+    return {};
+}
+
+void keep_all_images(Declaration& d) {
+    for (const FrameImageRow& row : frame_images())
+        if (const Image image = d.images.*row.member; image && d.graph.shape(image).samples == 1) d.graph.keep(image);
+}
+
+void keep_counters(Declaration& d) {
+    for (const DeclaredAct& act : d.frame.acts) {
+        const Buffer buffer = d.graph.scopes()[act.scope].counters;
+        if (!buffer || act.technique->counters.empty()) continue;
+        d.graph.keep(buffer);
+        d.counters.push_back({act.technique, buffer});
+    }
+}
+
+/// After an image was written behind the frame's back, its handles become the newest version.
+void refresh(const Graph& graph, FrameImages& images) {
+    for (const FrameImageRow& row : frame_images())
+        if (Image& image = images.*row.member; image) image.version = graph.record(image).version;
+}
+
+/// Replaces acts by what the memo kept, or has the memo keep what they make.
+class Remember {
+public:
+    Remember(Declaration& d, Memo& memo, std::uint64_t frame_key, std::vector<std::vector<std::string>> wanted, std::vector<bool> skip)
+        : d_(&d), memo_(&memo), keys_(frame_key), wanted_(std::move(wanted)), skip_(std::move(skip)) {}
+
+    void operator()(const DeclaredAct& act) {
+        const std::size_t place = place_++;
+        Graph& graph = d_->graph;
+        const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
+        if (skip_[place] || wanted_[place].empty()) return;
+        if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
+            graph.drop_scope(act.scope);
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name), static_cast<std::uint32_t>(act.technique->stage));
+            for (const auto& image : kept->images) {
+                Image to = graph.find_image(image.name);
+                graph.copy(graph.import("kept " + image.name, image.shape, image.id), to);
+            }
+            d_->kept_counters.insert(d_->kept_counters.end(), kept->counters.begin(), kept->counters.end());
+            ++d_->acts_from_memo;
+        } else {
+            std::vector<ImageRecord> records;
+            for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name), static_cast<std::uint32_t>(act.technique->stage));
+            for (const auto& image : memo_->reserve(key, records).images) {
+                Image to = graph.import("kept " + image.name, image.shape, image.id);
+                graph.copy(graph.find_image(image.name), to);
+            }
+            d_->memo_writes.emplace_back(key, act.technique);
+        }
+        refresh(graph, d_->images);
+    }
+
+private:
+    Declaration* d_;
+    Memo* memo_;
+    ActKeys keys_;
+    std::vector<std::vector<std::string>> wanted_;
+    std::vector<bool> skip_;
+    std::size_t place_ = 0;
+};
+
+Result<void> fill(Declaration& d, const Request& request, const Sources& sources, Keep keep, const AfterAct& after) {
+    d.images = start(sources, d.graph);
+    auto frame = declare_frame(d.graph, d.images, d.choices, sources.device.capabilities, after);
+    if (!frame) return frame.error();
+    d.frame = *std::move(frame);
+    if (const auto kept = keep_outputs(d, request.outputs); !kept) return kept.error();
+    if (keep == Keep::all_images) keep_all_images(d);
+    keep_counters(d);
+    return {};
+}
+
+}  // namespace
+
+Result<Declaration> declare(const Request& request, const Sources& sources, Keep keep) {
+    auto choices = choose(sources.loaded.frame, request.uses, request.sets);
+    if (!choices) return choices.error();
+
+    Declaration d;
+    d.choices = *choices;
+    if (const auto filled = fill(d, request, sources, keep, {}); !filled) return filled.error();
+    if (sources.memo) {
+        // Declaring costs microseconds: the first declaration tells what later acts read, the second one remembers it.
+        std::vector<bool> skip;
+        for (const DeclaredAct& act : d.frame.acts) skip.push_back(feeds_buffers(d.graph, act.scope));
+        auto wanted = images_read_later(d.graph, d.frame.acts);
+        sources.memo->begin_run();
+        d = Declaration{};
+        d.choices = *choices;
+        Remember remember(d, *sources.memo, sources.loaded.key, std::move(wanted), std::move(skip));
+        if (const auto filled = fill(d, request, sources, keep, std::ref(remember)); !filled) return filled.error();
+    }
+    auto plan = compile(d.graph, ShaderLibrary::built_in());
+    if (!plan) return plan.error();
+    d.plan = *std::move(plan);
+    return d;
+}
+
+}  // namespace strata

@@ -1,0 +1,164 @@
+// Finding and opening devices. What one must have is in feature_table.cpp.
+#include "replay/gpu/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <fstream>
+
+#include "replay/gpu/feature_table.h"
+#include "replay/gpu/opened_device.h"
+
+namespace strata {
+namespace {
+
+std::string cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const auto colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return "unknown";
+}
+
+std::string kind_of(vk::PhysicalDeviceType type) {
+    switch (type) {
+        case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete";
+        case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated";
+        case vk::PhysicalDeviceType::eVirtualGpu: return "virtual";
+        case vk::PhysicalDeviceType::eCpu: return "cpu";
+        default: return "other";
+    }
+}
+
+/// Lower is chosen first.
+int rank(const DeviceInfo& device) {
+    constexpr std::string_view order[] = {"discrete", "integrated", "virtual", "other", "cpu"};
+    return static_cast<int>(std::ranges::find(order, device.kind) - std::begin(order));
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index) {
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    return {.index = index,
+            .name = properties.deviceName,
+            .driver = driver.driverName,
+            .driver_version = driver.driverInfo,
+            .cpu = cpu_name(),
+            .kind = kind_of(properties.deviceType),
+            .software = properties.deviceType == vk::PhysicalDeviceType::eCpu,
+            .max_buffer_bytes = properties.limits.maxStorageBufferRange,
+            .max_image_extent = properties.limits.maxImageDimension2D,
+            .capabilities = capabilities_of(device),
+            .lacks = first_missing(device)};
+}
+
+std::vector<DeviceInfo> describe_all(const std::vector<vk::raii::PhysicalDevice>& devices) {
+    std::vector<DeviceInfo> described;
+    for (const auto& device : devices) described.push_back(describe(device, static_cast<std::uint32_t>(described.size())));
+    return described;
+}
+
+std::string list_of(const std::vector<DeviceInfo>& devices) {
+    std::string list;
+    for (const DeviceInfo& device : devices) {
+        list += fmt::format("\n  {}: {} ({})", device.index, device.name, device.kind);
+        if (!device.lacks.empty()) list += fmt::format(", lacks {}", device.lacks);
+    }
+    return list.empty() ? " none" : list;
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool is_meant(const DeviceInfo& device, const std::string& gpu) {
+    const bool is_index = !gpu.empty() && std::ranges::all_of(gpu, [](unsigned char c) { return std::isdigit(c) != 0; });
+    return is_index ? gpu == std::to_string(device.index) : lower(device.name).find(lower(gpu)) != std::string::npos;
+}
+
+/// The best of those that are meant; one that can replay before one that cannot.
+Result<DeviceInfo> choose(const std::vector<DeviceInfo>& devices, const std::string& gpu) {
+    const DeviceInfo* best = nullptr;
+    const auto order = [](const DeviceInfo& device) { return std::pair(!device.lacks.empty(), rank(device)); };
+    for (const DeviceInfo& device : devices) {
+        if (is_meant(device, gpu) && (!best || order(device) < order(*best))) best = &device;
+    }
+    if (!best && gpu.empty()) return fail(Fault::device_lacks, "this machine has no Vulkan device");
+    if (!best) return fail(Fault::usage, "no device is called '{}'; there are:{}", gpu, list_of(devices));
+    if (best->lacks.empty()) return *best;
+    if (gpu.empty()) return fail(Fault::device_lacks, "no device of this machine can replay:{}", list_of(devices));
+    return fail(Fault::device_lacks, "{} lacks {}; there are:{}", best->name, best->lacks, list_of(devices));
+}
+
+}  // namespace
+
+Result<std::vector<DeviceInfo>> list_devices() {
+    const auto instance = Instance::create(Validation::off);
+    if (!instance) return instance.error();
+    try {
+        return describe_all(instance->handle().enumeratePhysicalDevices());
+    } catch (const vk::SystemError& problem) {
+        return fail(Fault::device_lacks, "the devices of this machine cannot be listed: {}", problem.what());
+    }
+}
+
+Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
+    auto instance = Instance::create(choice.validation ? Validation::on : Validation::off);
+    if (!instance) return instance.error();
+    try {
+        auto devices = instance->handle().enumeratePhysicalDevices();
+        auto chosen = strata::choose(describe_all(devices), choice.gpu);
+        if (!chosen) return chosen.error();
+        auto physical = std::move(devices[chosen->index]);
+        return std::unique_ptr<Device>(std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen));
+    } catch (const vk::SystemError& problem) {
+        return fail(Fault::device_failed, "the device cannot be opened: {}", problem.what());
+    }
+}
+
+OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical, DeviceInfo info)
+    : instance_(std::move(instance)),
+      info_(std::move(info)),
+      physical_(std::move(physical)),
+      timestamp_period_ns_(double{physical_.getProperties().limits.timestampPeriod}),
+      device_(make_device(physical_, info_.capabilities)),
+      queue_(device_, *queue_family(physical_), 0),
+      commands_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, *queue_family(physical_))),
+      memory_(physical_, device_) {}
+
+OpenedDevice::~OpenedDevice() = default;
+
+void OpenedDevice::set_label(vk::ObjectType type, std::uint64_t handle, std::string_view name) const {
+    if (!instance_.has_labels()) return;
+    const std::string text(name);
+    device_.setDebugUtilsObjectNameEXT({type, handle, text.c_str()});
+}
+
+vk::raii::CommandBuffer OpenedDevice::begin_commands() const {
+    auto made = device_.allocateCommandBuffers({*commands_, vk::CommandBufferLevel::ePrimary, 1});
+    made.front().begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    return std::move(made.front());
+}
+
+void OpenedDevice::submit(vk::raii::CommandBuffer& commands) const {
+    // Longer than any frame on a CPU driver; an endless shader loop is stopped by nobody else there (platform.md 1.3).
+    constexpr std::uint64_t patience_ns = std::uint64_t(std::chrono::nanoseconds(std::chrono::minutes(30)).count());
+    const vk::raii::Fence fence(device_, vk::FenceCreateInfo());
+    const vk::CommandBufferSubmitInfo buffer(*commands);
+    queue_.submit2(vk::SubmitInfo2().setCommandBufferInfos(buffer), *fence);
+    if (device_.waitForFences(*fence, VK_TRUE, patience_ns) == vk::Result::eTimeout) {
+        throw vk::DeviceLostError("the device did not finish within 30 minutes");
+    }
+}
+
+void OpenedDevice::run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+    auto commands = begin_commands();
+    record(commands);
+    commands.end();
+    submit(commands);
+}
+
+}  // namespace strata

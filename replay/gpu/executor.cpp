@@ -1,0 +1,215 @@
+#include "replay/gpu/executor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "replay/gpu/opened_device.h"
+#include "replay/gpu/plan_memory.h"
+#include "replay/gpu/readback.h"
+#include "replay/gpu/step_recorder.h"
+#include "replay/gpu/stopwatch.h"
+
+namespace strata {
+namespace {
+
+/// Copies mip 0 of an image between two steps and leaves it in the layouts it had.
+std::size_t copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image, Readback& readback) {
+    const PartRange top{.layers = image.shape().layers};
+    const auto before = image.layouts();
+    const auto go_to = [&](const PartRange& range, vk::ImageLayout layout) {
+        const auto barriers = image.transitions(range, layout, DeviceImage::Contents::keep);
+        commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
+        image.set_layout(range, layout);
+    };
+    full_barrier(commands);
+    go_to(top, vk::ImageLayout::eTransferSrcOptimal);
+    full_barrier(commands);
+    const std::size_t ticket = readback.add(commands, image);
+    full_barrier(commands);
+    for (std::uint32_t layer = 0; layer < top.layers; ++layer) {
+        if (before[layer] != vk::ImageLayout::eUndefined) go_to({.layer = layer}, before[layer]);
+    }
+    full_barrier(commands);
+    return ticket;
+}
+
+Shape single_mip(Shape shape) {
+    shape.mips = 1;
+    return shape;
+}
+
+class VulkanExecutor final : public Executor {
+public:
+    explicit VulkanExecutor(OpenedDevice& device)
+        : device_(&device), pipelines_(device), samplers_(device), placeholders_(device), imports_(device) {}
+
+    void upload(ImportId id, std::span<const std::byte> bytes) override {
+        guarded("upload", [&] { imports_.upload(id, bytes); });
+    }
+    void create_image(ImportId id, const Shape& shape) override {
+        guarded("create an imported image", [&] { imports_.create_image(id, shape); });
+    }
+    void forget(ImportId id) override { imports_.forget(id); }
+    Execution run(const Plan& plan, const RunOptions& options) override {
+        Execution execution;
+        guarded("prepare the frame", [&] { execution = execute(plan, options); });
+        return execution;
+    }
+    std::size_t pipelines_created() const override { return pipelines_.created(); }
+    std::uint64_t bytes_held() const override { return imports_.bytes_held() + (memory_ ? memory_->bytes_held() : 0); }
+
+private:
+    /// What one run needs besides the plan.
+    struct Frame {
+        const Plan& plan;
+        const RunOptions& options;
+        PlanResources resources;
+        DescriptorSets sets;
+        Stopwatch stopwatch;
+        Readback peeks;
+        std::vector<std::size_t> tickets;  // of the peeks, in the order they were asked for
+    };
+
+    Execution execute(const Plan&, const RunOptions&);
+    void record(const vk::raii::CommandBuffer&, Frame&);
+    void record_peeks(const vk::raii::CommandBuffer&, Frame&, std::size_t step);
+    void read_kept(Frame&, Execution&);
+    void fail_on_messages();
+    template <typename Action>
+    void guarded(std::string place, Action action);
+
+    OpenedDevice* device_;
+    PipelineStore pipelines_;
+    Samplers samplers_;
+    Placeholders placeholders_;
+    Imports imports_;
+    std::optional<PlanMemory> memory_;  // of the latest plan
+    std::string place_;                 // what is being done, for failures
+};
+
+/// Runs the action; whatever goes wrong becomes a DeviceFailure that says where, and the plan's memory starts anew.
+template <typename Action>
+void VulkanExecutor::guarded(std::string place, Action action) {
+    place_ = std::move(place);
+    try {
+        action();
+        fail_on_messages();
+    } catch (const vk::SystemError& problem) {
+        memory_.reset();
+        throw DeviceFailure(fmt::format("{}: {}", place_, problem.what()));
+    } catch (const DeviceFailure&) {
+        memory_.reset();
+        throw;
+    }
+}
+
+void VulkanExecutor::fail_on_messages() {
+    if (!device_->instance().has_messages()) return;
+    const auto messages = device_->take_messages();
+    throw DeviceFailure(fmt::format("{}: the validation layer says ({} in all): {}", place_, messages.size(), messages.front()));
+}
+
+Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
+    if (!memory_ || !memory_->serves(plan)) {
+        memory_.reset();
+        memory_.emplace(*device_, plan);
+    }
+    const auto intervals = static_cast<std::uint32_t>(std::max<std::size_t>(1, plan.steps.size()));
+    Frame frame{plan,
+                options,
+                PlanResources(plan, *memory_, imports_),
+                DescriptorSets(*device_, plan, samplers_, placeholders_),
+                Stopwatch(*device_, intervals),
+                Readback(*device_),
+                std::vector<std::size_t>(options.peeks.size())};
+
+    auto commands = device_->begin_commands();
+    const auto layouts = imports_.layouts();
+    try {
+        record(commands, frame);
+    } catch (...) {
+        imports_.restore(layouts);
+        throw;
+    }
+    commands.end();
+
+    Execution execution;
+    place_ = "run the frame";
+    const auto start = std::chrono::steady_clock::now();
+    device_->submit(commands);
+    execution.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    fail_on_messages();
+
+    execution.step_ms = frame.stopwatch.milliseconds();
+    for (std::size_t i = 0; i < options.peeks.size(); ++i) {
+        const Shape& shape = plan.images[options.peeks[i].image.id].shape;
+        execution.peeked.push_back({single_mip(shape), frame.peeks.take(frame.tickets[i])});
+    }
+    read_kept(frame, execution);
+    return execution;
+}
+
+void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& frame) {
+    const Plan& plan = frame.plan;
+    StepRecorder recorder(commands, plan, frame.resources, pipelines_, frame.sets);
+    const bool has_labels = device_->instance().has_labels(), is_timed = frame.options.timestamps == Timestamps::on;
+    const std::size_t end = std::min(plan.steps.size(), frame.options.until ? *frame.options.until + 1 : plan.steps.size());
+    full_barrier(commands);  // what ran before the plan is visible when it starts
+    for (std::size_t i = 0; i < end; ++i) {
+        const PlannedStep& planned = plan.steps[i];
+        place_ = plan.scopes[planned.step.scope].name + " / " + planned.step.name;
+        if (has_labels) commands.beginDebugUtilsLabelEXT({place_.c_str()});
+        if (is_timed) frame.stopwatch.begin(commands);
+        recorder.barriers(planned.barriers);
+        recorder.work(planned);
+        if (is_timed) frame.stopwatch.end(commands);
+        if (has_labels) commands.endDebugUtilsLabelEXT();
+        record_peeks(commands, frame, i);
+        fail_on_messages();
+    }
+    frame.peeks.finish(commands);
+}
+
+void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame& frame, std::size_t step) {
+    for (std::size_t i = 0; i < frame.options.peeks.size(); ++i) {
+        const Peek& peek = frame.options.peeks[i];
+        if (peek.step != step) continue;
+        if (!frame.resources.holds(peek.image)) {
+            throw DeviceFailure(fmt::format("{}: the image {} holds nothing after this step", place_,
+                                            frame.plan.images[peek.image.id].name));
+        }
+        frame.tickets[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks);
+    }
+}
+
+/// The kept images and buffers are those the plan's last barriers make readable. What a shortened run did not get to is left out.
+void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
+    place_ = "read the frame back";
+    Readback readback(*device_);
+    std::map<std::uint32_t, std::size_t> images, buffers;
+    const Plan& plan = frame.plan;
+    device_->run_once([&](const vk::raii::CommandBuffer& commands) {
+        full_barrier(commands);
+        for (const Barrier& barrier : plan.final_barriers) {
+            if (barrier.buffer) {
+                const std::uint32_t id = barrier.buffer.id;
+                if (!buffers.contains(id)) buffers[id] = readback.add(commands, frame.resources.buffer(barrier.buffer), plan.buffers[id].bytes);
+            } else if (!plan.images[barrier.image.id].import && frame.resources.holds(barrier.image)) {
+                const std::uint32_t id = barrier.image.id;
+                if (!images.contains(id)) images[id] = copy_out(commands, frame.resources.image(barrier.image), readback);
+            }
+        }
+        readback.finish(commands);
+    });
+    for (const auto [id, ticket] : images) execution.images[id] = {single_mip(plan.images[id].shape), readback.take(ticket)};
+    for (const auto [id, ticket] : buffers) execution.buffers[id] = readback.take(ticket);
+}
+
+}  // namespace
+
+std::unique_ptr<Executor> Executor::create(Device& device) {
+    return std::make_unique<VulkanExecutor>(static_cast<OpenedDevice&>(device));
+}
+
+}  // namespace strata

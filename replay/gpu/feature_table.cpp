@@ -1,0 +1,161 @@
+#include "replay/gpu/feature_table.h"
+
+#include <algorithm>
+#include <array>
+
+#include "replay/gpu/format_table.h"
+
+namespace strata {
+namespace {
+
+template <typename Owner>
+vk::Bool32& field(FeatureChain& chain, vk::Bool32 Owner::*member) {
+    if constexpr (std::is_same_v<Owner, vk::PhysicalDeviceFeatures>) {
+        return chain.get<vk::PhysicalDeviceFeatures2>().features.*member;
+    } else {
+        return chain.get<Owner>().*member;
+    }
+}
+
+struct FeatureRow {
+    std::string_view name;
+    vk::Bool32& (*of)(FeatureChain&);
+};
+
+template <auto Member>
+constexpr FeatureRow feature(std::string_view name) {
+    return {name, [](FeatureChain& chain) -> vk::Bool32& { return field(chain, Member); }};
+}
+
+using Core = vk::PhysicalDeviceFeatures;
+using V11 = vk::PhysicalDeviceVulkan11Features;
+using V12 = vk::PhysicalDeviceVulkan12Features;
+using V13 = vk::PhysicalDeviceVulkan13Features;
+
+constexpr FeatureRow baseline[] = {
+    feature<&V13::dynamicRendering>("dynamicRendering"),
+    feature<&V13::synchronization2>("synchronization2"),
+    feature<&V13::maintenance4>("maintenance4"),
+    feature<&V13::shaderDemoteToHelperInvocation>("shaderDemoteToHelperInvocation"),
+    feature<&V13::subgroupSizeControl>("subgroupSizeControl"),
+    feature<&V12::timelineSemaphore>("timelineSemaphore"),
+    feature<&V12::hostQueryReset>("hostQueryReset"),
+    feature<&V12::scalarBlockLayout>("scalarBlockLayout"),
+    feature<&V12::drawIndirectCount>("drawIndirectCount"),
+    feature<&V12::shaderOutputLayer>("shaderOutputLayer"),
+    feature<&V11::shaderDrawParameters>("shaderDrawParameters"),
+    feature<&Core::fragmentStoresAndAtomics>("fragmentStoresAndAtomics"),
+    feature<&Core::vertexPipelineStoresAndAtomics>("vertexPipelineStoresAndAtomics"),
+    feature<&Core::independentBlend>("independentBlend"),
+    feature<&Core::dualSrcBlend>("dualSrcBlend"),
+    feature<&Core::geometryShader>("geometryShader"),
+    feature<&Core::sampleRateShading>("sampleRateShading"),
+    feature<&Core::multiViewport>("multiViewport"),
+    feature<&Core::samplerAnisotropy>("samplerAnisotropy"),
+    feature<&Core::occlusionQueryPrecise>("occlusionQueryPrecise"),
+    feature<&Core::multiDrawIndirect>("multiDrawIndirect"),
+    feature<&Core::drawIndirectFirstInstance>("drawIndirectFirstInstance"),
+    feature<&Core::fullDrawIndexUint32>("fullDrawIndexUint32"),
+    feature<&Core::shaderStorageImageExtendedFormats>("shaderStorageImageExtendedFormats"),
+    feature<&Core::shaderStorageImageWriteWithoutFormat>("shaderStorageImageWriteWithoutFormat"),
+    feature<&Core::shaderInt64>("shaderInt64"),
+    feature<&Core::shaderClipDistance>("shaderClipDistance"),
+    feature<&Core::shaderCullDistance>("shaderCullDistance"),
+};
+
+FeatureChain features_of(const vk::raii::PhysicalDevice& device) {
+    return device.getFeatures2<vk::PhysicalDeviceFeatures2, V11, V12, V13>();
+}
+
+bool has_interlock(const vk::raii::PhysicalDevice& device) {
+    const auto extensions = device.enumerateDeviceExtensionProperties();
+    const bool offered = std::ranges::any_of(extensions, [](const auto& extension) {
+        return std::string_view(extension.extensionName) == VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME;
+    });
+    if (!offered) return false;
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT>();
+    return chain.get<vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT>().fragmentShaderPixelInterlock;
+}
+
+std::string missing_format(const vk::raii::PhysicalDevice& device) {
+    for (const FormatRow& row : format_rows) {
+        const auto needed = needed_features(row.format);
+        const auto offered = device.getFormatProperties(device_format(row.format)).optimalTilingFeatures;
+        if ((offered & needed) != needed) return fmt::format("the format {} ({})", row.name, vk::to_string(needed & ~offered));
+    }
+    return {};
+}
+
+std::string missing_limit(const vk::raii::PhysicalDevice& device) {
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
+    const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
+    const vk::SampleCountFlags four = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts &
+                                      limits.sampledImageColorSampleCounts & limits.sampledImageIntegerSampleCounts &
+                                      limits.sampledImageDepthSampleCounts;
+    if (!(four & vk::SampleCountFlagBits::e4)) return "4 samples per pixel";
+
+    const auto& subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>();
+    using Operation = vk::SubgroupFeatureFlagBits;
+    const vk::SubgroupFeatureFlags operations = Operation::eBasic | Operation::eVote | Operation::eArithmetic | Operation::eBallot;
+    const vk::ShaderStageFlags stages = vk::ShaderStageFlagBits::eCompute | vk::ShaderStageFlagBits::eFragment;
+    if ((subgroup.supportedOperations & operations) != operations) return "subgroup arithmetic and ballots";
+    if ((subgroup.supportedStages & stages) != stages) return "subgroup operations in fragment shaders";
+    return {};
+}
+
+}  // namespace
+
+std::string first_missing(const vk::raii::PhysicalDevice& device) {
+    const auto properties = device.getProperties();
+    // RADV without a GPU (RADV_FORCE_FAMILY) compiles but crashes at the first memory or command buffer (platform.md 4).
+    if (std::string_view(properties.deviceName).starts_with("Null hardware")) return "hardware: it only compiles";
+    if (properties.apiVersion < VK_API_VERSION_1_3) {
+        return fmt::format("Vulkan 1.3 (it has {}.{})", VK_API_VERSION_MAJOR(properties.apiVersion),
+                           VK_API_VERSION_MINOR(properties.apiVersion));
+    }
+    auto offered = features_of(device);
+    for (const FeatureRow& row : baseline) {
+        if (!row.of(offered)) return fmt::format("the feature {}", row.name);
+    }
+    if (!queue_family(device)) return "a queue for graphics and compute with timestamps";
+    if (auto limit = missing_limit(device); !limit.empty()) return limit;
+    return missing_format(device);
+}
+
+Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
+    Capabilities found;
+    if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return found;
+    if (features_of(device).get<V12>().shaderBufferInt64Atomics) found.push_back(Capability::buffer_int64_atomics);
+    if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
+    return found;
+}
+
+std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device) {
+    const auto families = device.getQueueFamilyProperties();
+    const vk::QueueFlags everything = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+    const auto found = std::ranges::find_if(
+        families, [&](const auto& family) { return (family.queueFlags & everything) == everything && family.timestampValidBits > 0; });
+    if (found == families.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - families.begin());
+}
+
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Capabilities& capabilities) {
+    FeatureChain wanted;
+    for (const FeatureRow& row : baseline) row.of(wanted) = VK_TRUE;
+    const auto has = [&](Capability capability) { return std::ranges::find(capabilities, capability) != capabilities.end(); };
+    wanted.get<V12>().shaderBufferInt64Atomics = has(Capability::buffer_int64_atomics);
+
+    std::vector<const char*> extensions;
+    vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT interlock;
+    if (has(Capability::fragment_interlock)) {
+        extensions.push_back(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
+        interlock.fragmentShaderPixelInterlock = VK_TRUE;
+        interlock.pNext = std::exchange(wanted.get<V13>().pNext, &interlock);
+    }
+    constexpr std::array priority = {1.0f};
+    const vk::DeviceQueueCreateInfo queue({}, *queue_family(physical), priority);
+    const vk::DeviceCreateInfo info({}, queue, {}, extensions, nullptr, &wanted.get<vk::PhysicalDeviceFeatures2>());
+    return {physical, info};
+}
+
+}  // namespace strata

@@ -1,0 +1,28 @@
+// The baseline a device must have: Vulkan 1.3, a table of features, the formats of passes/graph/format.h, 4 samples per pixel,
+// subgroup arithmetic, and a queue that does everything.
+#pragma once
+
+#include <string>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "passes/technique.h"
+
+namespace strata {
+
+using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+                                        vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>;
+
+/// Empty when the device can replay, else the first thing it lacks, as it reads after "lacks": "the feature dualSrcBlend".
+std::string first_missing(const vk::raii::PhysicalDevice&);
+
+/// What the device has beyond the baseline.
+Capabilities capabilities_of(const vk::raii::PhysicalDevice&);
+
+/// The family of the one queue: graphics and compute with timestamps.
+std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice&);
+
+/// A device with the baseline and the capabilities switched on.
+vk::raii::Device make_device(const vk::raii::PhysicalDevice&, const Capabilities&);
+
+}  // namespace strata

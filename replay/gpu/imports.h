@@ -1,0 +1,38 @@
+// Images and buffers that outlive plans, by the key of their ImportId.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "replay/gpu/buffer.h"
+#include "replay/gpu/image.h"
+
+namespace strata {
+
+class Imports {
+public:
+    explicit Imports(OpenedDevice& device) : device_(&device) {}
+
+    void upload(ImportId, std::span<const std::byte>);
+    void create_image(ImportId, const Shape&);
+    void forget(ImportId);
+
+    /// Throws std::out_of_range for an import nobody made.
+    DeviceImage& image(ImportId id) { return images_.at(id.key); }
+    DeviceBuffer& buffer(ImportId id) { return buffers_.at(id.key); }
+    std::uint64_t bytes_held() const;
+
+    /// The layouts of all images, to be put back when what was recorded is thrown away.
+    using Layouts = std::map<std::uint64_t, std::vector<vk::ImageLayout>>;
+    Layouts layouts() const;
+    void restore(const Layouts&);
+
+private:
+    OpenedDevice* device_;
+    std::map<std::uint64_t, DeviceImage> images_;
+    std::map<std::uint64_t, DeviceBuffer> buffers_;
+};
+
+}  // namespace strata

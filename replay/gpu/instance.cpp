@@ -1,0 +1,91 @@
+#include "replay/gpu/instance.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+namespace strata {
+namespace {
+
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+
+constexpr std::array validation_checks = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+
+// Hazards across submits have no value of the enumeration in 1.3.239: the layer reads this variable.
+constexpr const char* layer_enables = "VK_LAYER_ENABLES";
+constexpr const char* across_submits = "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
+
+bool has_layer(const vk::raii::Context& context) {
+    const auto layers = context.enumerateInstanceLayerProperties();
+    return std::ranges::any_of(layers, [](const auto& layer) { return std::string_view(layer.layerName) == validation_layer; });
+}
+
+bool has_debug_utils(const vk::raii::Context& context) {
+    const auto extensions = context.enumerateInstanceExtensionProperties();
+    return std::ranges::any_of(extensions, [](const auto& extension) {
+        return std::string_view(extension.extensionName) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    });
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                       const VkDebugUtilsMessengerCallbackDataEXT* message, void* log) {
+    auto& collected = *static_cast<ValidationLog*>(log);
+    const std::scoped_lock lock(collected.mutex);
+    collected.messages.emplace_back(message->pMessage);
+    return VK_FALSE;
+}
+
+// The loader sends messages of its own with type GENERAL: only the layer's are wanted.
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
+    return {{}, vk::DebugUtilsMessageSeverityFlagBitsEXT::eError, vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, &collect, &log};
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, Validation validation, bool has_labels, ValidationLog& log) {
+    const vk::ApplicationInfo application("strata", 1, "strata", 1, VK_API_VERSION_1_3);
+    std::vector<const char*> layers, extensions;
+    if (has_labels) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validation == Validation::off) return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
+
+    setenv(layer_enables, across_submits, /*overwrite=*/0);
+    layers.push_back(validation_layer);
+    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    const vk::ValidationFeaturesEXT features(validation_checks);
+    auto messenger = messenger_info(log);
+    messenger.pNext = &features;
+    return {context, vk::InstanceCreateInfo({}, &application, layers, extensions, &messenger)};
+}
+
+}  // namespace
+
+Instance::Instance(vk::raii::Context context, Validation validation)
+    : log_(std::make_unique<ValidationLog>()),
+      context_(std::move(context)),
+      has_labels_(has_debug_utils(context_) || validation == Validation::on),
+      instance_(make_instance(context_, validation, has_labels_, *log_)) {
+    if (validation == Validation::on) messenger_.emplace(instance_, messenger_info(*log_));
+}
+
+Result<Instance> Instance::create(Validation validation) {
+    try {
+        vk::raii::Context context;
+        if (validation == Validation::on && !has_layer(context)) {
+            return fail(Fault::device_lacks, "validation needs the layer {}: install vulkan-validationlayers", validation_layer);
+        }
+        return Instance(std::move(context), validation);
+    } catch (const std::exception& problem) {  // no loader is a runtime_error, no driver a vk::SystemError
+        return fail(Fault::device_lacks, "no Vulkan on this machine ({}): install a driver, mesa-vulkan-drivers at least", problem.what());
+    }
+}
+
+std::vector<std::string> Instance::take_messages() {
+    const std::scoped_lock lock(log_->mutex);
+    return std::exchange(log_->messages, {});
+}
+
+bool Instance::has_messages() const {
+    const std::scoped_lock lock(log_->mutex);
+    return !log_->messages.empty();
+}
+
+}  // namespace strata

@@ -1,0 +1,57 @@
+// A small sub-allocator of device memory: blocks of 64 MiB per use and memory type, first fit; what is larger gets a block of
+// its own. Images and buffers never share a block, so bufferImageGranularity does not matter.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+namespace strata {
+
+enum class MemoryUse : std::uint32_t {
+    images, buffers,  ///< on the device
+    upload, readback, ///< mapped and coherent; readback cached where there is such memory
+};
+
+class MemoryBlock;
+
+/// A piece of a block; gives itself back.
+class Memory {
+public:
+    Memory(MemoryBlock&, std::uint64_t offset, std::uint64_t bytes);
+    Memory(Memory&&) noexcept;
+    Memory& operator=(Memory&&) = delete;
+    ~Memory();
+
+    vk::DeviceMemory handle() const;
+    std::uint64_t bytes() const { return bytes_; }
+    std::uint64_t offset() const { return offset_; }
+    /// Where the host sees it; only for upload and readback.
+    std::byte* mapped() const;
+
+private:
+    MemoryBlock* block_;
+    std::uint64_t offset_, bytes_;
+};
+
+class MemoryPool {
+public:
+    MemoryPool(const vk::raii::PhysicalDevice&, const vk::raii::Device&);
+    ~MemoryPool();
+
+    /// Throws vk::OutOfDeviceMemoryError.
+    Memory allocate(const vk::MemoryRequirements&, MemoryUse);
+
+private:
+    std::uint32_t type_for(std::uint32_t allowed, MemoryUse) const;
+
+    const vk::raii::Device* device_;
+    vk::PhysicalDeviceMemoryProperties properties_;
+    std::vector<std::unique_ptr<MemoryBlock>> blocks_;
+};
+
+}  // namespace strata

@@ -1,0 +1,198 @@
+#include "replay/gpu/pipelines.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "passes/graph/shader.h"
+#include "replay/gpu/opened_device.h"
+#include "replay/gpu/raster_state.h"
+#include "replay/gpu/format_table.h"
+
+namespace strata {
+namespace {
+
+// Counter-clockwise on the screen as it is seen: view space looks along +z with x right and y up, clip space has y down, and
+// Vulkan measures winding as displayed.
+constexpr vk::FrontFace front_face = vk::FrontFace::eCounterClockwise;
+
+std::uint32_t bits_of(const SpecValue& value) {
+    std::uint32_t bits = 0;
+    std::visit([&](auto number) { std::memcpy(&bits, &number, sizeof bits); }, value);
+    return bits;
+}
+
+/// Specialization constants of one shader, in the shader's order.
+struct Constants {
+    std::vector<vk::SpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+};
+
+Constants constants_of(const Shader& shader, const Step& step) {
+    Constants found;
+    for (const ShaderConstant& constant : shader.constants) {
+        const auto fixed = std::ranges::find(step.fixed, constant.name, &Fixed::name);
+        if (fixed == step.fixed.end()) continue;
+        const auto offset = static_cast<std::uint32_t>(found.values.size() * sizeof(std::uint32_t));
+        found.entries.push_back({constant.id, offset, sizeof(std::uint32_t)});
+        found.values.push_back(bits_of(fixed->value));
+    }
+    return found;
+}
+
+template <typename T>
+void append(std::string& key, const T& value) {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string key_of(const PlannedStep& planned, const RasterState& state) {
+    std::string key;
+    for (const Shader* shader : planned.shaders) {
+        append(key, shader->hash);
+        const Constants constants = constants_of(*shader, planned.step);
+        for (std::size_t i = 0; i < constants.values.size(); ++i) {
+            append(key, constants.entries[i].constantID);
+            append(key, constants.values[i]);
+        }
+    }
+    append(key, planned.step.push.size());
+    append(key, state.depth);
+    append(key, state.samples);
+    append(key, state.cull);
+    append(key, state.keeps_side_effects);
+    for (const ColorTarget& target : state.colors) append(key, target);
+    return key;
+}
+
+/// One layout per set number up to the highest; a slot that two shaders share stands once.
+std::vector<vk::raii::DescriptorSetLayout> set_layouts(const vk::raii::Device& device, const PlannedStep& planned) {
+    std::vector<std::map<std::uint32_t, vk::DescriptorSetLayoutBinding>> sets;
+    for (const PlannedBinding& binding : planned.bindings) {
+        if (binding.set >= sets.size()) sets.resize(binding.set + 1);
+        sets[binding.set][binding.slot] = {binding.slot, descriptor_type(binding.kind), 1, shader_stages(planned.step)};
+    }
+    std::vector<vk::raii::DescriptorSetLayout> layouts;
+    for (const auto& set : sets) {
+        std::vector<vk::DescriptorSetLayoutBinding> slots;
+        for (const auto& [number, slot] : set) slots.push_back(slot);
+        layouts.emplace_back(device, vk::DescriptorSetLayoutCreateInfo({}, slots));
+    }
+    return layouts;
+}
+
+vk::raii::PipelineLayout pipeline_layout(const vk::raii::Device& device, const Step& step,
+                                         const std::vector<vk::raii::DescriptorSetLayout>& sets) {
+    std::vector<vk::DescriptorSetLayout> handles;
+    for (const auto& set : sets) handles.push_back(*set);
+    const vk::PushConstantRange push(shader_stages(step), 0, static_cast<std::uint32_t>(step.push.size()));
+    vk::PipelineLayoutCreateInfo info({}, handles);
+    if (push.size > 0) info.setPushConstantRanges(push);
+    return {device, info};
+}
+
+/// A module with its constants; the stage info points into both.
+struct ShaderPart {
+    ShaderPart(const vk::raii::Device& device, const Shader& shader, const Step& step)
+        : module(device, vk::ShaderModuleCreateInfo({}, shader.code.size_bytes(), shader.code.data())),
+          constants(constants_of(shader, step)),
+          stage(shader.stage) {}
+
+    vk::PipelineShaderStageCreateInfo info() {
+        specialization.setMapEntries(constants.entries).setData<std::uint32_t>(constants.values);
+        constexpr std::array bits = {vk::ShaderStageFlagBits::eCompute, vk::ShaderStageFlagBits::eVertex,
+                                     vk::ShaderStageFlagBits::eFragment};
+        return {{}, bits[static_cast<std::size_t>(stage)], *module, "main", &specialization};
+    }
+
+    vk::raii::ShaderModule module;
+    Constants constants;
+    ShaderStage stage;
+    vk::SpecializationInfo specialization;
+};
+
+vk::raii::Pipeline make_compute(const vk::raii::Device& device, const PlannedStep& planned, vk::PipelineLayout layout) {
+    ShaderPart part(device, *planned.shaders.front(), planned.step);
+    return {device, nullptr, vk::ComputePipelineCreateInfo({}, part.info(), layout)};
+}
+
+vk::PipelineRasterizationStateCreateInfo rasterization(Cull cull) {
+    constexpr std::array modes = {vk::CullModeFlagBits::eNone, vk::CullModeFlagBits::eBack, vk::CullModeFlagBits::eFront};
+    return vk::PipelineRasterizationStateCreateInfo()
+        .setCullMode(modes[static_cast<std::size_t>(cull)])
+        .setFrontFace(front_face)
+        .setLineWidth(1);
+}
+
+vk::PipelineDepthStencilStateCreateInfo depth_state(DepthUse depth) {
+    return vk::PipelineDepthStencilStateCreateInfo()
+        .setDepthTestEnable(depth != DepthUse::none)
+        .setDepthWriteEnable(depth == DepthUse::test_and_write)
+        .setDepthCompareOp(vk::CompareOp::eGreaterOrEqual);
+}
+
+vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep& planned, const RasterState& state,
+                               vk::PipelineLayout layout) {
+    std::vector<ShaderPart> parts;
+    for (const Shader* shader : planned.shaders) parts.emplace_back(device, *shader, planned.step);
+    std::vector<vk::PipelineShaderStageCreateInfo> stages;
+    for (ShaderPart& part : parts) stages.push_back(part.info());
+
+    std::vector<vk::PipelineColorBlendAttachmentState> blends;
+    std::vector<vk::Format> formats;
+    for (const ColorTarget& target : state.colors) {
+        blends.push_back(blend_state(state, target.blend));
+        formats.push_back(target.format);
+    }
+    const vk::PipelineVertexInputStateCreateInfo pulled;
+    const vk::PipelineInputAssemblyStateCreateInfo triangles({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    const auto raster = rasterization(state.cull);
+    const vk::PipelineMultisampleStateCreateInfo samples({}, static_cast<vk::SampleCountFlagBits>(state.samples));
+    const auto depth = depth_state(state.depth);
+    const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, blends);
+    constexpr std::array dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+    const vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
+    const vk::PipelineRenderingCreateInfo rendering(
+        0, formats, state.depth == DepthUse::none ? vk::Format::eUndefined : device_format(Format::d32f));
+    const auto info = vk::GraphicsPipelineCreateInfo({}, stages, &pulled, &triangles, nullptr, &viewport, &raster, &samples, &depth,
+                                                     &blend, &dynamics, layout)
+                          .setPNext(&rendering);
+    return {device, nullptr, info};
+}
+
+}  // namespace
+
+vk::DescriptorType descriptor_type(BindingKind kind) {
+    switch (kind) {
+        case BindingKind::sampled_image: return vk::DescriptorType::eCombinedImageSampler;
+        case BindingKind::storage_image: return vk::DescriptorType::eStorageImage;
+        case BindingKind::storage_buffer: return vk::DescriptorType::eStorageBuffer;
+        case BindingKind::uniform_buffer: return vk::DescriptorType::eUniformBuffer;
+    }
+    return vk::DescriptorType::eStorageBuffer;
+}
+
+vk::ShaderStageFlags shader_stages(const Step& step) {
+    using Bit = vk::ShaderStageFlagBits;
+    if (std::holds_alternative<ComputeWork>(step.work)) return Bit::eCompute;
+    return Bit::eVertex | Bit::eFragment;
+}
+
+PipelineStore::PipelineStore(OpenedDevice& device) : device_(&device) {}
+
+const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {
+    const bool is_compute = std::holds_alternative<ComputeWork>(planned.step.work);
+    const RasterState state = is_compute ? RasterState{} : raster_state(planned, images, device_->info().software);
+    std::string key = key_of(planned, state);
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
+
+    const vk::raii::Device& device = device_->handle();
+    auto sets = set_layouts(device, planned);
+    auto layout = pipeline_layout(device, planned.step, sets);
+    auto handle = is_compute ? make_compute(device, planned, *layout) : make_raster(device, planned, state, *layout);
+    device_->label(*handle, planned.step.name);
+    return pipelines_.emplace(std::move(key), Pipeline{std::move(sets), std::move(layout), std::move(handle)}).first->second;
+}
+
+}  // namespace strata

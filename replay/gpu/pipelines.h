@@ -1,0 +1,41 @@
+// Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once and
+// kept as long as the device: a CPU driver compiles at the first use of each, for up to seconds (platform.md 2.3).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "passes/graph/plan.h"
+
+namespace strata {
+
+class OpenedDevice;
+
+struct Pipeline {
+    std::vector<vk::raii::DescriptorSetLayout> sets;  ///< by set number, empty layouts for gaps
+    vk::raii::PipelineLayout layout;
+    vk::raii::Pipeline handle;
+};
+
+class PipelineStore {
+public:
+    explicit PipelineStore(OpenedDevice&);
+
+    /// The pipeline of a compute or raster step. Images are those of the plan.
+    const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
+    std::size_t created() const { return pipelines_.size(); }
+
+private:
+    OpenedDevice* device_;
+    std::map<std::string, Pipeline> pipelines_;
+};
+
+vk::DescriptorType descriptor_type(BindingKind);
+/// Shader stages a step's pipeline has.
+vk::ShaderStageFlags shader_stages(const Step&);
+
+}  // namespace strata

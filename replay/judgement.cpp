@@ -1,0 +1,99 @@
+#include "replay/judgement.h"
+
+#include <cmath>
+
+namespace strata {
+namespace {
+
+// A texel of which every channel is below this is background: comparing it proves nothing.
+constexpr double trivial_below = 1e-6;
+
+/// A pixel model on every sample of the frame.
+ImageSet run_pixels(PixelModel model, const JudgedStage& stage) {
+    const ReferenceImage& behind = stage.before.find("color")->second;
+    const FragmentLists fragments = transparent_fragments(stage.frame, stage.before.find("depth_layers")->second);
+    ReferenceImage color(behind.width, behind.height, behind.layers);
+    color.undecided.resize(color.texels.size());
+    for (std::uint32_t layer = 0; layer < color.layers; ++layer)
+        for (std::uint32_t y = 0; y < color.height; ++y)
+            for (std::uint32_t x = 0; x < color.width; ++x) {
+                const glm::dvec3 from = behind.at(x, y, layer);
+                color.at(x, y, layer) = glm::dvec4(model(fragments.at(x, y, layer), from, stage.choice.settings), 1);
+                color.undecided[color.index(x, y, layer)] = fragments.undecided(x, y, layer);
+            }
+    ImageSet set;
+    set.emplace("color", std::move(color));
+    return set;
+}
+
+/// Root mean square over the decided texels' colors: what errors are relative to.
+double root_mean_square(const ReferenceImage& image) {
+    double sum = 0;
+    for (const glm::dvec4& t : image.texels) sum += glm::dot(glm::dvec3(t), glm::dvec3(t)) / 3;
+    return std::sqrt(sum / double(std::max<std::size_t>(1, image.texels.size())));
+}
+
+struct Compared {
+    double square_sum = 0, worst = 0;
+    std::size_t texels = 0, undecided = 0, trivial = 0;
+    WorstTexel where;
+};
+
+/// Channels past those the format has read 0, 0, 1 on both sides; only rgb and a where the model sets it differ.
+void compare(std::string_view name, const ReferenceImage& got, const ReferenceImage& wanted, Compared& all) {
+    const double scale = std::max(root_mean_square(wanted), 1e-9);
+    for (std::size_t i = 0; i < wanted.texels.size() && i < got.texels.size(); ++i) {
+        if (!wanted.undecided.empty() && wanted.undecided[i]) {
+            ++all.undecided;
+            continue;
+        }
+        const glm::dvec3 a = got.texels[i], b = wanted.texels[i];
+        if (glm::all(glm::lessThan(glm::abs(b), glm::dvec3(trivial_below)))) ++all.trivial;
+        ++all.texels;
+        for (int c = 0; c < 3; ++c) {
+            double error = std::abs(a[c] - b[c]) / std::max(std::abs(b[c]), scale);
+            if (std::isnan(error)) error = std::isnan(a[c]) && std::isnan(b[c]) ? 0 : HUGE_VAL;
+            all.square_sum += error * error / 3;
+            if (error <= all.worst && !all.where.image.empty()) continue;
+            all.worst = error;
+            const auto x = static_cast<std::uint32_t>(i % wanted.width), row = static_cast<std::uint32_t>(i / wanted.width);
+            all.where = {std::string(name), x, row % wanted.height, row / wanted.height, got.texels[i], wanted.texels[i]};
+        }
+    }
+}
+
+}  // namespace
+
+ImageSet run_model(const JudgedStage& stage) {
+    const Technique& technique = *stage.choice.technique;
+    if (const auto* pixel = std::get_if<PixelModel>(&technique.model)) return run_pixels(*pixel, stage);
+    if (const auto* image = std::get_if<ImageModel>(&technique.model)) return (*image)({stage.frame, stage.before}, stage.choice.settings);
+    return {};
+}
+
+Accuracy judge_stage(const JudgedStage& stage) {
+    Accuracy accuracy;
+    const Technique& technique = *stage.choice.technique;
+    for (const Feature feature : technique.cannot)
+        if (stage.features.has(feature)) {
+            accuracy.not_supported = fmt::format("{} ({})", name(feature), stage.features.reason(feature));
+            return accuracy;
+        }
+    Compared all;
+    if (stage.against == Against::model_and_truth)
+        for (const auto& [name, wanted] : run_model(stage))
+            if (const auto got = stage.result.find(name); got != stage.result.end()) compare(name, got->second, wanted, all);
+    accuracy.model_rmse = std::sqrt(all.square_sum / double(std::max<std::size_t>(1, all.texels)));
+    accuracy.model_worst = all.worst;
+    accuracy.compared = all.texels;
+    accuracy.undecided = all.undecided;
+    accuracy.trivial = all.trivial;
+    accuracy.worst = all.where;
+
+    const StageInfo& of_stage = info(technique.stage);
+    const StageInput input{stage.frame, stage.before};
+    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : of_stage.truth(input), input);
+    return accuracy;
+}
+
+}  // namespace strata

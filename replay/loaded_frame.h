@@ -1,0 +1,30 @@
+// One recorded frame with what a request changes about it (extent, samples, forced features), ready for the device.
+#pragma once
+
+#include "capture_format/frame_features.h"
+#include "replay/scene/scene_records.h"
+#include "replay/session.h"
+
+namespace strata {
+
+/// What tells two loaded frames apart.
+struct FrameVariant {
+    std::size_t frame = 0;
+    std::uint32_t extent_divisor = 1, samples = 0;
+    std::vector<Feature> force;
+    friend bool operator==(const FrameVariant&, const FrameVariant&) = default;
+};
+
+struct LoadedFrame {
+    FrameVariant variant;
+    Frame frame;
+    Features features;
+    std::vector<std::string> notes;
+    std::uint64_t key = 0;   ///< differs between variants, for the memo
+};
+
+FrameVariant variant_of(const Request&);
+/// Applies the variant to a recorded frame. Fails when the extent would vanish.
+Result<LoadedFrame> load_frame(Frame recorded, const FrameVariant&);
+
+}  // namespace strata

@@ -1,0 +1,31 @@
+#include "replay/measure/timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace strata {
+namespace {
+
+double median_of(std::vector<double> values) {
+    const std::size_t middle = values.size() / 2;
+    std::ranges::sort(values);
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+}  // namespace
+
+Spread spread_of(std::span<const double> values) {
+    if (values.empty()) return {};
+    Spread spread{.repeats = values.size()};
+    spread.median = median_of({values.begin(), values.end()});
+    std::vector<double> deviations;
+    for (const double value : values) deviations.push_back(std::abs(value - spread.median));
+    spread.mad = median_of(std::move(deviations));
+    const auto [low, high] = std::ranges::minmax(values);
+    spread.low = low;
+    spread.high = high;
+    return spread;
+}
+
+}  // namespace strata

@@ -1,0 +1,71 @@
+#include "replay/scene/device_scene.h"
+
+#include <array>
+#include <span>
+
+namespace strata {
+namespace {
+
+/// The scene's buffers: block name in passes/shaders/scene.glsl, and the bytes. The row's place is its import id - 1.
+struct BufferRow {
+    const char* name;
+    std::span<const std::byte> (*bytes)(const SceneRecords&);
+};
+
+template <auto Member>
+std::span<const std::byte> bytes_of(const SceneRecords& scene) {
+    return std::as_bytes(std::span(scene.*Member));
+}
+
+std::span<const std::byte> view_bytes(const SceneRecords& scene) { return std::as_bytes(std::span(&scene.view, 1)); }
+
+constexpr BufferRow rows[] = {
+    {"View", view_bytes},
+    {"Vertices", bytes_of<&SceneRecords::vertices>},
+    {"Draws", bytes_of<&SceneRecords::draws>},
+    {"Materials", bytes_of<&SceneRecords::materials>},
+    {"Textures", bytes_of<&SceneRecords::textures>},
+    {"Texels", bytes_of<&SceneRecords::texels>},
+    {"Lights", bytes_of<&SceneRecords::lights>},
+    {"Shadows", bytes_of<&SceneRecords::shadows>},
+    // Not offered to shaders as such, but the source of every draw list.
+    {"DrawCommands", bytes_of<&SceneRecords::commands>},
+    {"Indices", bytes_of<&SceneRecords::indices>},
+};
+constexpr std::size_t commands_row = 8, indices_row = 9;
+
+// A buffer of nothing still has to exist: a storage buffer of zero bytes is no buffer.
+constexpr std::array<std::byte, 16> nothing{};
+
+}  // namespace
+
+void DeviceScene::upload(const SceneRecords& scene) {
+    bytes_.clear();
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        std::span<const std::byte> bytes = rows[i].bytes(scene);
+        if (bytes.empty()) bytes = nothing;
+        executor_->upload({i + 1}, bytes);
+        bytes_.push_back(bytes.size());
+    }
+    opaque_ = scene.opaque;
+    casters_ = scene.casters;
+    transparent_ = scene.transparent;
+    back_to_front_ = scene.back_to_front;
+}
+
+void DeviceScene::import_into(Graph& graph, FrameImages& images) const {
+    std::array<Buffer, std::size(rows)> buffers;
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        buffers[i] = graph.import(rows[i].name, bytes_[i], {i + 1});
+        graph.offer(rows[i].name, buffers[i]);
+    }
+    const auto list = [&](CommandRange range) {
+        return DrawList{buffers[commands_row], buffers[indices_row], range.first, range.count};
+    };
+    images.all_opaque = images.opaque = list(opaque_);
+    images.casters = list(casters_);
+    images.transparent = list(transparent_);
+    images.back_to_front = list(back_to_front_);
+}
+
+}  // namespace strata

@@ -1,0 +1,28 @@
+// The scene's buffers on the device, and how a graph gets at them.
+#pragma once
+
+#include "passes/frame_images.h"
+#include "replay/gpu/executor.h"
+#include "replay/scene/scene_records.h"
+
+namespace strata {
+
+class DeviceScene {
+public:
+    explicit DeviceScene(Executor& executor) : executor_(&executor) {}
+
+    /// Replaces what was there.
+    void upload(const SceneRecords&);
+    /// Imports the buffers, offers them by their block names, and fills in the draw lists.
+    void import_into(Graph&, FrameImages&) const;
+
+private:
+    Executor* executor_;
+    std::vector<std::uint64_t> bytes_;  ///< by row of the buffer table
+    CommandRange opaque_, casters_, transparent_, back_to_front_;
+};
+
+/// Import ids below this belong to the scene.
+inline constexpr std::uint64_t first_free_import = 100;
+
+}  // namespace strata

@@ -1,0 +1,183 @@
+// Meshes and particles as vertices, indices, draws and indirect commands. Meshes are stored once however many draws use them;
+// particles become camera-facing quads in view space, in the corner order of passes/reference/fragments.h.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/culling/opaque_draws.h"
+#include "passes/transparency/object_order.h"
+#include "replay/scene/scene_records.h"
+
+namespace strata {
+namespace {
+
+/// Where a mesh or an emitter lies in the vertex and index buffers.
+struct Place {
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t vertex_offset = 0;
+    glm::dvec3 low{0}, high{0};
+};
+
+template <typename T>
+T element(const std::vector<T>& stream, std::size_t i, T missing) {
+    return stream.empty() ? missing : stream[i];
+}
+
+Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
+    Place place{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+                .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                .vertex_offset = static_cast<std::int32_t>(scene.vertices.size()),
+                .low = mesh.positions.empty() ? glm::vec3(0) : mesh.positions[0],
+                .high = mesh.positions.empty() ? glm::vec3(0) : mesh.positions[0]};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        place.low = glm::min(place.low, glm::dvec3(mesh.positions[i]));
+        place.high = glm::max(place.high, glm::dvec3(mesh.positions[i]));
+        scene.vertices.push_back({
+            .position = mesh.positions[i],
+            .normal = element(mesh.normals, i, glm::vec3(0, 0, 1)),
+            .tangent = element(mesh.tangents, i, glm::vec4(1, 0, 0, 1)),
+            .uv0 = element(mesh.uv0, i, glm::vec2(0)),
+            .uv1 = element(mesh.uv1, i, glm::vec2(0)),
+            .color = element(mesh.colors, i, glm::vec4(1)),
+            .emissive = glm::vec3(0),
+            .depth_offset = 0,
+        });
+    }
+    scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
+    return place;
+}
+
+/// The same triangles turned around: what a mirroring transform does to winding is undone, so that "counter-clockwise is
+/// front" holds for every command of a list.
+std::uint32_t add_reversed(const Place& place, SceneRecords& scene) {
+    const auto first = static_cast<std::uint32_t>(scene.indices.size());
+    for (std::uint32_t i = 0; i + 2 < place.index_count; i += 3)
+        for (const std::uint32_t corner : {0u, 2u, 1u}) scene.indices.push_back(scene.indices[place.first_index + i + corner]);
+    return first;
+}
+
+glm::dvec3 to_view(const Frame& frame, const glm::dvec3& world) { return frame.view.to_view * (world - frame.view.origin); }
+
+void add_particle(const Frame& frame, const Particle& p, SceneRecords& scene) {
+    constexpr glm::dvec2 corners[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const glm::dvec3 center = to_view(frame, p.center);
+    const double c = std::cos(double(p.rotation)), s = std::sin(double(p.rotation));
+    for (const glm::dvec2 corner : corners) {
+        const glm::dvec2 turned(c * corner.x - s * corner.y, s * corner.x + c * corner.y);
+        scene.vertices.push_back({
+            .position = glm::vec3(center + glm::dvec3(turned * double(p.size), 0)),
+            .normal = {0, 0, -1},
+            .tangent = {1, 0, 0, 1},
+            .uv0 = glm::vec2(p.uv_frame.x + p.uv_frame.z * float(corner.x * .5 + .5), p.uv_frame.y + p.uv_frame.w * float(.5 - corner.y * .5)),
+            .uv1 = glm::vec2(0),
+            .color = glm::vec4(p.color, p.alpha),
+            .emissive = p.emissive,
+            .depth_offset = p.depth_offset,
+        });
+    }
+}
+
+/// Two triangles per particle, in the given order.
+std::uint32_t add_quads(std::span<const std::uint32_t> order, SceneRecords& scene) {
+    const auto first = static_cast<std::uint32_t>(scene.indices.size());
+    for (const std::uint32_t particle : order)
+        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) scene.indices.push_back(particle * 4 + corner);
+    return first;
+}
+
+DrawRecord draw_record(const Frame& frame, const Draw& draw, const Place& place) {
+    glm::dmat4 view(frame.view.to_view);
+    const glm::dmat4 to_view = glm::translate(view, -frame.view.origin) * draw.to_world;
+    const glm::dvec3 center = to_view * glm::dvec4((place.low + place.high) * .5, 1);
+    double radius = 0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? place.high.x : place.low.x, i & 2 ? place.high.y : place.low.y, i & 4 ? place.high.z : place.low.z);
+        radius = std::max(radius, glm::length(glm::dvec3(to_view * glm::dvec4(corner, 1)) - center));
+    }
+    // A flattened object has no inverse; its normals then come from the matrix itself.
+    const glm::dmat3 linear(to_view);
+    const bool flat = std::abs(glm::determinant(linear)) < 1e-30;
+    return {
+        .to_view = glm::mat4(to_view),
+        .normal_to_view = glm::mat3(flat ? linear : glm::transpose(glm::inverse(linear))),
+        .material = draw.material,
+        .submission = 0,
+        .soft_fade = 0,
+        .layer = draw.layer,
+        .bound_center = glm::vec3(center),
+        .bound_radius = float(radius),
+    };
+}
+
+DrawRecord emitter_record(const Frame& frame, std::size_t index) {
+    const Emitter& emitter = frame.emitters[index];
+    return {
+        .to_view = glm::mat4(1),
+        .normal_to_view = glm::mat3(1),
+        .material = static_cast<uint>(frame.materials.size() + index),
+        .submission = 0,
+        .soft_fade = emitter.soft_depth_fade,
+        .layer = emitter.layer,
+        .bound_center = glm::vec3(0),
+        .bound_radius = 0,
+    };
+}
+
+bool is_transparent(const Frame& frame, const Draw& draw) {
+    const AlphaMode mode = frame.materials[draw.material].alpha_mode;
+    return mode != AlphaMode::opaque && mode != AlphaMode::mask;
+}
+
+/// Appends one command per listed draw.
+CommandRange add_commands(std::span<const std::uint32_t> listed, std::span<const DrawCommand> of_draw, SceneRecords& scene) {
+    const CommandRange range{static_cast<std::uint32_t>(scene.commands.size()), static_cast<std::uint32_t>(listed.size())};
+    for (const std::uint32_t draw : listed) scene.commands.push_back(of_draw[draw]);
+    return range;
+}
+
+}  // namespace
+
+void add_geometry(const Frame& frame, SceneRecords& scene) {
+    std::vector<Place> meshes;
+    for (const Mesh& mesh : frame.meshes) meshes.push_back(add_mesh(mesh, scene));
+
+    std::vector<DrawCommand> submitted, sorted;
+    std::vector<std::uint32_t> reversed(meshes.size(), no_index), transparent;
+    for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
+        const Draw& draw = frame.draws[i];
+        const Place& place = meshes[draw.mesh];
+        std::uint32_t first = place.first_index;
+        if (glm::determinant(glm::dmat3(draw.to_world)) < 0) {
+            if (reversed[draw.mesh] == no_index) reversed[draw.mesh] = add_reversed(place, scene);
+            first = reversed[draw.mesh];
+        }
+        scene.draws.push_back(draw_record(frame, draw, place));
+        submitted.push_back({place.index_count, 1, first, place.vertex_offset, i});
+        if (is_transparent(frame, draw)) transparent.push_back(i);
+    }
+    sorted = submitted;
+    for (std::size_t e = 0; e < frame.emitters.size(); ++e) {
+        const Emitter& emitter = frame.emitters[e];
+        const auto vertex_offset = static_cast<std::int32_t>(scene.vertices.size());
+        for (const Particle& particle : emitter.particles) add_particle(frame, particle, scene);
+        std::vector<std::uint32_t> order(emitter.particles.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto index = static_cast<std::uint32_t>(scene.draws.size());
+        const auto count = static_cast<std::uint32_t>(order.size() * 6);
+        submitted.push_back({count, 1, add_quads(order, scene), vertex_offset, index});
+        sorted.push_back({count, 1, add_quads(back_to_front_particles(frame, emitter), scene), vertex_offset, index});
+        scene.draws.push_back(emitter_record(frame, e));
+        transparent.push_back(index);
+    }
+    for (std::uint32_t i = 0; i < scene.draws.size(); ++i) scene.draws[i].submission = i;
+
+    scene.opaque = add_commands(opaque_draws(frame), submitted, scene);
+    scene.casters = add_commands(caster_draws(frame), submitted, scene);
+    scene.transparent = add_commands(transparent, submitted, scene);
+    scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
+}
+
+}  // namespace strata

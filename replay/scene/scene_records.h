@@ -1,0 +1,50 @@
+// A recorded frame as the records that shaders read (passes/shaders/scene.shared.h), computed on the CPU: everything is made
+// camera-relative in double and rounded once. Knows no graphics API; Session uploads the bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "capture_format/frame.h"
+#include "passes/graph/graph.h"
+#include "passes/shaders/scene.shared.h"
+
+namespace strata {
+
+/// VkDrawIndexedIndirectCommand. first_instance is the draw's index into Draws.
+struct DrawCommand {
+    std::uint32_t index_count = 0, instance_count = 1, first_index = 0;
+    std::int32_t vertex_offset = 0;
+    std::uint32_t first_instance = 0;
+};
+
+/// A run of commands.
+struct CommandRange {
+    std::uint32_t first = 0, count = 0;
+};
+
+struct SceneRecords {
+    ViewRecord view{};
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<DrawRecord> draws;          ///< Frame::draws, then one per emitter
+    std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter
+    std::vector<TextureRecord> textures;
+    std::vector<std::uint32_t> texels;
+    std::vector<LightRecord> lights;        ///< the sun first, then Frame::lights
+    std::vector<ShadowRecord> shadows;
+    std::vector<DrawCommand> commands;
+    CommandRange opaque, casters, transparent, back_to_front;
+    std::vector<std::string> notes;         ///< what had to be reduced to fit the device
+};
+
+/// texel_bytes bounds the texel buffer: the finest mips of the largest textures are left out until it fits.
+SceneRecords scene_records(const Frame&, std::uint64_t texel_bytes);
+
+// The parts, each in its own file.
+void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
+void add_materials(const Frame&, SceneRecords&);  // materials.cpp
+void add_textures(const Frame&, std::uint64_t texel_bytes, SceneRecords&);
+void add_lights(const Frame&, SceneRecords&);     // lights.cpp: lights, shadows, view
+
+}  // namespace strata

@@ -1,0 +1,117 @@
+// What is kept decides what runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/2_graph/small_graphs.h"
+
+namespace strata {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Culling, AStepNobodyReadsIsLeftOutAndSaysWhy) {
+    Graph graph;
+    graph.enter("gbuffer: wide", 0);
+    Image color = graph.create("color", small_shape()), normal = graph.create("surface normal", small_shape());
+    graph.compute("write.comp").stores("target", color).over({64, 32});
+    graph.compute("write.comp").stores("target", normal).over({64, 32});
+    graph.keep(color);
+
+    const Plan plan = compiled(graph);
+    EXPECT_EQ(plan.steps.size(), 1u);
+    ASSERT_EQ(plan.culled.size(), 1u);
+    EXPECT_EQ(plan.culled[0].scope, "gbuffer: wide");
+    EXPECT_EQ(plan.culled[0].name, "write.comp");
+    EXPECT_EQ(plan.culled[0].reason, "nobody reads 'surface normal'");
+}
+
+TEST(Culling, EverythingThatFeedsWhatIsKeptStays) {
+    Graph graph;
+    Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape()), c = graph.create("c", small_shape());
+    graph.compute("write.comp").stores("target", a).over({64, 32});
+    graph.compute("copy.comp").loads("source", a).stores("target", b).over({64, 32});
+    graph.compute("sample.comp").samples("source", b).stores("target", c).over({64, 32});
+    graph.keep(c);
+    EXPECT_THAT(step_names(compiled(graph)), ElementsAre("write.comp", "copy.comp", "sample.comp"));
+}
+
+TEST(Culling, AChainThatEndsNowhereIsLeftOutAsAWhole) {
+    Graph graph;
+    Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape()), kept = graph.create("kept", small_shape());
+    graph.compute("write.comp").stores("target", a).over({64, 32});
+    graph.compute("copy.comp").loads("source", a).stores("target", b).over({64, 32});
+    graph.compute("write.comp").stores("target", kept).over({64, 32});
+    graph.keep(kept);
+    EXPECT_EQ(compiled(graph).culled.size(), 2u);
+}
+
+TEST(Culling, AStoreMayLeaveTexelsAloneSoTheClearBeforeItStays) {
+    Graph graph;
+    Image a = graph.create("a", small_shape());
+    graph.clear(a, {});
+    graph.compute("write.comp").stores("target", a).over({8, 8});
+    graph.keep(a);
+    EXPECT_THAT(step_names(compiled(graph)), ElementsAre("clear a", "write.comp"));
+}
+
+TEST(Culling, AClearMakesWhatWasBeforeUseless) {
+    Graph graph;
+    Image a = graph.create("a", small_shape());
+    graph.compute("write.comp").stores("target", a).over({64, 32});
+    graph.clear(a, {});
+    graph.keep(a);
+    EXPECT_THAT(step_names(compiled(graph)), ElementsAre("clear a"));
+}
+
+TEST(Culling, AFullscreenPassMakesWhatWasBeforeUselessUnlessItCoversOnlyAPart) {
+    const auto steps = [](std::optional<Extent> within) {
+        Graph graph;
+        Image a = graph.create("a", small_shape());
+        graph.clear(a, {});
+        FullscreenPass pass = graph.fullscreen("paint");
+        pass.covers(a);
+        if (within) pass.within(*within);
+        graph.keep(a);
+        return compiled(graph).steps.size();
+    };
+    EXPECT_EQ(steps(std::nullopt), 1u);
+    EXPECT_EQ(steps(Extent{8, 8}), 2u);
+}
+
+TEST(Culling, CountingKeepsNoStepAlive) {
+    Graph graph;
+    Image a = graph.create("a", small_shape());
+    graph.clear(a, {});
+    graph.enter("transparency: weighted", 0, 4);
+    graph.compute("count.comp").samples("source", a).over({64, 32});
+    const Plan plan = compiled(graph);
+    EXPECT_THAT(plan.steps, IsEmpty());
+    ASSERT_EQ(plan.culled.size(), 3u);
+    EXPECT_EQ(plan.culled[1].reason, "no step counts");
+    EXPECT_EQ(plan.culled[2].reason, "it writes nothing but counters");
+}
+
+TEST(Culling, AnImportOutlivesTheFrameSoWritingItIsNeverUseless) {
+    Graph graph;
+    Image history = graph.import("history", small_shape(), ImportId{7});
+    graph.compute("write.comp").stores("target", history).over({64, 32});
+    EXPECT_EQ(compiled(graph).steps.size(), 1u);
+}
+
+TEST(Culling, ADroppedScopeIsReplacedByACopyWhereItStood) {
+    Graph graph;
+    Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape());
+    graph.enter("lighting: slow", 0);
+    graph.compute("write.comp").stores("target", a).over({64, 32});
+    graph.enter("combine: quick", 1);
+    graph.compute("copy.comp").loads("source", a).stores("target", b).over({64, 32});
+    graph.keep(b);
+    const Image memo = graph.import("memo of a", small_shape(), ImportId{1});
+    graph.drop_scope(1);
+    graph.restore(1, memo, a);
+    EXPECT_THAT(step_names(compiled(graph)), ElementsAre("restore a", "copy.comp"));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,31 @@
+// What the tests of this chapter are made of: shaders that exist by description alone, and plans turned into short sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/graph/plan.h"
+
+namespace strata {
+
+// write.comp stores target; copy.comp loads source, stores target; sample.comp samples source, stores target; change.comp
+// updates target; count.comp samples source, updates Counters; fill_list.comp stores List; use_list.comp loads List, stores
+// target; pushed.comp has an 8 byte push block and a constant "rank"; paint.frag has one color output; shade.frag samples
+// source and has one; depth_only.vert stands alone. Groups are 8 x 8.
+const ShaderLibrary& small_shaders();
+
+/// 64 x 32, one of everything.
+Shape small_shape(Format = Format::rgba16f);
+Shape small_depth();
+
+/// The plan, or a test failure with the sentence.
+Plan compiled(const Graph&);
+/// The sentence compile() fails with, or "" and a test failure.
+std::string refusal(const Graph&);
+
+/// "a: stored -> sampled" for every barrier before the n-th surviving step; parts and discards are said when there are any.
+std::vector<std::string> waits(const Plan&, std::size_t step);
+std::vector<std::string> final_waits(const Plan&);
+std::vector<std::string> step_names(const Plan&);
+
+}  // namespace strata

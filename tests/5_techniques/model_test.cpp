@@ -1,0 +1,67 @@
+// The matrix: every technique on every scenario of its stage, at 1 and at 4 samples, against its model in double. An error here
+// is an implementation error: a bug.
+#include <cmath>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+struct Case {
+    std::string technique, scenario;
+    std::uint32_t samples = 1;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.technique << " on " << c.scenario << " at " << c.samples; }
+
+std::vector<Case> cases() {
+    std::vector<Case> all;
+    for (const Technique& technique : techniques())
+        for (const std::string_view scenario : info(technique.stage).scenarios)
+            for (const std::uint32_t samples : {1u, 4u}) all.push_back({std::string(technique.name), std::string(scenario), samples});
+    return all;
+}
+
+std::string test_name(const testing::TestParamInfo<Case>& info) {
+    std::string name = fmt::format("{}_on_{}_at_{}", info.param.technique, info.param.scenario, info.param.samples);
+    for (char& c : name)
+        if (c == '/') c = '_';
+    return name;
+}
+
+class Matrix : public testing::TestWithParam<Case> {};
+
+TEST_P(Matrix, TheGpuAgreesWithTheModel) {
+    const Case& c = GetParam();
+    const Technique& technique = *must(find_technique(c.technique));
+    const auto session = scenario_session(c.scenario, c.samples);
+    const Request request{.uses = {c.technique}};
+    if (const auto reason = info(technique.stage).unwanted(frame_features(must(session->frame(0)))))
+        GTEST_SKIP() << c.scenario << " does not need the stage: " << *reason;
+
+    const Accuracy accuracy = must(session->judge(request, technique.stage));
+    if (!accuracy.not_supported.empty()) GTEST_SKIP() << c.technique << " cannot do " << accuracy.not_supported;
+    const WorstTexel& w = accuracy.worst;
+    const std::string where = fmt::format(
+        "worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}\n"
+        "reproduce: strata record {} --samples {} && strata report {}.strata --stage {}",
+        w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario, c.samples, c.scenario,
+        name(technique.stage));
+    EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << where;
+    EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << where;
+
+    // Two empty images agree about nothing; and a model that cannot decide much proves little.
+    EXPECT_GT(accuracy.compared, 0u);
+    EXPECT_LT(double(accuracy.undecided), .25 * double(accuracy.compared + accuracy.undecided));
+    ASSERT_FALSE(accuracy.method.empty());
+    for (const Figure& figure : accuracy.method) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, Matrix, testing::ValuesIn(cases()), test_name);
+
+}  // namespace
+}  // namespace strata

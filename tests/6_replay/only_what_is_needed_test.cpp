@@ -1,0 +1,49 @@
+// Only what the scene calls for: what is left out costs nothing, and forcing it on changes nothing.
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "replay/image_io.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+class EveryScenario : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> scenario_names() {
+    std::vector<std::string> names;
+    for (const Scenario& scenario : scenarios()) names.emplace_back(scenario.name);
+    return names;
+}
+
+TEST_P(EveryScenario, ForcingEverythingChangesNoPixel) {
+    const auto session = scenario_session(GetParam());
+    const Run plain = must(session->run({.outputs = {"color", "display"}}));
+    Request forced{.outputs = {"color", "display"}};
+    forced.force.assign(all_features().begin(), all_features().end());
+    const Run all = must(session->run(forced));
+    for (const auto& [name, image] : plain.images) EXPECT_EQ(hash_of(image), hash_of(all.images.at(name))) << name;
+}
+
+TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
+    const auto session = scenario_session(GetParam());
+    const Run run = must(session->run({}));
+    for (const SkippedStage& skipped : run.skipped) {
+        EXPECT_FALSE(skipped.reason.empty());
+        EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
+        for (const StepRecord& step : run.steps) EXPECT_EQ(step.scope.find(fmt::format(": {}/", name(skipped.stage))), std::string::npos);
+        for (const CounterRecord& counter : run.counters)
+            EXPECT_NE(counter.technique.substr(0, counter.technique.find('/')), name(skipped.stage));
+    }
+}
+
+TEST(OnlyWhatIsNeeded, AnEmptyFrameLeavesOutMostStages) {
+    const auto session = scenario_session("empty");
+    const Run run = must(session->run({}));
+    EXPECT_GE(run.skipped.size(), 8u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, EveryScenario, testing::ValuesIn(scenario_names()), [](const auto& name) { return name.param; });
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,59 @@
+// Equal runs give equal bits, and every step of every plan can be looked at.
+#include <gtest/gtest.h>
+
+#include "replay/image_io.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+TEST(Repeat, TwentyReplaysGiveEqualBits) {
+    const auto session = scenario_session("interpenetrating_panes", 4);
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        const Request request{.uses = {std::string(technique->name)}, .outputs = {"color", "display"}};
+        const Run first = must(session->run(request));
+        for (int repeat = 1; repeat < 20; ++repeat) {
+            session->forget_memo();
+            const Run again = must(session->run(request));
+            for (const auto& [name, image] : first.images)
+                ASSERT_EQ(hash_of(image), hash_of(again.images.at(name))) << technique->name << " " << name << " repeat " << repeat;
+        }
+    }
+}
+
+TEST(Peek, EveryImageOfEveryStepCanBeLookedAt) {
+    const auto session = scenario_session("three_panes");
+    const auto planned = must(session->plan({}));
+    std::size_t looked = 0;
+    for (std::size_t step = 0; step < planned.plan.steps.size(); ++step)
+        for (const Attachment& attachment : planned.plan.steps[step].step.attachments) {
+            const std::string& name = planned.plan.images[attachment.image.id].name;
+            if (!writes(attachment.access)) continue;
+            const HostImage image = must(session->peek({}, step, name));
+            EXPECT_EQ(image.texels.size(), bytes(image.shape)) << name;
+            ++looked;
+        }
+    EXPECT_GE(looked, 3u);
+}
+
+TEST(Until, StopsAfterTheNamedStep) {
+    const auto session = scenario_session("three_panes");
+    EXPECT_FALSE(session->run({.until = "no such step"}));
+    EXPECT_TRUE(session->run({.until = "gbuffer"}));
+}
+
+TEST(Timing, EveryStepHasAMedianAndASpread) {
+    const auto session = scenario_session("three_panes");
+    const std::vector<Request> requests(2);
+    const auto runs = must(session->time(requests, 3));
+    ASSERT_EQ(runs.size(), 2u);
+    for (const StepRecord& step : runs[0].steps) {
+        ASSERT_TRUE(step.ms);
+        EXPECT_EQ(step.ms->repeats, 3u);
+        EXPECT_GE(step.ms->low, 0);
+    }
+    EXPECT_GT(runs[0].frame_ms->median, 0);
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,41 @@
+#include "tests/7_tool/process.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace strata {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+std::filesystem::path folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto path = std::filesystem::path(testing::TempDir()) / "strata_tool" / (std::string(test->test_suite_name()) + "_" + test->name());
+    static std::string made;
+    if (made != path.string()) {
+        std::filesystem::remove_all(path);
+        std::filesystem::create_directories(path);
+        made = path.string();
+    }
+    return path;
+}
+
+Finished strata(const std::string& arguments) {
+    const std::string in = folder().string();
+    const int status = std::system(("cd " + in + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
+    return {WEXITSTATUS(status), contents(folder() / "stdout.txt"), contents(folder() / "stderr.txt")};
+}
+
+}  // namespace strata

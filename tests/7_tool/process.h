@@ -1,0 +1,20 @@
+// Runs the built program and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace strata {
+
+struct Finished {
+    int code = 0;
+    std::string out, err;
+};
+
+/// strata with these arguments (a shell line), in a folder of its own that is emptied for each test.
+Finished strata(const std::string& arguments);
+
+/// The folder; made for the running test.
+std::filesystem::path folder();
+
+}  // namespace strata

@@ -1,0 +1,150 @@
+// Every verb: its help, a success, a failure with its sentence and its exit code.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "passes/registry.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "graph", "report"};
+
+void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
+
+TEST(Tool, EveryVerbHasHelpInBothForms) {
+    for (const char* verb : verb_names) {
+        const Finished help = strata(std::string("help ") + verb), flag = strata(std::string(verb) + " --help");
+        EXPECT_EQ(help.code, 0) << verb;
+        EXPECT_EQ(help.out, flag.out) << verb;
+        EXPECT_THAT(help.out, HasSubstr("--help")) << verb;
+    }
+}
+
+TEST(Tool, WithoutAVerbItListsThem) {
+    const Finished bare = strata("");
+    EXPECT_EQ(bare.code, 0);
+    for (const char* verb : verb_names) EXPECT_THAT(bare.out, HasSubstr(verb));
+}
+
+TEST(Tool, AnUnknownVerbIsAUsageError) { EXPECT_EQ(strata("reply x").code, 2); }
+
+TEST(List, ShowsEveryTechniqueAndItsParameters) {
+    const Finished listed = strata("list --json");
+    ASSERT_EQ(listed.code, 0);
+    EXPECT_EQ(json::parse(listed.out)["techniques"].size(), techniques().size());
+    for (const Technique& technique : techniques()) {
+        const Finished one = strata("list " + std::string(technique.name));
+        for (const Param& param : technique.params) EXPECT_THAT(one.out, HasSubstr(std::string(param.name)));
+    }
+}
+
+TEST(List, AMisspelledTechniqueGetsASuggestion) {
+    std::string typed(techniques_of(Stage::transparency).back()->name);
+    std::swap(typed[typed.size() - 2], typed[typed.size() - 3]);
+    const Finished failed = strata("list " + typed);
+    EXPECT_EQ(failed.code, 2);
+    EXPECT_THAT(failed.err, HasSubstr("did you mean " + std::string(techniques_of(Stage::transparency).back()->name)));
+}
+
+TEST(Record, AnUnknownScenarioIsAUsageError) {
+    const Finished failed = strata("record three_pains -o x.strata");
+    EXPECT_EQ(failed.code, 2);
+    EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+}
+
+TEST(Info, SaysWhatAFrameCallsForAndWhy) {
+    record_panes();
+    const json info = json::parse(strata("info panes.strata --json").out);
+    EXPECT_EQ(info["schema"], "strata.info");
+    EXPECT_TRUE(info["frame"]["features"].contains("transparent"));
+    EXPECT_EQ(strata("info nowhere.strata").code, 3);
+}
+
+TEST(Validate, ATruncatedCaptureIsExitThreeAndReadableUpToTheCut) {
+    ASSERT_EQ(strata("record three_panes --frames 4 -o panes.strata").code, 0);
+    EXPECT_EQ(strata("validate panes.strata").code, 0);
+    std::filesystem::resize_file(folder() / "panes.strata", std::filesystem::file_size(folder() / "panes.strata") * 3 / 4);
+    for (const char* verb : {"validate panes.strata", "info panes.strata", "replay panes.strata"}) EXPECT_EQ(strata(verb).code, 3) << verb;
+    EXPECT_EQ(strata("info panes.strata --allow-partial").code, 0);
+}
+
+TEST(Validate, RandomBytesAreExitThree) {
+    std::ofstream(folder() / "noise.strata") << "this is no capture at all, whatever its name says";
+    const Finished failed = strata("validate noise.strata");
+    EXPECT_EQ(failed.code, 3);
+    EXPECT_FALSE(failed.err.empty());
+}
+
+TEST(Replay, WritesExrPngAndJsonAndMakesTheFolder) {
+    record_panes();
+    const Finished replayed = strata("replay panes.strata -o deep/er --validation");
+    ASSERT_EQ(replayed.code, 0) << replayed.err;
+    for (const char* file : {"panes.f0000.exr", "panes.f0000.png", "panes.f0000.json"})
+        EXPECT_TRUE(std::filesystem::exists(folder() / "deep/er" / file)) << file;
+}
+
+TEST(Replay, EqualRunsWriteEqualFiles) {
+    record_panes();
+    ASSERT_EQ(strata("replay panes.strata -o a").code, 0);
+    ASSERT_EQ(strata("replay panes.strata -o b").code, 0);
+    EXPECT_EQ(std::system(("cd " + folder().string() + " && cmp a/panes.f0000.exr b/panes.f0000.exr").c_str()), 0);
+}
+
+TEST(Replay, RepeatsAreBitIdentical) {
+    record_panes();
+    const Finished repeated = strata("replay panes.strata --repeat 3 -o out");
+    EXPECT_EQ(repeated.code, 0);
+    EXPECT_THAT(repeated.err, HasSubstr("bit for bit"));
+}
+
+TEST(Replay, WrongRequestsAreUsageErrorsWithASentence) {
+    record_panes();
+    for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures", "--until nowhere",
+                              "--force rainbows", "--samples 3", "--gpu NoSuchDevice"}) {
+        const Finished failed = strata(std::string("replay panes.strata ") + wrong);
+        EXPECT_EQ(failed.code, 2) << wrong;
+        EXPECT_FALSE(failed.err.empty()) << wrong;
+    }
+}
+
+TEST(Graph, PrintsThePlanAndWhyStagesAreLeftOut) {
+    record_panes();
+    const Finished plan = strata("graph panes.strata");
+    EXPECT_EQ(plan.code, 0);
+    EXPECT_THAT(plan.out, HasSubstr("left out: rain: "));
+    EXPECT_THAT(strata("graph panes.strata --dot").out, HasSubstr("digraph"));
+}
+
+TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
+    record_panes();
+    const Finished made = strata("report panes.strata --repeats 2 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    EXPECT_EQ(report["schema"], "strata.report");
+    EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        EXPECT_THAT(text.out, HasSubstr(std::string(technique->name)));
+        EXPECT_THAT(csv.out, HasSubstr(std::string(technique->name)));
+    }
+    EXPECT_EQ(strata("report panes.strata --stage nothing").code, 2);
+    EXPECT_EQ(strata("report panes.strata --sweep nothing=1,2").code, 2);
+}
+
+TEST(Import, ABrokenSceneIsExitThree) {
+    std::ofstream(folder() / "broken.gltf") << "{ \"asset\": ";
+    const Finished failed = strata("import broken.gltf");
+    EXPECT_EQ(failed.code, 3);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "broken.strata"));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,32 @@
+#include "tests/support/cards.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace strata {
+
+Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {
+    Frame frame;
+    frame.view.width = frame.view.height = extent;
+    frame.view.projection = perspective(std::numbers::pi / 2, 1, double(frame.view.near));
+    frame.meshes.push_back({.name = "square",
+                            .positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                            .normals = std::vector<glm::vec3>(4, glm::vec3(0, 0, -1)),
+                            .indices = {0, 1, 2, 0, 2, 3}});
+    for (const Card& card : cards) {
+        frame.materials.push_back({.name = "card", .lighting_model = LightingModel::unlit, .alpha_mode = AlphaMode::blend, .base_color = card.color});
+        glm::dmat4 to_world = glm::translate(glm::dmat4(1), card.center);
+        to_world = glm::rotate(to_world, card.tilt, glm::dvec3(0, 1, 0));
+        to_world = glm::scale(to_world, glm::dvec3(double(card.half)));
+        frame.draws.push_back({.name = "card",
+                               .material = static_cast<std::uint32_t>(frame.materials.size() - 1),
+                               .to_world = to_world,
+                               .previous_to_world = to_world,
+                               .sort_priority = card.sort_priority});
+    }
+    return frame;
+}
+
+}  // namespace strata

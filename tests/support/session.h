@@ -1,0 +1,26 @@
+// A scenario replayed for a test, with the validation layer on: a message of it fails the test that caused it.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "replay/session.h"
+
+namespace strata {
+
+/// Frames 0 .. count - 1 of a scenario at its natural extent.
+std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samples = 1, std::uint32_t count = 1);
+
+/// A session over a scenario. No device is a failure, not a skip.
+std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32_t samples = 1, std::uint32_t count = 1);
+
+/// The value, or a failed test and an abort of it.
+template <typename T>
+T must(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().sentence);
+    return *std::move(result);
+}
+
+}  // namespace strata
