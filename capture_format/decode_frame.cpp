@@ -1,6 +1,7 @@
 // One function per table of schema/capture.fbs, in its order. Enums are cast as they come; check_frame() refuses strangers.
 #include "capture_format/decode_frame.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -60,7 +61,6 @@ private:
     StageChoice stage_choice(const schema::StageChoice&);
 
     BlobStore& blobs_;
-    std::uint64_t bulk_bytes_ = 0;
     std::optional<Error> error_;
 };
 
@@ -74,11 +74,6 @@ std::vector<T> Decoder::stream(const schema::Blob& blob, std::string_view what) 
         refuse(fail(Fault::bad_input, "{} bytes are not whole {} of {} bytes", blob.bytes(), what, sizeof(T)));
         return {};
     }
-    if (blob.bytes() > largest_frame_bytes - bulk_bytes_) {
-        refuse(fail(Fault::bad_input, "the frame needs more than {} bytes of resources", largest_frame_bytes));
-        return {};
-    }
-    bulk_bytes_ += blob.bytes();
     const auto found = blobs_.find({{blob.hash_low(), blob.hash_high()}, blob.bytes()});
     if (!found) {
         refuse(found.error());
@@ -339,6 +334,21 @@ Frame Decoder::decode(const schema::Frame& table) {
     };
 }
 
+/// What decoding would allocate for bulk data. One section has too few tables for the sum to wrap.
+std::uint64_t bulk_bytes(const schema::Frame& table) {
+    std::uint64_t sum = 0;
+    const auto add = [&sum](const schema::Blob* blob) { sum += std::min(blob->bytes(), largest_frame_bytes + 1); };
+    for (const schema::Texture* texture : *table.textures()) add(texture->texels());
+    for (const schema::Emitter* emitter : *table.emitters()) add(emitter->particles());
+    for (const schema::Mesh* mesh : *table.meshes()) {
+        for (const schema::Blob* stream : {mesh->positions_m(), mesh->normals(), mesh->tangents(), mesh->uv0(), mesh->uv1(),
+                                           mesh->colors(), mesh->indices()}) {
+            add(stream);
+        }
+    }
+    return sum;
+}
+
 }  // namespace
 
 Result<void> verify_frame(std::span<const std::byte> section) {
@@ -348,6 +358,9 @@ Result<void> verify_frame(std::span<const std::byte> section) {
                                    most_tables);
     if (!schema::VerifyFrameBuffer(verifier))
         return fail(Fault::bad_input, "it is not a frame of this format, or has too many parts");
+    if (bulk_bytes(*schema::GetFrame(section.data())) > largest_frame_bytes) {
+        return fail(Fault::bad_input, "its resources take more than {} bytes", largest_frame_bytes);
+    }
     return {};
 }
 

@@ -11,10 +11,10 @@
 
 namespace strata {
 
-/// Bulk bytes of one frame: a few kilobytes of hostile file may name the same blob a million times.
+/// Bulk bytes of one frame: a few kilobytes of hostile file may name the same blob a hundred thousand times.
 inline constexpr std::uint64_t largest_frame_bytes = std::uint64_t{4} << 30;
 
-/// The flatbuffers verifier alone: that no offset leaves the bytes and all that is required is there.
+/// That no offset leaves the bytes, all that is required is there, and the resources stay within the limit.
 Result<void> verify_frame(std::span<const std::byte> section);
 
 /// Verifies and decodes. Enums, indices and floats are as stored: check_frame() judges them.

@@ -105,7 +105,8 @@ private:
     }
 
     /// A share F of the diffuse light goes through instead of back (KHR_materials_transmission): the reflected color loses F,
-    /// and t = 1 - a (1 - k) with k = color F. Refraction and rough transmission have no place in a transmittance.
+    /// and t = 1 - a (1 - k) with k = color F. Metal transmits nothing. Refraction and rough transmission have no place in a
+    /// transmittance.
     void set_transmission(Material& material, const tinygltf::Material& source) {
         double factor = number_in(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
         const tinygltf::Value& texture = source.extensions.at("KHR_materials_transmission").Get("transmissionTexture");
@@ -113,6 +114,7 @@ private:
             factor *= textures_.mean(textures_.add(texture.Get("index").GetNumberAsInt(), Encoding::linear)).x;
             warnings_.push_back(fmt::format("material '{}': the transmission texture is replaced by its mean", source.name));
         }
+        factor *= 1 - material.metallic * textures_.mean(material.metallic_roughness_texture.texture).z;
         const float share = std::clamp(static_cast<float>(factor), 0.0f, 1.0f);
         if (share == 0) return;
         if (material.alpha_mode == AlphaMode::mask) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -123,11 +122,20 @@ View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up) {
 }
 
 View framing_view(const Bounds& bounds, double width_over_height) {
-    constexpr double vertical_fov = 0.7;  // radians, a 50 mm lens on 35 mm film
-    const double half_tangent = std::tan(vertical_fov / 2) * std::min(1.0, width_over_height);
-    const double radius = std::max(bounds.radius(), 1e-6), distance = radius / std::sin(std::atan(half_tangent));
+    constexpr double vertical_fov = 0.7;  // radians, near that of a 35 mm lens on 35 mm film
+    constexpr double margin = 1.05;
+    const double tangent = std::tan(vertical_fov / 2);
     const glm::dvec3 towards_eye = glm::normalize(glm::dvec3(0.4, 0.3, 1));
-    View view = look_along(bounds.center() + towards_eye * distance, -towards_eye, {0, 1, 0});
+    const glm::dvec3 half = bounds.empty() ? glm::dvec3(1) : (bounds.high - bounds.low) * 0.5;
+    View view = look_along(bounds.center(), -towards_eye, {0, 1, 0});
+    double distance = 1e-6;  // from the center, so that every corner is inside the frustum
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 side((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+        const glm::dvec3 p = view.to_view * (side * half);
+        distance = std::max({distance, std::abs(p.x) / (tangent * width_over_height) - p.z, std::abs(p.y) / tangent - p.z});
+    }
+    distance *= margin;
+    view.origin += towards_eye * distance;
     view.near = static_cast<float>(std::min(0.1, distance * 0.01));
     view.projection = perspective(vertical_fov, width_over_height, view.near);
     return view;

@@ -90,14 +90,14 @@ Frame lights_room(std::uint32_t frame, const ScenarioOptions& options) {
     }
     for (int i = 0; i < 32; ++i) {
         const double turn = 2 * std::numbers::pi * (random.unit() + 0.2 * builder.progress());
-        const glm::dvec3 center(random.between(-5.0, 5.0), random.between(0.5, 2.5), random.between(-5.5, 3.0));
-        const glm::vec3 color(random.between(0.2f, 1.0f), random.between(0.2f, 1.0f), random.between(0.2f, 1.0f));
+        const glm::dvec3 center{random.between(-5.0, 5.0), random.between(0.5, 2.5), random.between(-5.5, 3.0)};
+        const glm::vec3 color{random.between(0.2f, 1.0f), random.between(0.2f, 1.0f), random.between(0.2f, 1.0f)};
         Light light = lamp("lamp", center + 0.3 * glm::dvec3(std::cos(turn), 0, std::sin(turn)), color);
         light.range = random.between(1.5f, 3.5f);
         if (i % 2 == 1) {
             light.name = "spot";
             light.type = LightType::round_spot;
-            light.direction = glm::normalize(glm::vec3(random.between(-0.7f, 0.7f), -1, random.between(-0.7f, 0.7f)));
+            light.direction = glm::normalize(glm::vec3{random.between(-0.7f, 0.7f), -1, random.between(-0.7f, 0.7f)});
             light.axis_u = glm::normalize(glm::cross(light.direction, glm::vec3(0, 0, 1)));
             light.intensity *= 3.0f;
         }
@@ -118,7 +118,8 @@ Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions& options) {
     for (int row = 0; row < 20; ++row) {
         for (int column = 0; column < 20; ++column) {  // blocks of 8 m; the eye stands in the middle of a street
             const double height = random.between(1.0, 6.0);
-            builder.draw(block, random.unit() < 0.5 ? brick : concrete,
+            const std::uint32_t material = random.unit() < 0.5 ? brick : concrete;
+            builder.draw(block, material,
                          {.position = {8.0 * column - 76, height, 8.0 * row - 76},
                           .scale = {random.between(1.5, 2.8), height, random.between(1.5, 2.8)}});
         }

@@ -15,15 +15,16 @@ Frame additive_sparks(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}});
     builder.draw(builder.add(quad({8, 8})), builder.add(unlit("dark wall", {0.05f, 0.06f, 0.08f, 1})), {.position = {0, 0, -6}});
-    builder.draw(builder.add(quad({1, 1})), builder.add(unlit("grey pane", {0.3f, 0.3f, 0.3f, 0.5f})), {.position = {-1, 0, -3}});
+    builder.draw(builder.add(quad({1, 1})), builder.add(unlit("grey pane", {0.3f, 0.3f, 0.3f, 0.5f})),
+                 {.position = {-0.9, 0, -3}});
     Emitter sparks;
     sparks.name = "sparks";
     sparks.texture = builder.add(glow());
     sparks.alpha_mode = AlphaMode::additive;
     Random random(builder.seed());
     for (int i = 0; i < 60; ++i) {
-        const double age = builder.progress() * random.between(0.5, 1.0);  // seconds since they left the fountain
-        const glm::dvec3 velocity(random.between(-1.6, 1.6), random.between(1.0, 4.0), random.between(-1.2, 1.2));
+        const double age = builder.progress() * random.between(0.15, 0.75);  // seconds since they left the fountain
+        const glm::dvec3 velocity{random.between(-1.6, 1.6), random.between(1.0, 4.0), random.between(-1.2, 1.2)};
         Particle particle;
         particle.center = glm::dvec3(0, -1, -4) + velocity * age - glm::dvec3(0, 4.9, 0) * age * age;
         particle.size = random.between(0.03f, 0.12f);

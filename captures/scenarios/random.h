@@ -5,7 +5,8 @@
 
 namespace strata::scenario {
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
+/// SplitMix64 (Steele, Lea, Flood 2014). Draw at most one number per expression, or inside braces: the order in which
+/// operands and arguments in parentheses are evaluated is the compiler's.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -27,10 +27,11 @@ Particle sprite(int index, double progress, std::uint64_t seed) {
     Particle particle;
     particle.center = {radius * std::cos(angle), 0.1 + 2.3 * rank * grown + random.between(-0.1, 0.1), radius * std::sin(angle)};
     particle.size = static_cast<float>(random.between(0.2, 0.45) * grown);
-    particle.rotation = static_cast<float>(random.between(0.0, 2 * std::numbers::pi) + random.between(-1.0, 1.0) * progress);
+    const double first_turn = random.between(0.0, 2 * std::numbers::pi), turning = random.between(-1.0, 1.0);
+    particle.rotation = static_cast<float>(first_turn + turning * progress);
     const double lit = 0.35 + 0.4 * rank + 0.25 * radius * std::cos(angle - 0.8);  // the sun stands at +x, and above
     particle.color = glm::vec3(1, 0.97f, 0.92f) * static_cast<float>(std::max(0.1, lit));
-    particle.alpha = static_cast<float>(random.between(0.05, 0.3));
+    particle.alpha = static_cast<float>(random.between(0.03, 0.16));
     return particle;
 }
 
@@ -63,10 +64,10 @@ Frame smoke_grenade(std::uint32_t frame, const ScenarioOptions& options) {
     builder.look({.eye = {0.6, 1.7, 6}, .target = {0, 1.2, 0}, .vertical_fov = 0.75});
     add_surroundings(builder);
     const People people(builder);
-    people.add(builder, builder.add(lambert("red coat", {0.7f, 0.08f, 0.06f})), {.position = {-0.8, 0, -2.6}, .yaw = 0.2});
+    people.add(builder, builder.add(lambert("red coat", {0.7f, 0.08f, 0.06f})), {.position = {-1.7, 0, -2.6}, .yaw = 0.2});
     people.add(builder, builder.add(lambert("blue coat", {0.08f, 0.15f, 0.6f})), {.position = {0.5, 0, 0.1}, .yaw = -0.4});
-    people.add(builder, builder.add(lambert("green coat", {0.1f, 0.45f, 0.12f})), {.position = {1.5, 0, 2.2}, .yaw = 0.9});
-    people.add(builder, builder.add(lambert("yellow coat", {0.7f, 0.55f, 0.08f})), {.position = {1.0, 0, -2.2}, .yaw = -0.6});
+    people.add(builder, builder.add(lambert("green coat", {0.1f, 0.45f, 0.12f})), {.position = {2.3, 0, 1.8}, .yaw = 0.9});
+    people.add(builder, builder.add(lambert("yellow coat", {0.7f, 0.55f, 0.08f})), {.position = {0.9, 0, -2.2}, .yaw = -0.6});
     add_smoke(builder);
     builder.frame.sun.direction = glm::normalize(glm::vec3(-0.7f, -1, -0.4f));
     builder.frame.sun.irradiance = {2.6f, 2.5f, 2.3f};

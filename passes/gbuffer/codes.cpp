@@ -33,16 +33,15 @@ std::uint16_t half_bits(double value) {
 double half_value(std::uint16_t bits) {
     const int exponent = (bits >> 10) & 31, fraction = bits & 1023;
     double size = 0;
-    if (exponent == 31)
-        size = fraction == 0 ? HUGE_VAL : NAN;
-    else
-        size = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+    if (exponent == 31) size = fraction == 0 ? HUGE_VAL : NAN;
+    else size = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
     return (bits & 0x8000) != 0 ? -size : size;
 }
 
 std::uint16_t half_of_code(std::uint32_t code) {
     assert(code < code_count);
-    return static_cast<std::uint16_t>(code < codes_per_sign ? code + first_normal : code - codes_per_sign + first_negative_normal);
+    return static_cast<std::uint16_t>(code < codes_per_sign ? code + first_normal
+                                                            : code - codes_per_sign + first_negative_normal);
 }
 
 std::uint32_t code_of_half(std::uint16_t bits) { return (bits & 0x7fffu) - first_normal + (bits >> 15) * codes_per_sign; }
@@ -50,10 +49,8 @@ std::uint32_t code_of_half(std::uint16_t bits) { return (bits & 0x7fffu) - first
 double nearest_half(double value) {
     const double size = std::abs(value);
     double rounded = 0;
-    if (size < smallest_normal)
-        rounded = size < smallest_normal / 2 ? 0 : smallest_normal;
-    else
-        rounded = half_value(half_bits(std::min(size, largest_half)));
+    if (size < smallest_normal) rounded = size < smallest_normal / 2 ? 0 : smallest_normal;
+    else rounded = half_value(half_bits(std::min(size, largest_half)));
     return std::copysign(rounded, value);
 }
 
@@ -66,7 +63,8 @@ SurfacePoint stored_material(SurfacePoint p) {
     p.occlusion = double(code % 256) / 255;
     p.metallic = double(code / 256 % 60) / 59;
     p.model = static_cast<LightingModel>(code / 256 / 60);
-    for (int c = 0; c < 3; ++c) p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
+    for (int c = 0; c < 3; ++c)
+        p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
     p.roughness = level(p.roughness, 255) / 255.0;
     return p;
 }

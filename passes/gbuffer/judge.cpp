@@ -67,14 +67,10 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
         sums.position += square(position_error(input.frame, i, got.normal.w, wanted.normal.w));
     }
     const auto rms = [&](double sum) { return std::sqrt(sum / std::max(1.0, sums.surfaces)); };
-    return {{"normal angle rms", "degrees", rms(sums.angle)},
-            {"normal angle worst", "degrees", sums.worst_angle},
-            {"position rms", "of distance", rms(sums.position)},
-            {"base color rmse", "", rms(sums.color)},
-            {"roughness rmse", "", rms(sums.roughness)},
-            {"metallic rmse", "", rms(sums.metallic)},
-            {"occlusion rmse", "", rms(sums.occlusion)},
-            {"coverage differs", "samples", sums.disagreeing}};
+    return {{"normal angle rms", "degrees", rms(sums.angle)},    {"normal angle worst", "degrees", sums.worst_angle},
+            {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
+            {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},
+            {"occlusion rmse", "", rms(sums.occlusion)},         {"coverage differs", "samples", sums.disagreeing}};
 }
 
 }  // namespace strata

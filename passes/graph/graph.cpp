@@ -228,7 +228,9 @@ std::size_t Graph::append(Step step) {
 void Graph::enter(std::string scope, std::uint32_t stage, std::uint64_t counter_bytes) {
     scopes_.push_back({std::move(scope), stage, {}});
     if (counter_bytes == 0) return;
-    Buffer counters = create("counters of " + scopes_.back().name, counter_bytes);
+    const std::string& name = scopes_.back().name;
+    const std::size_t colon = name.rfind(": ");  // "stage: technique" counts for the technique
+    Buffer counters = create("counters of " + (colon == std::string::npos ? name : name.substr(colon + 2)), counter_bytes);
     buffers_[counters.id].weak = true;
     clear(counters, 0);
     scopes_.back().counters = counters;

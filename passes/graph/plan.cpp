@@ -76,6 +76,8 @@ Plan with_records(const Graph& graph) {
     plan.images.assign(graph.images().begin(), graph.images().end());
     plan.buffers.assign(graph.buffers().begin(), graph.buffers().end());
     plan.scopes.assign(graph.scopes().begin(), graph.scopes().end());
+    plan.kept_images.assign(graph.kept_images().begin(), graph.kept_images().end());
+    plan.kept_buffers.assign(graph.kept_buffers().begin(), graph.kept_buffers().end());
     return plan;
 }
 

@@ -21,7 +21,8 @@ EveryLight::EveryLight(const StageInput& input)
 }
 
 SurfacePoint EveryLight::surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
-    const glm::dvec4 &normal = normal_->at(x, y, sample), &color = color_->at(x, y, sample), &material = material_->at(x, y, sample);
+    const glm::dvec4 &normal = normal_->at(x, y, sample), &color = color_->at(x, y, sample),
+                     &material = material_->at(x, y, sample);
     SurfacePoint p;
     p.position = pixel_ray(*frame_, x + 0.5, y + 0.5) * normal.w;
     p.normal = glm::dvec3(normal);

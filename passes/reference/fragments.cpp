@@ -66,7 +66,8 @@ void fog(const Frame& frame, double z, Fragment& fragment) {
 }
 
 // The event of a point, or nothing where it is too faint to count.
-std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, const RasterTriangle& triangle, double opaque_depth) {
+std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, const RasterTriangle& triangle,
+                                 double opaque_depth) {
     const double z = double(frame.view.near) / point.depth;
     if (!std::isfinite(z)) return std::nullopt;
     const SurfacePoint surface = surface_at(frame, point, triangle.corners);

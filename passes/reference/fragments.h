@@ -43,7 +43,7 @@ struct RasterPoint {
     double depth = 0;            ///< device depth near / z at the sample
     double depth_slope = 0;      ///< how much device depth changes per pixel, in x or y
     bool front_facing = true;
-    bool covered = true;         ///< false: a near miss
+    bool covered = true;  ///< false: a near miss
     bool undecided = false;
 };
 
@@ -55,7 +55,8 @@ struct RasterOptions {
 
 /// Calls `visit` for every covered sample of the given draws, in submission order within each pixel row. Not thread safe
 /// towards `visit` between different rows: rows run in parallel.
-void rasterize(const Frame&, std::span<const std::uint32_t> draws, RasterOptions, const std::function<void(const RasterPoint&)>& visit);
+void rasterize(const Frame&, std::span<const std::uint32_t> draws, RasterOptions,
+               const std::function<void(const RasterPoint&)>& visit);
 
 /// Opaque and masked draws, in submission order.
 std::vector<std::uint32_t> opaque_draws(const Frame&);
@@ -70,12 +71,15 @@ struct VisiblePoints {
     std::size_t index(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const {
         return (std::size_t(sample) * height + y) * width + x;
     }
-    const RasterPoint& at(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const { return points[index(x, y, sample)]; }
+    const RasterPoint& at(std::uint32_t x, std::uint32_t y, std::uint32_t sample = 0) const {
+        return points[index(x, y, sample)];
+    }
 };
 
 /// Depth test GREATER_OR_EQUAL in submission order. Masked points below their cutoff are not there. Undecided: coverage,
 /// two depths within float rounding (or within what a snap step of a slope makes of them), or an alpha on its cutoff.
-VisiblePoints visible_points(const Frame&, std::span<const std::uint32_t> draws, RasterOptions = {.shade_at = ShadeAt::pixel_center});
+VisiblePoints visible_points(const Frame&, std::span<const std::uint32_t> draws,
+                             RasterOptions = {.shade_at = ShadeAt::pixel_center});
 
 /// The transparent fragments of every sample.
 class FragmentLists {
@@ -95,7 +99,7 @@ private:
     /// One pixel row: the lists of its samples (x * samples + sample) after each other.
     struct Row {
         std::vector<Fragment> fragments;
-        std::vector<std::size_t> begin;       ///< one more than there are samples in the row
+        std::vector<std::size_t> begin;  ///< one more than there are samples in the row
         std::vector<std::uint8_t> undecided;
     };
     std::uint32_t width_, height_, samples_;

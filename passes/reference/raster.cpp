@@ -48,7 +48,8 @@ Polygon clipped(const Polygon& polygon, const glm::dvec4& plane) {
 
 glm::dvec3 to_clip(const View& view, const glm::dvec3& p) {
     const glm::dmat4 m = view.projection;
-    return {m[0][0] * p.x + (m[2][0] + double(view.jitter.x)) * p.z, m[1][1] * p.y + (m[2][1] + double(view.jitter.y)) * p.z, p.z};
+    return {m[0][0] * p.x + (m[2][0] + double(view.jitter.x)) * p.z, m[1][1] * p.y + (m[2][1] + double(view.jitter.y)) * p.z,
+            p.z};
 }
 
 Polygon visible_part(const View& view, const Corners& corners, std::uint8_t seams) {
@@ -145,13 +146,15 @@ glm::i64vec2 columns(const RasterTriangle& triangle, std::int64_t y, std::int64_
     for (std::uint32_t i = 0; i < triangle.edge_count; ++i) {
         const RasterEdge& edge = triangle.edges[i];
         if (edge.dy == 0) continue;
-        const double best = std::max(double(edge.dx) * top, double(edge.dx) * bottom) + double(edge.offset) + slack / edge.inverse_length;
+        const double best =
+            std::max(double(edge.dx) * top, double(edge.dx) * bottom) + double(edge.offset) + slack / edge.inverse_length;
         const double crossing = best / double(edge.dy);
         if (edge.dy > 0) right = std::min(right, crossing);
         if (edge.dy < 0) left = std::max(left, crossing);
     }
     const double steps = double(snap_steps), end = double(width);
-    const double first = std::clamp(std::floor(left / steps), 0.0, end), last = std::clamp(std::floor(right / steps) + 1, first, end);
+    const double first = std::clamp(std::floor(left / steps), 0.0, end),
+                 last = std::clamp(std::floor(right / steps) + 1, first, end);
     return {static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
 }
 
@@ -216,7 +219,9 @@ void Raster::add_triangle(RasterTriangle triangle, const DrawSpace& space, std::
 
 void Raster::sort_into_rows() {
     const std::int64_t rows = frame_->view.height, slack = 2;
-    const auto first_row = [&](const RasterTriangle& t) { return std::clamp<std::int64_t>((t.low.y - slack) / snap_steps, 0, rows); };
+    const auto first_row = [&](const RasterTriangle& t) {
+        return std::clamp<std::int64_t>((t.low.y - slack) / snap_steps, 0, rows);
+    };
     const auto end_row = [&](const RasterTriangle& t) {
         return t.high.y + slack < 0 ? 0 : std::clamp<std::int64_t>((t.high.y + slack) / snap_steps + 1, 0, rows);
     };

@@ -60,7 +60,7 @@ private:
 
     const Frame* frame_;
     std::vector<RasterTriangle> triangles_;
-    std::vector<std::size_t> row_begin_;       ///< of in_rows_, one more than there are rows
+    std::vector<std::size_t> row_begin_;  ///< of in_rows_, one more than there are rows
     std::vector<std::uint32_t> in_rows_;
     std::map<std::uint32_t, std::vector<std::uint8_t>> seams_;  ///< by mesh: seams_of_mesh
 };

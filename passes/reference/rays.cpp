@@ -126,7 +126,8 @@ std::optional<Hit> RayScene::closest(glm::dvec3 origin, glm::dvec3 direction, do
     std::optional<Hit> nearest;
     traverse(ray, [&](const Hit& hit) {
         if (hit.distance >= end) return true;
-        if (!nearest || std::tie(hit.distance, hit.draw, hit.triangle) < std::tie(nearest->distance, nearest->draw, nearest->triangle)) {
+        if (!nearest ||
+            std::tie(hit.distance, hit.draw, hit.triangle) < std::tie(nearest->distance, nearest->draw, nearest->triangle)) {
             nearest = hit;
             ray.end = hit.distance;
         }

@@ -19,7 +19,8 @@ constexpr double float_noise = 1e-5;
 
 // Whether the stream at `vertex` is what the triangle extrapolates to.
 template <typename Element>
-bool continues(const std::vector<Element>& stream, const std::uint32_t* triangle, const glm::dvec3& weights, std::uint32_t vertex) {
+bool continues(const std::vector<Element>& stream, const std::uint32_t* triangle, const glm::dvec3& weights,
+               std::uint32_t vertex) {
     if (stream.empty()) return true;
     const double reach = std::abs(weights.x) + std::abs(weights.y) + std::abs(weights.z) + 1;
     for (glm::length_t i = 0; i < Element::length(); ++i) {
@@ -63,7 +64,8 @@ std::vector<std::uint8_t> seams_of_mesh(const Mesh& mesh) {
     for (std::uint32_t i = 0; i < count * 3; ++i) {
         const std::uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
         const auto there = sides.find(directed(mesh.indices[next], mesh.indices[i]));
-        if (there == sides.end() || there->second.uses != 1 || sides[directed(mesh.indices[i], mesh.indices[next])].uses != 1) continue;
+        if (there == sides.end() || there->second.uses != 1 || sides[directed(mesh.indices[i], mesh.indices[next])].uses != 1)
+            continue;
         const std::uint32_t opposite = mesh.indices[there->second.triangle * 3 + (there->second.side + 2) % 3];
         if (one_flat_piece(mesh, &mesh.indices[std::size_t(i / 3) * 3], opposite)) {
             seams[i / 3] = static_cast<std::uint8_t>(seams[i / 3] | 1u << i % 3);

@@ -77,10 +77,14 @@ double renormalized_burley(double roughness, double n_l, double n_v, double l_h)
 glm::dvec3 brdf(const SurfacePoint& surface, glm::dvec3 to_light, glm::dvec3 to_eye) {
     const glm::dvec3 lambert = surface.base_color / pi;
     switch (surface.model) {
-        case LightingModel::unlit: return glm::dvec3(0);
-        case LightingModel::lambert: return lambert;
-        case LightingModel::ggx: return lambert * (1 - surface.metallic) + ggx(surface, to_light, to_eye);
-        case LightingModel::burley: break;
+        case LightingModel::unlit:
+            return glm::dvec3(0);
+        case LightingModel::lambert:
+            return lambert;
+        case LightingModel::ggx:
+            return lambert * (1 - surface.metallic) + ggx(surface, to_light, to_eye);
+        case LightingModel::burley:
+            break;
     }
     const double n_l = saturate(glm::dot(surface.normal, to_light));
     const double n_v = std::clamp(glm::dot(surface.normal, to_eye), smallest_cosine, 1.0);

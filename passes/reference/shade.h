@@ -11,9 +11,9 @@ namespace strata {
 /// A point of a surface with its material evaluated. View space.
 struct SurfacePoint {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0, 0, -1};   ///< shading normal, unit, facing the eye
-    glm::dvec3 base_color{1};      ///< linear
-    double alpha = 1;              ///< after base color, vertex color and texture
+    glm::dvec3 normal{0, 0, -1};  ///< shading normal, unit, facing the eye
+    glm::dvec3 base_color{1};     ///< linear
+    double alpha = 1;             ///< after base color, vertex color and texture
     double metallic = 0, roughness = 1, occlusion = 1;
     glm::dvec3 emissive{0};
     glm::dvec3 transmission{0};

@@ -13,9 +13,12 @@ namespace {
 
 std::size_t texel_bytes(TextureFormat format) {
     switch (format) {
-        case TextureFormat::rgba16f: return 8;
-        case TextureFormat::rgba32f: return 16;
-        default: return 4;
+        case TextureFormat::rgba16f:
+            return 8;
+        case TextureFormat::rgba32f:
+            return 16;
+        default:
+            return 4;
     }
 }
 
@@ -42,9 +45,7 @@ double bounded(double texels) { return std::isfinite(texels) ? std::clamp(texels
 
 }  // namespace
 
-double srgb_to_linear(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
+double srgb_to_linear(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std::uint32_t y) {
     static const std::array<double, 256> srgb = [] {

@@ -44,7 +44,8 @@ Attributes particle_attributes(const Particle& particle, std::uint32_t half, con
 
 // Weighted sum of a stream at three indices; `absent` where the mesh has no such stream.
 template <typename Value, typename Element>
-Value interpolate(const std::vector<Element>& stream, const std::array<std::uint32_t, 3>& indices, const glm::dvec3& b, Value absent) {
+Value interpolate(const std::vector<Element>& stream, const std::array<std::uint32_t, 3>& indices, const glm::dvec3& b,
+                  Value absent) {
     if (stream.empty()) return absent;
     return b.x * Value(stream[indices[0]]) + b.y * Value(stream[indices[1]]) + b.z * Value(stream[indices[2]]);
 }

@@ -35,7 +35,7 @@ struct Attributes {
     glm::dvec3 normal{0};   ///< object space, not normalized; zero where the mesh has none
     glm::dvec4 tangent{0};  ///< object space
     std::array<glm::dvec2, 2> uv{};
-    glm::dvec4 color{1};    ///< particles: color and alpha
+    glm::dvec4 color{1};  ///< particles: color and alpha
     glm::dvec3 emissive{0};
     double depth_offset = 0;
 };

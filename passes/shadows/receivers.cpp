@@ -20,7 +20,8 @@ void visit_row(const StageInput& input, std::uint32_t y, const std::function<voi
             const double device_depth = depth.at(x, y, sample).x;
             if (!(device_depth > 0)) continue;
             Receiver receiver{x, y, sample};
-            receiver.position = pixel_ray(input.frame, x + offset.x, y + offset.y) * (double(input.frame.view.near) / device_depth);
+            receiver.position =
+                pixel_ray(input.frame, x + offset.x, y + offset.y) * (double(input.frame.view.near) / device_depth);
             if (normals != input.before.end()) receiver.normal = glm::dvec3(normals->second.at(x, y, sample));
             visit(receiver);
         }

@@ -39,7 +39,6 @@ Sphere slice_sphere(const View& view, double begin, double end) {
     return {{0, 0, center}, std::max(corner(begin), corner(end))};
 }
 
-
 // The sun's axes in the world: fixed by its direction alone, so that texels stay where they are when the camera moves.
 struct SunAxes {
     glm::dvec3 along, u, v;

@@ -8,7 +8,8 @@
 
 namespace strata {
 
-/// Declares a draw of `list` with a fragment shader that includes passes/transparency/event.glsl. Chain the technique's own verbs.
+/// Declares a draw of `list` with a fragment shader that includes passes/transparency/event.glsl. Chain the technique's own
+/// verbs.
 DrawPass draw_events(Graph&, std::string shader, const DrawList& list, const FrameImages&);
 
 }  // namespace strata

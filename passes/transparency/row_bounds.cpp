@@ -47,7 +47,8 @@ private:
         for (const glm::dvec2& p : pixels_) low = std::min(low, p.y), high = std::max(high, p.y);
         const auto first = static_cast<std::int64_t>(std::floor(std::clamp(low - margin, 0., double(extent_.height))));
         const auto last = static_cast<std::int64_t>(std::floor(std::clamp(high + margin, -1., extent_.height - 1.)));
-        for (std::int64_t y = first; y <= last; ++y) rows_[static_cast<std::size_t>(y)] += touched(double(y) - margin, double(y) + 1 + margin);
+        for (std::int64_t y = first; y <= last; ++y)
+            rows_[static_cast<std::size_t>(y)] += touched(double(y) - margin, double(y) + 1 + margin);
     }
 
     /// Pixels of the row that the polygon can touch between two heights.
@@ -114,7 +115,8 @@ std::vector<RowBand> row_bands(std::span<const std::uint64_t> row_bounds, std::u
     for (std::size_t y = 0; y < row_bounds.size(); y += 2) {
         const std::uint32_t rows = y + 1 < row_bounds.size() ? 2 : 1;
         const std::uint64_t pair = row_bounds[y] + (rows == 2 ? row_bounds[y + 1] : 0);
-        if (bands.back().rows > 0 && bands.back().bound + pair > limit) bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
+        if (bands.back().rows > 0 && bands.back().bound + pair > limit)
+            bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
         bands.back().rows += rows;
         bands.back().bound += pair;
     }

@@ -26,7 +26,7 @@ vk::raii::DescriptorPool make_pool(OpenedDevice& device, const Plan& plan) {
         sets += step_sets;
     }
     std::vector<vk::DescriptorPoolSize> sizes;
-    for (const auto [type, count] : counts) sizes.push_back({type, count});
+    for (const auto& [type, count] : counts) sizes.push_back({type, count});
     if (sizes.empty()) sizes.push_back({vk::DescriptorType::eStorageBuffer, 1});
     return {device.handle(), vk::DescriptorPoolCreateInfo({}, sets, sizes)};
 }
@@ -86,9 +86,7 @@ vk::DescriptorImageInfo DescriptorSets::describe_image(const PlannedBinding& pla
 }
 
 vk::DescriptorBufferInfo DescriptorSets::describe_buffer(const PlannedBinding& planned, const PlanResources& resources) const {
-    const Binding& binding = planned.binding;
-    const DeviceBuffer& buffer = binding.buffer ? resources.buffer(binding.buffer) : placeholders_->buffer(binding.access);
-    return {buffer.handle(), 0, VK_WHOLE_SIZE};
+    return {resources.buffer(planned.binding.buffer).handle(), 0, VK_WHOLE_SIZE};
 }
 
 }  // namespace strata

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/plan_memory.h"
@@ -22,15 +21,11 @@ std::size_t copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image
         commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
         image.set_layout(range, layout);
     };
-    full_barrier(commands);
     go_to(top, vk::ImageLayout::eTransferSrcOptimal);
-    full_barrier(commands);
     const std::size_t ticket = readback.add(commands, image);
-    full_barrier(commands);
     for (std::uint32_t layer = 0; layer < top.layers; ++layer) {
         if (before[layer] != vk::ImageLayout::eUndefined) go_to({.layer = layer}, before[layer]);
     }
-    full_barrier(commands);
     return ticket;
 }
 
@@ -101,6 +96,9 @@ void VulkanExecutor::guarded(std::string place, Action action) {
     } catch (const DeviceFailure&) {
         memory_.reset();
         throw;
+    } catch (const std::out_of_range&) {
+        memory_.reset();
+        throw DeviceFailure(fmt::format("{}: an imported resource was never made", place_));
     }
 }
 
@@ -168,6 +166,8 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
         record_peeks(commands, frame, i);
         fail_on_messages();
     }
+    if (end == plan.steps.size()) recorder.barriers(plan.final_barriers);
+    imports_.settle(commands);  // a shortened run leaves them anywhere
     frame.peeks.finish(commands);
 }
 
@@ -183,7 +183,7 @@ void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame
     }
 }
 
-/// The kept images and buffers are those the plan's last barriers make readable. What a shortened run did not get to is left out.
+/// What a shortened run did not get to is left out; so are imports, which are the caller's already.
 void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
     place_ = "read the frame back";
     Readback readback(*device_);
@@ -191,19 +191,18 @@ void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
     const Plan& plan = frame.plan;
     device_->run_once([&](const vk::raii::CommandBuffer& commands) {
         full_barrier(commands);
-        for (const Barrier& barrier : plan.final_barriers) {
-            if (barrier.buffer) {
-                const std::uint32_t id = barrier.buffer.id;
-                if (!buffers.contains(id)) buffers[id] = readback.add(commands, frame.resources.buffer(barrier.buffer), plan.buffers[id].bytes);
-            } else if (!plan.images[barrier.image.id].import && frame.resources.holds(barrier.image)) {
-                const std::uint32_t id = barrier.image.id;
-                if (!images.contains(id)) images[id] = copy_out(commands, frame.resources.image(barrier.image), readback);
-            }
+        for (const Image image : plan.kept_images) {
+            const bool is_there = !plan.images[image.id].import && frame.resources.holds(image);
+            if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), readback);
+        }
+        for (const Buffer buffer : plan.kept_buffers) {
+            const bool is_there = std::ranges::count(plan.used_buffers, buffer.id) > 0;
+            if (is_there) buffers[buffer.id] = readback.add(commands, frame.resources.buffer(buffer), plan.buffers[buffer.id].bytes);
         }
         readback.finish(commands);
     });
-    for (const auto [id, ticket] : images) execution.images[id] = {single_mip(plan.images[id].shape), readback.take(ticket)};
-    for (const auto [id, ticket] : buffers) execution.buffers[id] = readback.take(ticket);
+    for (const auto& [id, ticket] : images) execution.images[id] = {single_mip(plan.images[id].shape), readback.take(ticket)};
+    for (const auto& [id, ticket] : buffers) execution.buffers[id] = readback.take(ticket);
 }
 
 }  // namespace

@@ -74,9 +74,11 @@ void DeviceImage::set_layout(const PartRange& range, vk::ImageLayout layout) {
 }
 
 std::vector<vk::ImageMemoryBarrier2> DeviceImage::transitions(const PartRange& range, vk::ImageLayout to, Contents contents) const {
+    constexpr auto everything = vk::PipelineStageFlagBits2::eAllCommands;
+    constexpr auto any = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
     std::vector<vk::ImageMemoryBarrier2> found;
     const auto add = [&](const PartRange& part, vk::ImageLayout from) {
-        found.push_back(vk::ImageMemoryBarrier2()
+        found.push_back(vk::ImageMemoryBarrier2(everything, any, everything, any)
                             .setOldLayout(contents == Contents::discard ? vk::ImageLayout::eUndefined : from)
                             .setNewLayout(to)
                             .setSrcQueueFamilyIndex(VK_QUEUE_FAMILY_IGNORED)
@@ -112,8 +114,7 @@ void DeviceImage::clear(const vk::raii::CommandBuffer& commands, const ClearValu
 void DeviceImage::make_zero(const OpenedDevice& device) {
     const PartRange whole = range_of(shape_, {});
     device.run_once([&](const vk::raii::CommandBuffer& commands) {
-        auto barriers = transitions(whole, vk::ImageLayout::eGeneral, Contents::discard);
-        barriers.front().setDstStageMask(vk::PipelineStageFlagBits2::eClear).setDstAccessMask(vk::AccessFlagBits2::eTransferWrite);
+        const auto barriers = transitions(whole, vk::ImageLayout::eGeneral, Contents::discard);
         commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
         set_layout(whole, vk::ImageLayout::eGeneral);
         clear(commands, {});

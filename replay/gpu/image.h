@@ -40,11 +40,12 @@ public:
     /// The layout after everything recorded so far.
     vk::ImageLayout layout(const PartRange&) const;
     void set_layout(const PartRange&, vk::ImageLayout);
-    /// Barriers that take the range from the layouts it has to another one; `discard` forgets the contents.
+    /// Barriers that take the range from the layouts it has to another one; `discard` forgets the contents. They wait for
+    /// everything and hold up everything, unless the caller narrows them.
     enum class Contents { keep, discard };
     std::vector<vk::ImageMemoryBarrier2> transitions(const PartRange&, vk::ImageLayout, Contents) const;
     /// All layouts, to be put back when what was recorded is thrown away.
-    std::vector<vk::ImageLayout> layouts() const { return layouts_; }
+    const std::vector<vk::ImageLayout>& layouts() const { return layouts_; }
     void restore(std::vector<vk::ImageLayout> layouts) { layouts_ = std::move(layouts); }
 
 private:

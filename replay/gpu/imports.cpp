@@ -34,6 +34,7 @@ void Imports::upload(ImportId id, std::span<const std::byte> bytes) {
 void Imports::create_image(ImportId id, const Shape& shape) {
     forget(id);
     images_.try_emplace(id.key, *device_, shape, "imported image").first->second.make_zero(*device_);
+    device_->run_once([&](const vk::raii::CommandBuffer& commands) { settle(commands); });
 }
 
 void Imports::forget(ImportId id) {
@@ -46,6 +47,17 @@ std::uint64_t Imports::bytes_held() const {
     for (const auto& [key, image] : images_) total += image.bytes_held();
     for (const auto& [key, buffer] : buffers_) total += buffer.bytes_held();
     return total;
+}
+
+void Imports::settle(const vk::raii::CommandBuffer& commands) {
+    constexpr auto expected = vk::ImageLayout::eTransferSrcOptimal;
+    for (auto& [key, image] : images_) {
+        if (std::ranges::count(image.layouts(), expected) == std::ssize(image.layouts())) continue;
+        const PartRange whole = range_of(image.shape(), {});
+        const auto barriers = image.transitions(whole, expected, DeviceImage::Contents::keep);
+        commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
+        image.set_layout(whole, expected);
+    }
 }
 
 Imports::Layouts Imports::layouts() const {

@@ -24,6 +24,8 @@ public:
     DeviceBuffer& buffer(ImportId id) { return buffers_.at(id.key); }
     std::uint64_t bytes_held() const;
 
+    /// Brings every image into the layout plans expect imports in, copied_from.
+    void settle(const vk::raii::CommandBuffer&);
     /// The layouts of all images, to be put back when what was recorded is thrown away.
     using Layouts = std::map<std::uint64_t, std::vector<vk::ImageLayout>>;
     Layouts layouts() const;

@@ -1,4 +1,4 @@
-// What stands in where a shader declares an image or a buffer and the frame has none: one texel of zero, a buffer of zeros.
+// What stands in where a shader declares an image and the frame has none: one texel of zero. (A plan has no absent buffers.)
 // Every slot of a bound set is written: lavapipe 22.3.6 crashes on an unwritten sampler slot, even an unused one.
 #pragma once
 
@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "passes/graph/plan.h"
-#include "replay/gpu/buffer.h"
 #include "replay/gpu/image.h"
 
 namespace strata {
@@ -15,9 +14,8 @@ class Placeholders {
 public:
     explicit Placeholders(OpenedDevice&);
 
-    /// In the general layout, as the shader declares it. What a shader stores goes into one that nobody reads.
+    /// In the general layout, of the kind the shader declares. What a shader stores goes into one that nobody reads.
     DeviceImage& image(const PlannedBinding&);
-    DeviceBuffer& buffer(Access);
 
 private:
     struct Kind {
@@ -30,7 +28,6 @@ private:
 
     OpenedDevice* device_;
     std::map<Kind, DeviceImage> images_;
-    std::map<bool, DeviceBuffer> buffers_;  // by whether it is written
 };
 
 }  // namespace strata

@@ -1,16 +1,13 @@
 #include "replay/gpu/plan_memory.h"
 
-#include <algorithm>
-
 #include "replay/gpu/opened_device.h"
 
 namespace strata {
 
 PlanMemory::PlanMemory(OpenedDevice& device, const Plan& plan) : key_(key_of(plan)) {
-    slots_.reserve(plan.slots.size());
-    for (const MemorySlot& slot : plan.slots) {
-        const std::string name = slot.images.empty() ? std::string("buffer") : plan.images[slot.images.front()].name;
-        if (!slot.images.empty()) slots_.emplace_back(device, slot.shape, name);
+    for (std::uint32_t i = 0; i < plan.slots.size(); ++i) {
+        const MemorySlot& slot = plan.slots[i];
+        if (!slot.images.empty()) slots_.try_emplace(i, device, slot.shape, plan.images[slot.images.front()].name);
     }
     for (const std::uint32_t id : plan.used_buffers) buffers_.try_emplace(id, device, plan.buffers[id].bytes, plan.buffers[id].name);
 }
@@ -28,14 +25,14 @@ std::vector<std::uint64_t> PlanMemory::key_of(const Plan& plan) {
 
 std::uint64_t PlanMemory::bytes_held() const {
     std::uint64_t total = 0;
-    for (const DeviceImage& slot : slots_) total += slot.bytes_held();
+    for (const auto& [slot, image] : slots_) total += image.bytes_held();
     for (const auto& [id, buffer] : buffers_) total += buffer.bytes_held();
     return total;
 }
 
 DeviceImage& PlanResources::image(Image image) const {
     if (const auto& import = plan_->images[image.id].import) return imports_->image(*import);
-    return memory_->slots_[plan_->slot_of_image[image.id]];
+    return memory_->slots_.at(plan_->slot_of_image[image.id]);
 }
 
 DeviceBuffer& PlanResources::buffer(Buffer buffer) const {

@@ -23,7 +23,7 @@ private:
     static std::vector<std::uint64_t> key_of(const Plan&);
 
     std::vector<std::uint64_t> key_;
-    std::vector<DeviceImage> slots_;
+    std::map<std::uint32_t, DeviceImage> slots_;     // by slot
     std::map<std::uint32_t, DeviceBuffer> buffers_;  // by id
 };
 

@@ -37,8 +37,8 @@ Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
         place.high = glm::max(place.high, glm::dvec3(mesh.positions[i]));
         scene.vertices.push_back({
             .position = mesh.positions[i],
-            .normal = element(mesh.normals, i, glm::vec3(0, 0, 1)),
-            .tangent = element(mesh.tangents, i, glm::vec4(1, 0, 0, 1)),
+            .normal = element(mesh.normals, i, glm::vec3(0)),    // 0: the face's own
+            .tangent = element(mesh.tangents, i, glm::vec4(0)),  // 0: no normal map
             .uv0 = element(mesh.uv0, i, glm::vec2(0)),
             .uv1 = element(mesh.uv1, i, glm::vec2(0)),
             .color = element(mesh.colors, i, glm::vec4(1)),
@@ -50,8 +50,8 @@ Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
     return place;
 }
 
-/// The same triangles turned around: what a mirroring transform does to winding is undone, so that "counter-clockwise is
-/// front" holds for every command of a list.
+/// The same triangles turned around. View space is left-handed, so a transform into it that mirrors keeps a right-handed
+/// object's front counter-clockwise on screen; for one that does not mirror the winding is turned here.
 std::uint32_t add_reversed(const Place& place, SceneRecords& scene) {
     const auto first = static_cast<std::uint32_t>(scene.indices.size());
     for (std::uint32_t i = 0; i + 2 < place.index_count; i += 3)
@@ -150,7 +150,7 @@ void add_geometry(const Frame& frame, SceneRecords& scene) {
         const Draw& draw = frame.draws[i];
         const Place& place = meshes[draw.mesh];
         std::uint32_t first = place.first_index;
-        if (glm::determinant(glm::dmat3(draw.to_world)) < 0) {
+        if (glm::determinant(frame.view.to_view * glm::dmat3(draw.to_world)) > 0) {
             if (reversed[draw.mesh] == no_index) reversed[draw.mesh] = add_reversed(place, scene);
             first = reversed[draw.mesh];
         }

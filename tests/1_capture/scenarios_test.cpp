@@ -133,8 +133,7 @@ TEST(Scenarios, TrianglesTurnAroundTheirNormals) {
         for (const Mesh& mesh : build(scenario, 0, 1).meshes) {
             for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
                 const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-                const glm::vec3 normal =
-                    glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+                const glm::vec3 normal = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
                 ASSERT_GT(glm::dot(normal, mesh.normals[a] + mesh.normals[b] + mesh.normals[c]), 0) << scenario.name << mesh.name;
                 ASSERT_NEAR(glm::dot(mesh.normals[a], glm::vec3(mesh.tangents[a])), 0, 1e-5) << scenario.name << mesh.name;
             }

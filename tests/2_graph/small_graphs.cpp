@@ -45,6 +45,8 @@ ShaderLibrary made_library() {
     compute("sample.comp", {texture("source", 0), image("target", 1, Direction::out)});
     compute("change.comp", {image("target", 0, Direction::both)});
     compute("count.comp", {texture("source", 0), block("Counters", 1, Direction::both)});
+    compute("shade_and_count.comp",
+            {texture("source", 0), image("target", 1, Direction::out), block("Counters", 2, Direction::both)});
     compute("fill_list.comp", {block("List", 0, Direction::out)});
     compute("use_list.comp", {block("List", 0, Direction::in), image("target", 1, Direction::out)});
     Shader pushed = shader("pushed.comp", ShaderStage::compute, {image("target", 0, Direction::out)});

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -63,8 +62,7 @@ TEST(TransparentFragments, CoverageDimsEmissionBehindItR4) {
 }
 
 TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
-    // Transparency chapter 0.4: f = 0.8, s = 0.1 at z1; f = 0.5, s = 0.3 at z2. One exponential fog has f = 0.8 and 0.5 at
-    // z2 / z1 = ln .5 / ln .8, and s = (1 - f) color: color 0.5 at z1 gives 0.1, and 0.25 at z2, where the oracle says 0.3.
+    // The oracle of transparency chapter 0.4: f = 0.8 and s = 0.1 at the card; the black background arrives fogged as 0.3.
     Frame frame = tiny::frame(8, 8);
     frame.fog.density = static_cast<float>(-std::log(0.8) / 2);
     frame.fog.color = glm::vec3(0.5f);
@@ -103,6 +101,21 @@ TEST(TransparentFragments, BlendAndPremultipliedDifferInWhoMultiplies) {
     EXPECT_EQ(middle(lists)[1].color, glm::dvec3(1, 0.75, 0.5));
     EXPECT_EQ(middle(lists)[1].transmittance, glm::dvec3(0.5));
     EXPECT_LT(middle(lists)[0].submission, middle(lists)[1].submission);
+}
+
+TEST(TransparentFragments, MeshesAreLitByTheSunAndTheSkyWithoutShadows) {
+    Frame frame = tiny::frame(8, 8);
+    frame.sun.direction = {0, 0, 1};
+    frame.sun.irradiance = glm::vec3(3);
+    frame.hemisphere = {.sky = glm::vec3(0.4f), .ground = glm::vec3(0.4f)};
+    const double pi = std::acos(-1.0);
+    // Something opaque between the sun and the pane, which would shadow it.
+    tiny::add_quad(frame, everywhere, 0.5);
+    Material& material = tiny::material(frame, tiny::add_quad(frame, everywhere, 2, AlphaMode::blend));
+    material.lighting_model = LightingModel::lambert;
+    material.base_color = {0.5f, 1, 0, 0.25f};
+    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    EXPECT_LT(glm::length(event.color - 0.25 * glm::dvec3(0.5, 1, 0) * (3 / pi + 0.4)), 1e-7);
 }
 
 TEST(TransparentFragments, SoftParticlesFadeBeforeTheSurfaceBehind) {
@@ -183,7 +196,8 @@ TEST(TransparentFragments, TwoRunsGiveEqualBits) {
         emitter.particles.push_back(particle);
     }
     frame.emitters = {emitter};
-    const FragmentLists first = transparent_fragments(frame, tiny::no_depth(frame)), second = transparent_fragments(frame, tiny::no_depth(frame));
+    const FragmentLists first = transparent_fragments(frame, tiny::no_depth(frame)),
+                        second = transparent_fragments(frame, tiny::no_depth(frame));
     ASSERT_EQ(first.total(), second.total());
     EXPECT_GT(first.deepest(), 10u);
     for (std::uint32_t y = 0; y < 48; ++y) {

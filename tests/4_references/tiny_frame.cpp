@@ -52,7 +52,8 @@ std::uint32_t add_triangles(Frame& f, std::span<const glm::dvec3> corners, Alpha
 
 std::uint32_t add_quad(Frame& f, PixelRect r, double z, AlphaMode mode) {
     Mesh mesh;
-    mesh.positions = {under(f, r.left, r.top, z), under(f, r.right, r.top, z), under(f, r.right, r.bottom, z), under(f, r.left, r.bottom, z)};
+    mesh.positions = {under(f, r.left, r.top, z), under(f, r.right, r.top, z), under(f, r.right, r.bottom, z),
+                      under(f, r.left, r.bottom, z)};
     mesh.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh.indices = {0, 1, 2, 0, 2, 3};
     return add_mesh(f, std::move(mesh), mode);

@@ -11,12 +11,17 @@ Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {
     Frame frame;
     frame.view.width = frame.view.height = extent;
     frame.view.projection = perspective(std::numbers::pi / 2, 1, double(frame.view.near));
-    frame.meshes.push_back({.name = "square",
-                            .positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
-                            .normals = std::vector<glm::vec3>(4, glm::vec3(0, 0, -1)),
-                            .indices = {0, 1, 2, 0, 2, 3}});
+    Mesh& square = frame.meshes.emplace_back();
+    square.name = "square";
+    square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    square.normals.assign(4, glm::vec3(0, 0, -1));
+    square.indices = {0, 1, 2, 0, 2, 3};
     for (const Card& card : cards) {
-        frame.materials.push_back({.name = "card", .lighting_model = LightingModel::unlit, .alpha_mode = AlphaMode::blend, .base_color = card.color});
+        Material& material = frame.materials.emplace_back();
+        material.name = "card";
+        material.lighting_model = LightingModel::unlit;
+        material.alpha_mode = AlphaMode::blend;
+        material.base_color = card.color;
         glm::dmat4 to_world = glm::translate(glm::dmat4(1), card.center);
         to_world = glm::rotate(to_world, card.tilt, glm::dvec3(0, 1, 0));
         to_world = glm::scale(to_world, glm::dvec3(double(card.half)));

@@ -1,8 +1,8 @@
 // Facts of frustum culling: a view of 90 degrees each way has the sides x = +-z and y = +-z, at z = .1 the near plane.
 #include <cmath>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/technique.h"
 
@@ -95,7 +95,8 @@ TEST(frustum_culling, texels_stand_for_opaque_draws_alone) {
 TEST(frustum_culling, commands_keep_their_number_and_stand_in_a_buffer_of_their_own) {
     Graph graph;
     FrameImages images;
-    images.all_opaque = {.commands = graph.create("commands", 100), .indices = graph.create("indices", 12), .first = 3, .count = 2};
+    images.all_opaque = {
+        .commands = graph.create("commands", 100), .indices = graph.create("indices", 12), .first = 3, .count = 2};
     const Technique technique = frustum();
     technique.add(graph, images, Settings(technique.params));
     EXPECT_NE(images.opaque.commands.id, images.all_opaque.commands.id);

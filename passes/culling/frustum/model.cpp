@@ -40,7 +40,8 @@ ImageSet frustum_model(const StageInput& input, const Settings&) {
         const double size = 1 + glm::length(sphere.center) + sphere.radius;
         const double radius = sphere.radius + double(frustum_slack) * size;
         double depth = 1e300;  // how far the sphere reaches over the plane it reaches over least
-        for (const Plane& plane : planes) depth = std::min(depth, glm::dot(plane.normal, sphere.center) + plane.distance + radius);
+        for (const Plane& plane : planes)
+            depth = std::min(depth, glm::dot(plane.normal, sphere.center) + plane.distance + radius);
         visible.texels[i] = glm::dvec4(depth >= 0 ? 1 : 0, 0, 0, 1);
         // Device arithmetic on these sums is good to a few 2^-23 of their size.
         visible.undecided[i] = std::abs(depth) < 4e-6 * size;

@@ -10,8 +10,8 @@ namespace {
 
 void add(Graph& graph, FrameImages& frame, const Settings&) {
     frame.opaque = frame.all_opaque;
-    frame.visible = graph.create(
-        "visible", {.extent = {visible_width, visible_rows(frame.all_opaque.count)}, .format = Format::r32ui});
+    frame.visible =
+        graph.create("visible", {.extent = {visible_width, visible_rows(frame.all_opaque.count)}, .format = Format::r32ui});
     graph.clear(frame.visible, {{1, 1, 1, 1}});
 }
 

@@ -10,7 +10,8 @@ Technique none();
 TEST(no_culling, draws_what_the_frame_holds_and_copies_nothing) {
     Graph graph;
     FrameImages images;
-    images.all_opaque = {.commands = graph.create("commands", 40), .indices = graph.create("indices", 12), .first = 3, .count = 2};
+    images.all_opaque = {
+        .commands = graph.create("commands", 40), .indices = graph.create("indices", 12), .first = 3, .count = 2};
     const Technique technique = none();
     technique.add(graph, images, Settings(technique.params));
     EXPECT_EQ(images.opaque.commands, images.all_opaque.commands);

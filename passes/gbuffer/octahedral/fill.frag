@@ -4,7 +4,9 @@
 #include "passes/gbuffer/fill.glsl"
 #include "passes/gbuffer/octahedral/octahedral.shared.h"
 
-float octahedral_code(float p) { return half_of_code(uint(floor(clamp(p, -1.0, 1.0) * octahedral_center + 0.5) + octahedral_center)); }
+float octahedral_code(float p) {
+    return half_of_code(uint(floor(clamp(p, -1.0, 1.0) * octahedral_center + 0.5) + octahedral_center));
+}
 
 vec2 pack_normal(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

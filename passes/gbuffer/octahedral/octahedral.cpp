@@ -13,18 +13,20 @@ void add(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, fr
 }  // namespace
 
 Technique octahedral() {
-    return {.stage = Stage::gbuffer,
-            .name = "gbuffer/octahedral",
-            .title = "Octahedral codes, 96 bits",
-            .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
-            .summary = "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
-                       "no channel can be filtered or blended.",
-            .add = add,
-            .model = octahedral_model,
-            .tolerance = {.rmse = 2e-3,
-                          .worst = 0.04,
-                          .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is 0.0087 "
-                                     "linear, 1/59 of metallic 0.017; emission is rounded to half floats (5e-4 to 1e-3)"}};
+    return {
+        .stage = Stage::gbuffer,
+        .name = "gbuffer/octahedral",
+        .title = "Octahedral codes, 96 bits",
+        .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
+        .summary =
+            "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
+            "no channel can be filtered or blended.",
+        .add = add,
+        .model = octahedral_model,
+        .tolerance = {.rmse = 2e-3,
+                      .worst = 0.04,
+                      .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is 0.0087 "
+                                 "linear, 1/59 of metallic 0.017; emission is rounded to half floats (5e-4 to 1e-3)"}};
 }
 
 }  // namespace strata::gbuffer

@@ -22,8 +22,9 @@ Technique packed() {
             .model = packed_model,
             .tolerance = {.rmse = 3e-3,
                           .worst = 0.08,
-                          .because = "a float on a rounding boundary takes the neighbouring half: where z of the normal goes to 0 that "
-                                     "is up to 0.044 of it (sqrt(2 * 2^-10)); colors as in 8 bits sRGB, 0.0087 linear"}};
+                          .because =
+                              "a float on a rounding boundary takes the neighbouring half: where z of the normal goes to 0 that "
+                              "is up to 0.044 of it (sqrt(2 * 2^-10)); colors as in 8 bits sRGB, 0.0087 linear"}};
 }
 
 }  // namespace strata::gbuffer

@@ -62,7 +62,8 @@ TEST(PackedGBuffer, AClearedTexelWouldLookLikeANormal) {
 TEST(PackedGBuffer, NormalsOfAnyDirectionAreOffByTheMeanOfTheTable) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> gauss;
-    const Errors errors = errors_of(1000000, [&] { return glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random))); });
+    const Errors errors =
+        errors_of(1000000, [&] { return glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random))); });
     EXPECT_NEAR(errors.mean, 0.0473, 0.05 * 0.0473);
 }
 
@@ -81,9 +82,9 @@ TEST(PackedGBuffer, DepthStepsAreThoseOfHalfFloats) {
     struct Row {
         double z, step;
     };
-    for (const Row row : {Row{0.1, 6.1e-5}, Row{0.3, 2.44e-4}, Row{1, 9.77e-4}, Row{2, 1.95e-3}, Row{5, 3.91e-3}, Row{10, 7.81e-3},
-                          Row{20, .015625}, Row{50, .03125}, Row{100, .0625}, Row{200, .125}, Row{500, .25}, Row{1000, .5}, Row{2000, 1},
-                          Row{5000, 4}}) {
+    for (const Row row : {Row{0.1, 6.1e-5}, Row{0.3, 2.44e-4}, Row{1, 9.77e-4}, Row{2, 1.95e-3}, Row{5, 3.91e-3},
+                          Row{10, 7.81e-3}, Row{20, .015625}, Row{50, .03125}, Row{100, .0625}, Row{200, .125}, Row{500, .25},
+                          Row{1000, .5}, Row{2000, 1}, Row{5000, 4}}) {
         const double stored = packed_depth(row.z, 0.01);
         const double next = half_value(static_cast<std::uint16_t>(half_bits(stored) + 1));
         EXPECT_NEAR((next - stored) / row.step, 1, 0.01) << row.z << " m";

@@ -27,22 +27,25 @@ void add(Graph& graph, FrameImages& frame, const Settings&) {
 }  // namespace
 
 Technique brute_force() {
-    return {.stage = Stage::lighting,
-            .name = "lighting/brute_force",
-            .title = "Every light on every sample",
-            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
-            .summary = "Loops over all lights for each sample; exact up to half floats, and its time grows with the lights that miss.",
-            .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
-                         counter<&BruteForceCounters::samples_shaded>(
-                             {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
-            .counter_bytes = sizeof(BruteForceCounters),
-            .cannot = {Feature::area_lights, Feature::projected_textures, Feature::blockers, Feature::portals, Feature::clip_planes},
-            .add = add,
-            .model = brute_force_model,
-            .tolerance = {.rmse = 1e-3,
-                          .worst = 4e-3,
-                          .because = "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
-                                     "of alpha 0.002 by 1e-4 of its width"}};
+    return {
+        .stage = Stage::lighting,
+        .name = "lighting/brute_force",
+        .title = "Every light on every sample",
+        .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
+        .summary =
+            "Loops over all lights for each sample; exact up to half floats, and its time grows with the lights that miss.",
+        .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
+                     counter<&BruteForceCounters::samples_shaded>(
+                         {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
+        .counter_bytes = sizeof(BruteForceCounters),
+        .cannot = {Feature::area_lights, Feature::projected_textures, Feature::blockers, Feature::portals, Feature::clip_planes},
+        .add = add,
+        .model = brute_force_model,
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 4e-3,
+                      .because =
+                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
+                          "of alpha 0.002 by 1e-4 of its width"}};
 }
 
 }  // namespace strata::lighting

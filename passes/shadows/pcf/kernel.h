@@ -12,15 +12,15 @@ namespace strata::shadows {
 /// Where a map is looked up.
 struct Lookup {
     std::uint32_t layer = 0;
-    std::uint32_t size = 0;   ///< texels per edge, in the layer's upper left corner
-    glm::dvec2 u{0};          ///< texel units, centers at +.5
-    double depth = 0;         ///< of the biased receiver: lit where it is at least the map's
-    double doubt = 0;         ///< how far float arithmetic may have moved the depth
+    std::uint32_t size = 0;  ///< texels per edge, in the layer's upper left corner
+    glm::dvec2 u{0};         ///< texel units, centers at +.5
+    double depth = 0;        ///< of the biased receiver: lit where it is at least the map's
+    double doubt = 0;        ///< how far float arithmetic may have moved the depth
 };
 
 struct Filtered {
-    double lit = 1;           ///< share of the kernel's weight
-    bool undecided = false;   ///< a texel with weight is within `doubt` of the receiver
+    double lit = 1;          ///< share of the kernel's weight
+    bool undecided = false;  ///< a texel with weight is within `doubt` of the receiver
 };
 
 /// taps x taps texels with the weights of (taps - 1)^2 bilinear taps, fractions cut to 1/256. Outside the map is lit.

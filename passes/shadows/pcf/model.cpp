@@ -49,9 +49,10 @@ Filtered filtered(const Scene& scene, std::uint32_t slot, const Receiver& receiv
     const double reach = double(scene.taps);
     if (std::min(u.x, u.y) < -reach || std::max(u.x, u.y) > view.size + reach) return {};
     const double distance = std::isinf(to.distance) ? 0 : to.distance;
-    return filter_map(scene.maps,
-                      {.layer = slot, .size = view.size, .u = u, .depth = at.z / at.w, .doubt = doubt(view, receiver, at, distance)},
-                      scene.taps);
+    return filter_map(
+        scene.maps,
+        {.layer = slot, .size = view.size, .u = u, .depth = at.z / at.w, .doubt = doubt(view, receiver, at, distance)},
+        scene.taps);
 }
 
 // Slots of one light: the first cascade that reaches the receiver's depth, blended over its last tenth into the next.

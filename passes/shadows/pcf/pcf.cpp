@@ -20,9 +20,9 @@ void draw_maps(Graph& graph, FrameImages& frame, const Settings&) {
     if (views.empty()) return;
     std::uint32_t largest = 0;
     for (const ShadowView& view : views) largest = std::max(largest, view.size);
-    frame.shadow_maps = graph.create("shadow_maps", {.extent = {largest, largest},
-                                                     .format = Format::d32f,
-                                                     .layers = static_cast<std::uint32_t>(views.size())});
+    frame.shadow_maps =
+        graph.create("shadow_maps",
+                     {.extent = {largest, largest}, .format = Format::d32f, .layers = static_cast<std::uint32_t>(views.size())});
     graph.clear(frame.shadow_maps, {});
     for (std::uint32_t slot = 0; slot < views.size(); ++slot) {
         graph.draw("shadows/pcf/cast", frame.casters)
@@ -36,8 +36,8 @@ void filter_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.shadow_maps) return;
     const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(shadow_views(*frame.recorded)).size());
     const auto params = settings.as<PcfParams>();
-    frame.visibility = graph.create(
-        "visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
+    frame.visibility =
+        graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     graph.compute("shadows/pcf/filter.comp")
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
@@ -58,10 +58,12 @@ Technique pcf() {
     return {.stage = Stage::shadows,
             .name = "shadows/pcf",
             .title = "Percentage-closer filtering",
-            .source = "Reeves, Salesin, Cook: Rendering Antialiased Shadows with Depth Maps, SIGGRAPH 1987; "
-                      "kernels of Lobanchikov and Gruen: Clear Sky, GDC 2009",
-            .summary = "Averages depth comparisons over N x N texels; penumbrae have one width everywhere, and thin gaps between "
-                       "caster and receiver leak by the bias.",
+            .source =
+                "Reeves, Salesin, Cook: Rendering Antialiased Shadows with Depth Maps, SIGGRAPH 1987; "
+                "kernels of Lobanchikov and Gruen: Clear Sky, GDC 2009",
+            .summary =
+                "Averages depth comparisons over N x N texels; penumbrae have one width everywhere, and thin gaps between "
+                "caster and receiver leak by the bias.",
             .params = {param<&PcfParams::kernel>({.name = "kernel",
                                                   .low = 0,
                                                   .high = 2,

@@ -23,12 +23,16 @@ Technique alpha_blend() {
         .name = "transparency/alpha_blend",
         .title = "Object-sorted alpha blending",
         .source = "Porter and Duff 1984, SIGGRAPH; painter's order by object",
-        .summary = "One blended draw, objects far to near: cheapest; wrong where objects interpenetrate, contain or overlap themselves.",
-        .counters = {counter<&AlphaBlendCounters::fragments>({.name = "fragments", .help = "visible transparent fragments blended"})},
+        .summary =
+            "One blended draw, objects far to near: cheapest; wrong where objects interpenetrate, contain or overlap themselves.",
+        .counters = {counter<&AlphaBlendCounters::fragments>(
+            {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),
         .add = add,
         .model = alpha_blend_model,
-        .tolerance = {.rmse = 1e-3, .worst = 2e-2, .because = "lit, filtered and blended in float; highlights of small roughness amplify it"},
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 2e-2,
+                      .because = "lit, filtered and blended in float; highlights of small roughness amplify it"},
     };
 }
 

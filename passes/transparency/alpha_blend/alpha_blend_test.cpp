@@ -50,7 +50,7 @@ TEST(ObjectOrder, KeepsTheOrderOfSubmissionAtEqualDepth) {
 TEST(ObjectOrder, SortsEmittersAmongTheDrawsAndLeavesOutEmptyOnes) {
     const std::array cards{Card{.center = {0, 0, 2}}, Card{.center = {0, 0, 6}}};
     Frame frame = frame_of_cards(cards, 8);
-    frame.emitters.push_back({.name = "empty"});
+    frame.emitters.emplace_back();
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, 3}}, {.center = {0, 0, 5}}}});
     EXPECT_THAT(back_to_front_draws(frame), ElementsAre(1, 3, 0));
 }
@@ -64,8 +64,10 @@ TEST(ObjectOrder, LeavesOutOpaqueDraws) {
 
 TEST(ObjectOrder, SortsParticlesByCenterMinusDepthOffset) {
     Frame frame = frame_of_cards({}, 8);
-    frame.emitters.push_back({.name = "smoke",
-                              .particles = {{.center = {0, 0, 3}}, {.center = {0, 0, 5}, .depth_offset = 2.5f}, {.center = {0, 0, 4}}, {.center = {9, 0, 3}}}});
+    frame.emitters.push_back(
+        {.name = "smoke",
+         .particles = {
+             {.center = {0, 0, 3}}, {.center = {0, 0, 5}, .depth_offset = 2.5f}, {.center = {0, 0, 4}}, {.center = {9, 0, 3}}}});
     EXPECT_THAT(back_to_front_particles(frame, frame.emitters[0]), ElementsAre(2, 0, 3, 1));
 }
 

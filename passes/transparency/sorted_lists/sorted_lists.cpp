@@ -116,20 +116,31 @@ Technique sorted_lists() {
         .name = "transparency/sorted_lists",
         .title = "Sorted lists",
         .source = "Yang, Hensley, Gruen and Thibieroz 2010, EGSR; Carpenter 1984 (A-buffer)",
-        .summary = "Stores every fragment, sorts and composites: exact; memory and time grow with depth complexity without limit.",
+        .summary =
+            "Stores every fragment, sorts and composites: exact; memory and time grow with depth complexity without limit.",
         .params = {param<&SortedListsParams::pool>(
-            {.name = "pool", .low = 0.01, .high = 64, .fallback = 2,
+            {.name = "pool",
+             .low = 0.01,
+             .high = 64,
+             .fallback = 2,
              .help = "million fragments kept at a time (52 bytes each); a frame that can have more is done in bands of rows",
              .scale = Scale::logarithmic})},
-        .counters = {counter<&SortedListsCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
+        .counters = {counter<&SortedListsCounters::fragments>(
+                         {.name = "fragments", .help = "visible transparent fragments stored"}),
                      counter<&SortedListsCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
                      counter<&SortedListsCounters::dropped>({.name = "dropped", .help = "fragments without room: always 0"})},
         .counter_bytes = sizeof(SortedListsCounters),
-        .views = {{.name = "layers", .help = "covered fragments per pixel, the deepest sample's", .unit = "fragments", .low = 0, .high = 32,
+        .views = {{.name = "layers",
+                   .help = "covered fragments per pixel, the deepest sample's",
+                   .unit = "fragments",
+                   .low = 0,
+                   .high = 32,
                    .add = sorted_lists_layers_view}},
         .add = add,
         .model = sorted_lists_model,
-        .tolerance = {.rmse = 1e-3, .worst = 2e-2, .because = "lit, filtered and composited in float; highlights of small roughness amplify it"},
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 2e-2,
+                      .because = "lit, filtered and composited in float; highlights of small roughness amplify it"},
     };
 }
 

@@ -7,16 +7,16 @@ namespace strata::transparency {
 #endif
 
 struct SortedListsParams {
-    float pool;      // million fragments kept at a time
+    float pool;  // million fragments kept at a time
 };
 
 // Rows of the frame whose lists are made together: push constants of every step. A cell is a sample of a pixel of the band.
 struct Band {
     uint first_row;
     uint rows;
-    uint width;      // pixels
+    uint width;  // pixels
     uint samples;
-    uint pool;       // nodes there are
+    uint pool;  // nodes there are
 };
 
 // A fragment's place in the order, sorted in place; 16 bytes. Later submission is nearer at equal z.
@@ -24,7 +24,7 @@ struct ListKey {
     float z;
     uint draw;
     uint primitive;
-    uint event;      // index into events
+    uint event;  // index into events
 };
 
 struct ListEvent {

@@ -62,7 +62,8 @@ TEST(SortedBlending, GivesTheSameBitsInAnyOrderOfSubmission) {
 }
 
 TEST(SortedBlending, MultipliesTheColorsOfGlass) {
-    Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1}, green{.depth = 2, .transmittance = {.2, 1, .2}, .alpha = 1};
+    Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1},
+        green{.depth = 2, .transmittance = {.2, 1, .2}, .alpha = 1};
     const glm::dvec3 seen = transparency::sorted_blend(std::array{red, green}, glm::dvec3(1));
     EXPECT_NEAR(seen.x, .2, 1e-15);
     EXPECT_NEAR(seen.y, .2, 1e-15);
@@ -139,7 +140,9 @@ TEST(RowBounds, AreNeverBelowWhatIsCovered) {
                          .tilt = 1.5 * std::sin(11 * t)});
     }
     Frame frame = frame_of_cards(cards, 32);
-    frame.emitters.push_back({.name = "smoke", .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
+    frame.emitters.push_back(
+        {.name = "smoke",
+         .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
     const FragmentLists lists = transparent_fragments(frame, ReferenceImage(32, 32));
     const std::vector<std::uint64_t> bounds = transparent_row_bounds(frame, {32, 32, 1});
     std::uint64_t bound = 0;

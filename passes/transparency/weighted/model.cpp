@@ -22,13 +22,19 @@ double weight_in_double(const WeightedParams& params, double near, const Fragmen
     const double ninth = bounded(.03 / (1e-5 + std::pow(z / 200, 4)));
     const glm::dvec3 p = f.color + f.emission;
     switch (params.weight) {
-        case weight_w7: return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 5, 2) + from_200));
-        case weight_w8: return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 10, 3) + from_200));
-        case weight_w9: return coverage(f) * ninth;
+        case weight_w7:
+            return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 5, 2) + from_200));
+        case weight_w8:
+            return coverage(f) * bounded(10 / (1e-5 + std::pow(z / 10, 3) + from_200));
+        case weight_w9:
+            return coverage(f) * ninth;
         // D = (zn zf / z - zf) / (zn - zf) with the far plane at infinity: 1 - D = zn / z.
-        case weight_w10: return coverage(f) * bounded(3e3 * std::pow(near / f.depth, 3));
-        case weight_blog: return std::max(std::min(1., std::max({p.x, p.y, p.z})), coverage(f)) * ninth;
-        default: return 1;
+        case weight_w10:
+            return coverage(f) * bounded(3e3 * std::pow(near / f.depth, 3));
+        case weight_blog:
+            return std::max(std::min(1., std::max({p.x, p.y, p.z})), coverage(f)) * ninth;
+        default:
+            return 1;
     }
 }
 

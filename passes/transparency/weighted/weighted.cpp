@@ -45,19 +45,31 @@ Technique weighted() {
         .name = "transparency/weighted",
         .title = "Weighted blended",
         .source = "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D",
-        .summary = "Averages all fragments with weights falling with depth: one pass, fixed memory; near-opaque layers show what is behind.",
-        .params = {param<&WeightedParams::weight>({.name = "weight", .low = 0, .high = 5, .fallback = weight_w7,
-                                                   .help = "equation of the weight", .choices = weights}),
-                   param<&WeightedParams::scale>({.name = "scale", .low = 0.01, .high = 100, .fallback = 1,
+        .summary =
+            "Averages all fragments with weights falling with depth: one pass, fixed memory; near-opaque layers show what is "
+            "behind.",
+        .params = {param<&WeightedParams::weight>({.name = "weight",
+                                                   .low = 0,
+                                                   .high = 5,
+                                                   .fallback = weight_w7,
+                                                   .help = "equation of the weight",
+                                                   .choices = weights}),
+                   param<&WeightedParams::scale>({.name = "scale",
+                                                  .low = 0.01,
+                                                  .high = 100,
+                                                  .fallback = 1,
                                                   .help = "multiplies view depth: the weights were made for 0.1 to 500 units",
                                                   .scale = Scale::logarithmic})},
-        .counters = {counter<&WeightedCounters::fragments>({.name = "fragments", .help = "visible transparent fragments blended"})},
+        .counters = {counter<&WeightedCounters::fragments>(
+            {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(WeightedCounters),
         .cannot = {Feature::additive},
         .add = add,
         .model = weighted_model,
-        .tolerance = {.rmse = 1e-2, .worst = 8e-2,
-                      .because = "sums and products are rounded to half floats at every blend: 200 layers of .01 reveal .1406, not .1340"},
+        .tolerance =
+            {.rmse = 1e-2,
+             .worst = 8e-2,
+             .because = "sums and products are rounded to half floats at every blend: 200 layers of .01 reveal .1406, not .1340"},
     };
 }
 

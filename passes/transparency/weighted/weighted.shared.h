@@ -16,7 +16,7 @@ const uint weight_constant = 5u;
 
 struct WeightedParams {
     uint weight;
-    float scale;     // multiplies view depth in metres: the weights were made for 0.1 to 500 units
+    float scale;  // multiplies view depth in metres: the weights were made for 0.1 to 500 units
 };
 
 struct WeightedCounters {

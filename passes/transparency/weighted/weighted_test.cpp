@@ -30,9 +30,9 @@ TEST(WeightedBlending, HasTheWeightsOfThePaper) {
     struct Row {
         double depth, w7, w8, w9;
     };
-    const Row rows[] = {{.1, 3000, 3000, 3000},        {1, 249.938, 3000, 2999.81}, {5, 9.9999, 79.9936, 2887.22},
-                        {10, 2.49999, 9.9999, 1846.15}, {50, .1, .08, 7.66039},      {100, .025, .01, .479923},
-                        {200, .01, .01, .03}};
+    const Row rows[] = {
+        {.1, 3000, 3000, 3000}, {1, 249.938, 3000, 2999.81}, {5, 9.9999, 79.9936, 2887.22}, {10, 2.49999, 9.9999, 1846.15},
+        {50, .1, .08, 7.66039}, {100, .025, .01, .479923},   {200, .01, .01, .03}};
     for (const Row& row : rows) {
         EXPECT_NEAR(share_of_alpha(weight_w7, row.depth), row.w7, row.w7 * 3e-3) << row.depth;
         EXPECT_NEAR(share_of_alpha(weight_w8, row.depth), row.w8, row.w8 * 3e-3) << row.depth;
@@ -67,7 +67,8 @@ TEST(WeightedBlending, IsExactForOneColorWhateverTheWeights) {
 
 TEST(WeightedBlending, IsExactForASingleLayer) {
     for (const std::uint32_t weight : all_weights)
-        for (const double depth : {.2, 3., 40.}) EXPECT_NEAR(blend(weight, std::array{layer(depth, .4, 1)}, .5), .4 + .6 * .5, 1e-12);
+        for (const double depth : {.2, 3., 40.})
+            EXPECT_NEAR(blend(weight, std::array{layer(depth, .4, 1)}, .5), .4 + .6 * .5, 1e-12);
 }
 
 TEST(WeightedBlending, AveragesTwoLayersAtOneDepth) {
@@ -95,7 +96,7 @@ TEST(WeightedBlending, BlendsTheMicroExampleOfTheChapter) {
 }
 
 TEST(WeightedBlending, ShowsWhatIsBehindANearlyOpaqueLayer) {
-    // The front card covers everything, and a tenth of what is seen is still the card behind it.
+    // The front card covers everything, and a fifth of what is seen is still the card behind it.
     const std::array fragments{layer(5, 1, 0), layer(10, 1, 1)};
     EXPECT_EQ(exact_blend(fragments, glm::dvec3(0)).x, 0);
     EXPECT_NEAR(blend(weight_w7, fragments, 0), 2.49999 / (9.9999 + 2.49999), 1e-4);
@@ -107,16 +108,18 @@ TEST(WeightedBlending, LosesEmissionWithoutCoverage) {
 }
 
 TEST(WeightedBlending, LetsColoredGlassTintTheBackgroundExactly) {
-    const Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1}, green{.depth = 2, .transmittance = {.2, 1, .2}, .alpha = 1};
+    const Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1},
+        green{.depth = 2, .transmittance = {.2, 1, .2}, .alpha = 1};
     const glm::dvec3 seen = weighted_blend(std::array{red, green}, glm::dvec3(1), {.weight = weight_w7, .scale = 1}, near_plane);
     EXPECT_NEAR(seen.x, .2, 1e-12);
     EXPECT_NEAR(seen.z, .04, 1e-12);
 }
 
 TEST(WeightedBlending, SaturatesItsSumsWhereHalfFloatsEnd) {
-    // 21 layers of weight 3000 fit a half float; of 100 such layers the average is still finite, but too dark by the ratio of sums.
-    const std::vector<Fragment> wall(100, layer(.05, 1, 1));
+    // 21 layers of weight 3000 fit. Of 100 layers with radiance 2 both sums end at 65504, and their ratio is 1 instead of 2.
+    const std::vector<Fragment> wall(100, layer(.05, 1, 2));
     EXPECT_DOUBLE_EQ(blend(weight_w7, wall, 0), 1);
+    EXPECT_DOUBLE_EQ(blend(weight_w7, std::vector<Fragment>(10, layer(.05, 1, 2)), 0), 2);
 }
 
 TEST(WeightedBlending, LeavesThePixelAloneWithoutFragments) { EXPECT_EQ(blend(weight_w7, {}, .123), .123); }

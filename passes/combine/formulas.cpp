@@ -1,0 +1,62 @@
+#include "passes/combine/formulas.h"
+
+#include <algorithm>
+
+namespace strata::combine {
+namespace {
+
+/// The texel of an image, or `missing` where the frame has no such image.
+glm::dvec4 texel(const StageInput& input, std::string_view name, const ComposedSample& at, glm::dvec4 missing) {
+    const auto found = input.before.find(name);
+    return found == input.before.end() ? missing : found->second.at(at.x, at.y, at.sample);
+}
+
+SurfacePoint surface(const StageInput& input, const ComposedSample& at) {
+    const glm::dvec4 normal = texel(input, "surface_normal", at, {}), color = texel(input, "surface_color", at, {});
+    const glm::dvec4 material = texel(input, "surface_material", at, {});
+    SurfacePoint p;
+    p.position = pixel_ray(input.frame, at.x + 0.5, at.y + 0.5) * normal.w;
+    p.normal = glm::dvec3(normal);
+    p.base_color = glm::dvec3(color);
+    p.roughness = color.w;
+    p.model = static_cast<LightingModel>(static_cast<std::uint32_t>(material.x));
+    p.metallic = material.y;
+    p.occlusion = material.z;
+    return p;
+}
+
+/// Diffuse light that comes from everywhere, after the material's and the screen's occlusion (deferred 8.3: both multiply).
+glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const SurfacePoint& p) {
+    if (p.model == LightingModel::unlit) return glm::dvec3(0);
+    const glm::dvec3 indirect(texel(input, "indirect", at, glm::dvec4(0)));
+    const double visible = texel(input, "occlusion", at, glm::dvec4(1)).x;
+    return visible * (hemisphere_light(input.frame, p) + p.base_color * (1 - p.metallic) * p.occlusion * indirect);
+}
+
+}  // namespace
+
+glm::dvec3 composed(const StageInput& input, const ComposedSample& at) {
+    const glm::dvec4 emission = texel(input, "emission", at, glm::dvec4(0));
+    if (emission.w == 0) return input.frame.background;
+    const SurfacePoint p = surface(input, at);
+    const glm::dvec3 light(texel(input, "light", {at.x, at.y, at.light_sample, at.light_sample}, glm::dvec4(0)));
+    const FogAt fog = fog_at(input.frame, p.position.z);
+    return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added;
+}
+
+double tone_mapped(double exposed, double white) {
+    const double x = std::clamp(exposed, 0.0, white);
+    return x * (1 + x / (white * white)) / (1 + x);
+}
+
+glm::dvec3 developed(const Frame& frame, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+    glm::dvec3 sum(0);
+    for (std::uint32_t sample = 0; sample < color.layers; ++sample)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += tone_mapped(color.at(x, y, sample)[c] * double(frame.view.exposure), double(frame.film.white));
+    return sum / double(color.layers);
+}
+
+bool is_drawn_over(const Frame& frame) { return !transparent_draws(frame).empty(); }
+
+}  // namespace strata::combine

@@ -1,0 +1,26 @@
+// Combining and developing a picture in double, from deferred chapter 8: what truth and models compute with.
+#pragma once
+
+#include "passes/reference/shade.h"
+#include "passes/stages.h"
+
+namespace strata::combine {
+
+/// Radiance of one sample towards the eye: emission, reflected light, light from all around, fog. light_sample: whose light it
+/// takes (its own, or the first sample's where one stands for all). Images that are not there count as no light, no
+/// occlusion, no surface.
+struct ComposedSample {
+    std::uint32_t x = 0, y = 0, sample = 0, light_sample = 0;
+};
+glm::dvec3 composed(const StageInput&, const ComposedSample&);
+
+/// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
+double tone_mapped(double exposed, double white);
+
+/// Display light of a pixel: its samples exposed and tone mapped, then averaged (deferred 3.5).
+glm::dvec3 developed(const Frame&, const ReferenceImage& color, std::uint32_t x, std::uint32_t y);
+
+/// Whether something is drawn over the combined color before it is developed.
+bool is_drawn_over(const Frame&);
+
+}  // namespace strata::combine

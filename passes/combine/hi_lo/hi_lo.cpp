@@ -1,0 +1,55 @@
+// Combine and develop: linear color per sample at `combine`, display light at `film`, after everything was drawn over it.
+#include "passes/technique.h"
+
+namespace strata::combine {
+
+ImageSet hi_lo_model(const StageInput&, const Settings&);
+
+namespace {
+
+void add_color(Graph& graph, FrameImages& frame, const Settings&) {
+    frame.color = graph.create("color", {.extent = frame.extent, .format = Format::rgba32f, .layers = frame.samples});
+    graph.compute("combine/hi_lo/combine.comp")
+        .samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
+        .samples("emission", frame.emission)
+        .samples("light", frame.light)
+        .samples("occlusion", frame.occlusion)
+        .samples("indirect", frame.indirect)
+        .samples("edges", frame.edges)
+        .stores("color", frame.color)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
+        .fixes("has_surfaces", frame.emission ? 1u : 0u)
+        .fixes("has_light", frame.light ? 1u : 0u)
+        .fixes("has_occlusion", frame.occlusion ? 1u : 0u)
+        .fixes("has_indirect", frame.indirect ? 1u : 0u)
+        .fixes("has_edges", frame.edges ? 1u : 0u)
+        .over({frame.extent.width, frame.extent.height, frame.samples});
+}
+
+void add_display(Graph& graph, FrameImages& frame, const Settings&) {
+    frame.display = graph.create("display", {.extent = frame.extent, .format = Format::rgba16f});
+    graph.compute("combine/hi_lo/film.comp").samples("color", frame.color).stores("display", frame.display).over(frame.extent);
+}
+
+}  // namespace
+
+Technique hi_lo() {
+    return {.stage = Stage::combine,
+            .name = "combine/hi_lo",
+            .title = "Hemisphere light, fog, tone curve per sample",
+            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009",
+            .summary =
+                "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
+                "that bright saturated colors turn white.",
+            .add = add_color,
+            .also = {{.at = Stage::film, .add = add_display}},
+            .model = hi_lo_model,
+            .tolerance = {
+                .rmse = 1e-3,
+                .worst = 2e-3,
+                .because = "display light is stored as half floats of undefined rounding, 2^-10 of itself; color is float"}};
+}
+
+}  // namespace strata::combine

@@ -1,0 +1,144 @@
+// Facts of combining and developing, on the model: the tone curve of deferred 8.1, the hemisphere of 8.3, fog.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "passes/combine/formulas.h"
+#include "passes/technique.h"
+
+namespace strata::combine {
+
+ImageSet hi_lo_model(const StageInput&, const Settings&);
+
+namespace {
+
+constexpr double depth = 2;
+
+Frame one_pixel(std::uint32_t samples) {
+    Frame frame;
+    frame.view.width = frame.view.height = 1;
+    frame.view.samples = samples;
+    frame.view.projection = perspective(1, 1, 0.1);
+    return frame;
+}
+
+/// A white Lambert surface two metres before the eye.
+ImageSet white_surface(const glm::dvec3& normal) {
+    return {{"surface_normal", ReferenceImage(1, 1, 1, {normal, depth})},
+            {"surface_color", ReferenceImage(1, 1, 1, {1, 1, 1, 1})},
+            {"surface_material", ReferenceImage(1, 1, 1, {double(LightingModel::lambert), 0, 1, 0})},
+            {"emission", ReferenceImage(1, 1, 1, {0, 0, 0, 1})},
+            {"color", ReferenceImage(1, 1, 1)}};
+}
+
+glm::dvec3 color_of(const Frame& frame, const ImageSet& before) {
+    return glm::dvec3(hi_lo_model({frame, before}, {}).at("color").at(0, 0));
+}
+
+double display_of(const Frame& frame, const ReferenceImage& color) {
+    ImageSet before = white_surface({0, 0, -1});
+    for (const std::string_view name : {"surface_normal", "surface_color", "surface_material", "emission"})
+        before.find(name)->second = ReferenceImage(1, 1, color.layers);
+    before["color"] = color;
+    return hi_lo_model({frame, before}, {}).at("display").at(0, 0).x;
+}
+
+TEST(HiLoCombine, ToneCurveHasTheValuesOfTheChapter) {
+    const Frame frame = one_pixel(1);
+    for (const glm::dvec2 row : {glm::dvec2(0, 0), glm::dvec2(.18, .162043), glm::dvec2(.5, .391003), glm::dvec2(1, .673010),
+                                 glm::dvec2(1.7, 1), glm::dvec2(2, 1), glm::dvec2(1e30, 1), glm::dvec2(-1, 0)})
+        EXPECT_NEAR(display_of(frame, ReferenceImage(1, 1, 1, glm::dvec4(row.x))), row.y, 1e-6) << "radiance " << row.x;
+}
+
+TEST(HiLoCombine, ExposureScalesBeforeTheToneCurve) {
+    Frame frame = one_pixel(1);
+    frame.view.exposure = 2;
+    EXPECT_NEAR(display_of(frame, ReferenceImage(1, 1, 1, glm::dvec4(.25))), .391003, 1e-6);
+}
+
+TEST(HiLoCombine, SamplesAreToneMappedBeforeTheyAreAveraged) {
+    const Frame frame = one_pixel(4);
+    ReferenceImage color(1, 1, 4, glm::dvec4(.1));
+    color.at(0, 0, 3) = glm::dvec4(100);
+    EXPECT_NEAR(display_of(frame, color), .320541, 1e-6) << "the other order gives 1";
+}
+
+TEST(HiLoCombine, HemisphereIsFullAboveHalfAtTheHorizonAndNothingBelow) {
+    Frame frame = one_pixel(1);
+    frame.hemisphere.sky = glm::vec3(1);
+    EXPECT_NEAR(color_of(frame, white_surface({0, 1, 0})).x, 1, 1e-12);
+    EXPECT_NEAR(color_of(frame, white_surface({0, 0, -1})).x, .5, 1e-12);
+    EXPECT_NEAR(color_of(frame, white_surface({0, -1, 0})).x, 0, 1e-12);
+}
+
+TEST(HiLoCombine, OcclusionDarkensWhatComesFromAllAroundAndNotTheLights) {
+    Frame frame = one_pixel(1);
+    frame.hemisphere.sky = glm::vec3(1);
+    ImageSet before = white_surface({0, 1, 0});
+    before["light"] = ReferenceImage(1, 1, 1, glm::dvec4(3));
+    before["indirect"] = ReferenceImage(1, 1, 1, glm::dvec4(.5));
+    before["occlusion"] = ReferenceImage(1, 1, 1, glm::dvec4(.5));
+    before["surface_material"].at(0, 0).z = .5;
+    EXPECT_NEAR(color_of(frame, before).x, 3 + .5 * .5 * (1 + .5), 1e-12);
+}
+
+TEST(HiLoCombine, MetalsHaveNoDiffuseLight) {
+    Frame frame = one_pixel(1);
+    frame.hemisphere.sky = glm::vec3(1);
+    ImageSet before = white_surface({0, 1, 0});
+    before["surface_material"].at(0, 0) = {double(LightingModel::ggx), 1, 1, 0};
+    EXPECT_EQ(color_of(frame, before).x, 0);
+}
+
+TEST(HiLoCombine, FogHidesWhatItCoversAndAddsItsOwnColor) {
+    Frame frame = one_pixel(1);
+    frame.fog.density = float(std::log(2) / depth);
+    frame.fog.color = glm::vec3(.3f);
+    ImageSet before = white_surface({0, 1, 0});
+    before["emission"].at(0, 0) = {1, 1, 1, 1};
+    EXPECT_NEAR(color_of(frame, before).x, .5 * 1 + .5 * .3, 1e-6) << "half is left after one half-length";
+}
+
+TEST(HiLoCombine, TheBackgroundIsNotFogged) {
+    Frame frame = one_pixel(1);
+    frame.background = {.1f, .2f, .3f};
+    frame.fog.density = 10;
+    ImageSet before = white_surface({0, 1, 0});
+    before["emission"].at(0, 0) = glm::dvec4(0);
+    EXPECT_EQ(color_of(frame, before), glm::dvec3(frame.background));
+    EXPECT_EQ(color_of(frame, {{"color", ReferenceImage(1, 1, 1)}}), glm::dvec3(frame.background)) << "no G-buffer at all";
+}
+
+TEST(HiLoCombine, UnlitSurfacesShowTheirEmissionAndNothingElse) {
+    Frame frame = one_pixel(1);
+    frame.hemisphere.sky = glm::vec3(1);
+    ImageSet before = white_surface({0, 1, 0});
+    before["surface_material"].at(0, 0).x = double(LightingModel::unlit);
+    before["emission"].at(0, 0) = {.7, .7, .7, 1};
+    before["indirect"] = ReferenceImage(1, 1, 1, glm::dvec4(1));
+    EXPECT_EQ(color_of(frame, before).x, .7);
+}
+
+TEST(HiLoCombine, PlainPixelsTakeTheLightOfTheirFirstSample) {
+    const Frame frame = one_pixel(4);
+    ImageSet before;
+    for (const auto& [name, image] : white_surface({0, 1, 0})) before[name] = ReferenceImage(1, 1, 4, image.at(0, 0));
+    before["light"] = ReferenceImage(1, 1, 4);
+    before["light"].at(0, 0, 0) = glm::dvec4(2);
+    before["edges"] = ReferenceImage(1, 1, 1, glm::dvec4(0));
+    const ImageSet plain = hi_lo_model({frame, before}, {});
+    for (std::uint32_t sample = 0; sample < 4; ++sample) EXPECT_EQ(plain.at("color").at(0, 0, sample).x, 2);
+    before["edges"] = ReferenceImage(1, 1, 1, glm::dvec4(1));
+    EXPECT_EQ(hi_lo_model({frame, before}, {}).at("color").at(0, 0, 3).x, 0);
+}
+
+TEST(HiLoCombine, LinearColorIsOnlyClaimedWhereNothingIsDrawnOverIt) {
+    Frame frame = one_pixel(1);
+    frame.emitters.emplace_back();
+    const ImageSet before = white_surface({0, 1, 0});
+    EXPECT_FALSE(hi_lo_model({frame, before}, {}).contains("color"));
+    EXPECT_TRUE(hi_lo_model({frame, before}, {}).contains("display"));
+}
+
+}  // namespace
+}  // namespace strata::combine

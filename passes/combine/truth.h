@@ -1,0 +1,11 @@
+// The truth of combining: the formulas of deferred chapter 8 in double, every sample with its own light.
+#pragma once
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// display; and color, where nothing transparent is drawn over it afterwards.
+ImageSet combine_truth(const StageInput&);
+
+}  // namespace strata

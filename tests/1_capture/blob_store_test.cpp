@@ -1,0 +1,137 @@
+// Bulk bytes: stored once, found by what they are, decompressed when asked for.
+#include "capture_format/blob_store.h"
+
+#include <cstring>
+#include <optional>
+
+#include <gmock/gmock.h>
+
+#include "tests/1_capture/temporary_file.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+/// Writes what the collector holds as one more section.
+void write_pending(ContainerWriter& writer, BlobCollector& blobs) {
+    const auto packed = blobs.pack();
+    ASSERT_TRUE(packed);
+    for (const PackedBlobs& part : *packed) {
+        ASSERT_TRUE(writer.add({SectionType::blobs, blobs_version, part.stored, part.raw_bytes}));
+    }
+}
+
+/// A file with "first" in one section, "second" and "third" in the next.
+struct TwoSections {
+    TemporaryFile file;
+    BlobCollector blobs;
+    BlobName first = blobs.put(bytes_of("first")), second, third;
+    std::optional<Container> container;
+
+    TwoSections() {
+        auto writer = ContainerWriter::create(file.path());
+        write_pending(*writer, blobs);
+        second = blobs.put(bytes_of("second"));
+        third = blobs.put(bytes_of("third"));
+        write_pending(*writer, blobs);
+        EXPECT_TRUE(writer->finish());
+        container = *Container::open(file.path());
+    }
+};
+
+/// A file whose only section is the given blobs payload; the error of opening it and finding the blob.
+std::string sentence_for(const PackedBlobs& blobs, const BlobName& blob) {
+    const TemporaryFile file;
+    auto writer = ContainerWriter::create(file.path());
+    EXPECT_TRUE(writer->add({SectionType::blobs, blobs_version, blobs.stored, blobs.raw_bytes}) && writer->finish());
+    const auto container = Container::open(file.path());
+    auto store = BlobStore::open(*container);
+    if (!store) return store.error().sentence;
+    const auto found = store->find(blob);
+    return found ? "" : found.error().sentence;
+}
+
+TEST(BlobStore, EqualBytesAreStoredOnce) {
+    BlobCollector blobs;
+    const BlobName once = blobs.put(bytes_of("the same"));
+    EXPECT_EQ(blobs.put(bytes_of("the same")).hash, once.hash);
+    const auto packed = blobs.pack();
+    ASSERT_EQ(packed->size(), 1u);
+    EXPECT_EQ(packed->front().raw_bytes, 8u);
+    blobs.put(bytes_of("the same"));
+    EXPECT_TRUE(blobs.pack()->empty());
+}
+
+TEST(BlobStore, WhatWasPutIsFound) {
+    TwoSections written;
+    auto store = BlobStore::open(*written.container);
+    ASSERT_TRUE(store) << store.error().sentence;
+    EXPECT_EQ(store->size(), 3u);
+    EXPECT_TRUE(std::ranges::equal(*store->find(written.first), bytes_of("first")));
+    EXPECT_TRUE(std::ranges::equal(*store->find(written.third), bytes_of("third")));
+}
+
+TEST(BlobStore, NoBytesNeedNoBlob) {
+    TwoSections written;
+    auto store = BlobStore::open(*written.container);
+    EXPECT_EQ(written.blobs.put({}).hash, BlobHash{});
+    EXPECT_TRUE(store->find({})->empty());
+}
+
+TEST(BlobStore, ASectionIsDecompressedWhenFirstAskedForAndFreedWhenNoLongerUsed) {
+    TwoSections written;
+    auto store = BlobStore::open(*written.container);
+    EXPECT_EQ(store->sections_held(), 0u);
+    ASSERT_TRUE(store->find(written.first));
+    EXPECT_EQ(store->sections_held(), 1u);
+    store->keep_only_used();
+    ASSERT_TRUE(store->find(written.second));
+    EXPECT_EQ(store->sections_held(), 2u);
+    store->keep_only_used();
+    EXPECT_EQ(store->sections_held(), 1u);
+}
+
+TEST(BlobStore, AnUnknownHashIsAnErrorThatNamesIt) {
+    TwoSections written;
+    auto store = BlobStore::open(*written.container);
+    EXPECT_THAT(store->find({{1, 2}, 4}).error().sentence, HasSubstr("lacks blob 00000000000000020000000000000001"));
+    EXPECT_FALSE(store->find({written.first.hash, 4})) << "the right hash with a wrong size is another blob";
+}
+
+TEST(BlobStore, ABlobUnderAWrongHashIsRefused) {
+    BlobCollector blobs;
+    BlobName blob = blobs.put(bytes_of("honest"));
+    PackedBlobs packed = blobs.pack()->front();
+    blob.hash.low ^= 1;
+    std::memcpy(packed.stored.data() + 8, &blob.hash.low, 8);
+    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("blob 0 is not what its hash says"));
+}
+
+TEST(BlobStore, SizesAreBoundedBeforeAnythingIsAllocated) {
+    BlobCollector blobs;
+    const BlobName blob = blobs.put(bytes_of("small"));
+    PackedBlobs packed = blobs.pack()->front();
+    packed.raw_bytes = ~std::uint64_t{0};
+    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("have up to 1073741824"));
+
+    const std::uint64_t claimed = std::uint64_t{1} << 29;
+    packed.raw_bytes = claimed;
+    std::memcpy(packed.stored.data() + 24, &claimed, 8);
+    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("is not a zstd frame of 536870912 bytes"));
+}
+
+TEST(BlobStore, AnIndexThatLeavesItsSectionIsRefused) {
+    BlobCollector blobs;
+    const BlobName blob = blobs.put(bytes_of("small"));
+    PackedBlobs packed = blobs.pack()->front();
+    for (const std::uint64_t count : {std::uint64_t{1000}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+        std::memcpy(packed.stored.data(), &count, 8);
+        EXPECT_THAT(sentence_for(packed, blob), HasSubstr("too short for its index"));
+    }
+    packed.stored.resize(3);
+    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("too short for its index"));
+}
+
+}  // namespace
+}  // namespace strata

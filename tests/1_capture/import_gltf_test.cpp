@@ -1,0 +1,445 @@
+// glTF scenes become frames: values by hand on small files written here, robustness on broken ones, and real scenes when
+// they are there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "capture_format/import_gltf.h"
+#include "capture_format/reader.h"
+#include "capture_format/texture_mips.h"
+
+namespace strata {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+/// 2 x 2: red, half-covered green; uncovered blue, white.
+constexpr const char* tiny_png =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAFElEQVR42mP4z8DwHwgbGMA0EAAAP9cIeV/HbbEAAAAASUVORK5CYII=";
+/// 8 x 8 of grey 188.
+constexpr const char* tiny_jpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wCEAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8XGBYUGBIUFRQB"
+    "AwQEBQQFCQUFCRQNCw0UFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFP/AABEIAAgACAMBIgACEQEDEQH/xAGi"
+    "AAABBQEBAQEBAQAAAAAAAAAAAQIDBAUGBwgJCgsQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBka"
+    "JSYnKCkqNDU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS"
+    "09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+gEAAwEBAQEBAQEBAQAAAAAAAAECAwQFBgcICQoLEQACAQIEBAMEBwUEBAABAncAAQIDEQQFITEGEkFRB2Fx"
+    "EyIygQgUQpGhscEJIzNS8BVictEKFiQ04SXxFxgZGiYnKCkqNTY3ODk6Q0RFRkdISUpTVFVWV1hZWmNkZWZnaGlqc3R1dnd4eXqCg4SFhoeIiYqSk5SVlpeY"
+    "mZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS09TV1tfY2dri4+Tl5ufo6ery8/T19vf4+fr/2gAMAwEAAhEDEQA/APqCiiigD//Z";
+
+std::string base64(const std::string& bytes) {
+    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+        }
+        for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? digits[group >> (18 - 6 * j) & 63] : '=';
+    }
+    return text;
+}
+
+template <typename T>
+std::string bytes_of(std::initializer_list<T> values) {
+    std::string bytes(values.size() * sizeof(T), '\0');
+    std::memcpy(bytes.data(), std::data(values), bytes.size());
+    return bytes;
+}
+
+/// A glTF with one buffer; every accessor gets a buffer view of its own.
+class Gltf {
+public:
+    /// The index of the new accessor. `more` is JSON that follows a comma.
+    int accessor(const std::string& bytes, int component, const std::string& type, std::size_t count,
+                 const std::string& more = "") {
+        views_ += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}", views_.empty() ? "" : ",", bytes_.size(),
+                              bytes.size());
+        accessors_ += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"type\":\"{}\",\"count\":{}{}}}",
+                                  accessors_.empty() ? "" : ",", count_, component, type, count, more);
+        bytes_ += bytes;
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        return count_++;
+    }
+    int floats(std::initializer_list<float> values, const std::string& type, std::size_t components,
+               const std::string& more = "") {
+        return accessor(bytes_of(values), 5126, type, values.size() / components, more);
+    }
+    /// A triangle (0,0,0) (1,0,0) (0,1,0) as accessor 0.
+    Gltf& with_triangle() {
+        floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+        return *this;
+    }
+    std::string text(const std::string& members) const {
+        return fmt::format(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":{},\"uri\":"
+            "\"data:application/octet-stream;base64,{}\"}}],\"bufferViews\":[{}],\"accessors\":[{}],{}}}",
+            bytes_.size(), base64(bytes_), views_, accessors_, members);
+    }
+
+private:
+    std::string bytes_, views_, accessors_;
+    int count_ = 0;
+};
+
+/// One node that shows one mesh of one primitive.
+std::string showing(const std::string& primitive, const std::string& more = "") {
+    return fmt::format("\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"name\":\"m\",\"primitives\":[{}]}}]{}", primitive, more);
+}
+
+Result<ImportedScene> import_text(const std::string& text, const GltfOptions& options = {}) {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("strata_" + test + ".gltf");
+    std::ofstream(path, std::ios::binary) << text;
+    auto result = import_gltf(path, options);
+    std::filesystem::remove(path);
+    return result;
+}
+
+ImportedScene imported(const std::string& text, const GltfOptions& options = {}) {
+    auto scene = import_text(text, options);
+    if (!scene) throw std::runtime_error(scene.error().sentence);
+    return *std::move(scene);
+}
+
+std::string refusal(const std::string& text) {
+    const auto scene = import_text(text);
+    return scene ? "it was imported" : scene.error().sentence;
+}
+
+constexpr const char* triangle = R"({"attributes":{"POSITION":0}})";
+
+TEST(ImportGltf, TriangleWithoutNormalsGetsTheNormalOfItsPlane) {
+    const Frame frame = imported(Gltf().with_triangle().text(showing(triangle))).frame;
+    ASSERT_EQ(frame.meshes.size(), 1u);
+    EXPECT_EQ(frame.meshes[0].positions[1], glm::vec3(1, 0, 0));
+    EXPECT_THAT(frame.meshes[0].indices, testing::ElementsAre(0, 1, 2));
+    EXPECT_THAT(frame.meshes[0].normals, testing::Each(glm::vec3(0, 0, 1)));
+    ASSERT_EQ(frame.draws.size(), 1u);
+    EXPECT_EQ(frame.materials[frame.draws[0].material].name, "default");
+}
+
+TEST(ImportGltf, StripsAndFansKeepTheirWinding) {
+    Gltf gltf;
+    gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3", 3);
+    gltf.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+    const Frame strip = imported(gltf.text(showing(R"({"mode":5,"attributes":{"POSITION":0,"NORMAL":1}})"))).frame;
+    EXPECT_THAT(strip.meshes[0].indices, testing::ElementsAre(0, 1, 2, 1, 3, 2));
+    const Frame fan = imported(gltf.text(showing(R"({"mode":6,"attributes":{"POSITION":0,"NORMAL":1}})"))).frame;
+    EXPECT_THAT(fan.meshes[0].indices, testing::ElementsAre(1, 2, 0, 2, 3, 0));
+}
+
+TEST(ImportGltf, IndicesAndColorsOfEveryWidthAreRead) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.accessor(bytes_of<std::uint8_t>({2, 0, 1}), 5121, "SCALAR", 3);
+    gltf.accessor(bytes_of<std::uint16_t>({2, 0, 1}), 5123, "SCALAR", 3);
+    gltf.accessor(bytes_of<std::uint32_t>({2, 0, 1}), 5125, "SCALAR", 3);
+    gltf.accessor(bytes_of<std::uint8_t>({255, 0, 51, 255, 255, 255, 0, 0, 0}), 5121, "VEC3", 3, R"(,"normalized":true)");
+    gltf.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+    for (const int indices : {1, 2, 3}) {
+        const Frame frame = imported(gltf.text(showing(fmt::format(
+                                         R"({{"indices":{},"attributes":{{"POSITION":0,"COLOR_0":4,"NORMAL":5}}}})", indices))))
+                                .frame;
+        EXPECT_THAT(frame.meshes[0].indices, testing::ElementsAre(2, 0, 1));
+        EXPECT_EQ(frame.meshes[0].colors[0], glm::vec4(1, 0, 51 / 255.0f, 1));
+    }
+}
+
+TEST(ImportGltf, SignedNormalizedIntegersReachMinusOne) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.accessor(bytes_of<std::int8_t>({0, 0, -128, 0, 0, -127, 0, 0, -127}), 5120, "VEC3", 3, R"(,"normalized":true)");
+    const Frame frame = imported(gltf.text(showing(R"({"attributes":{"POSITION":0,"NORMAL":1}})"))).frame;
+    EXPECT_THAT(frame.meshes[0].normals, testing::Each(glm::vec3(0, 0, -1)));
+}
+
+TEST(ImportGltf, SparseAccessorsReplaceElements) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.accessor(bytes_of<std::uint16_t>({1}), 5123, "SCALAR", 1);
+    gltf.floats({5, 0, 0}, "VEC3", 3);
+    gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3,
+                R"(,"sparse":{"count":1,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":2}})");
+    const Frame frame = imported(gltf.text(showing(R"({"attributes":{"POSITION":3}})"))).frame;
+    EXPECT_EQ(frame.meshes[0].positions[1], glm::vec3(5, 0, 0));
+    EXPECT_EQ(frame.meshes[0].positions[2], glm::vec3(0, 1, 0));
+}
+
+TEST(ImportGltf, NodesNestAndShareTheirMesh) {
+    const Frame frame = imported(Gltf().with_triangle().text(
+                                     R"("nodes":[{"translation":[1,2,3],"children":[1,2]},
+        {"mesh":0,"rotation":[0,0.70710678118654752,0,0.70710678118654752],"scale":[2,2,2]},
+        {"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 10,0,0,1]}],"scenes":[{"nodes":[0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])"))
+                            .frame;
+    ASSERT_EQ(frame.draws.size(), 2u);
+    EXPECT_EQ(frame.meshes.size(), 1u);
+    const glm::dvec4 turned = frame.draws[0].to_world * glm::dvec4(1, 0, 0, 1);  // a quarter turn around y takes x to -z
+    EXPECT_NEAR(glm::length(turned - glm::dvec4(1, 2, 1, 1)), 0, 1e-12);
+    EXPECT_EQ(glm::dvec3(frame.draws[1].to_world[3]), glm::dvec3(11, 2, 3));
+}
+
+TEST(ImportGltf, CameraLooksAlongMinusZSoTheViewMirrors) {
+    const Frame frame = imported(Gltf().with_triangle().text(
+                                     R"("nodes":[{"camera":0,"translation":[0,1,5]},{"mesh":0}],
+        "cameras":[{"type":"perspective","perspective":{"yfov":1.5707963267948966,"znear":0.25}}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])"),
+                                 {.width = 200, .height = 100, .samples = 4})
+                            .frame;
+    const View& view = frame.view;
+    EXPECT_EQ(view.origin, glm::dvec3(0, 1, 5));
+    EXPECT_EQ(view.to_view * glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(view.to_view * glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(view.to_view * glm::dvec3(0, 1, 0), glm::dvec3(0, 1, 0));
+    EXPECT_NEAR(view.projection[0][0], 0.5, 1e-6);  // tan 45 degrees, twice as wide as high
+    EXPECT_EQ(view.near, 0.25f);
+    EXPECT_EQ(view.width, 200u);
+    EXPECT_EQ(view.samples, 4u);
+}
+
+TEST(ImportGltf, WithoutCameraTheWholeSceneIsInView) {
+    const Frame frame = imported(Gltf().with_triangle().text(showing(triangle))).frame;
+    for (const glm::vec3& position : frame.meshes[0].positions) {
+        const glm::dvec3 p = frame.view.to_view * (glm::dvec3(position) - frame.view.origin);
+        const glm::vec4 clip = frame.view.projection * glm::vec4(p, 1);
+        EXPECT_GT(p.z, frame.view.near);
+        EXPECT_LT(std::abs(clip.x / clip.w), 1);
+        EXPECT_LT(std::abs(clip.y / clip.w), 1);
+    }
+}
+
+TEST(ImportGltf, WithoutLightsThereIsASunAndASky) {
+    const ImportedScene scene = imported(Gltf().with_triangle().text(showing(triangle)));
+    EXPECT_GT(scene.frame.sun.irradiance.x, 0);
+    EXPECT_GT(scene.frame.hemisphere.sky.x, 0);
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("no lights")));
+}
+
+TEST(ImportGltf, PunctualLightsKeepColorIntensityAndCone) {
+    const Frame frame = imported(Gltf().with_triangle().text(showing(triangle) +
+                                                             R"(,"extensionsRequired":["KHR_lights_punctual"],
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0.5,0],"intensity":8},
+        {"type":"spot","intensity":2,"range":3,"spot":{"innerConeAngle":0.1,"outerConeAngle":0.2}},
+        {"type":"directional","intensity":3}]}},
+        "nodes":[{"mesh":0},{"translation":[1,2,3],"extensions":{"KHR_lights_punctual":{"light":0}}},
+        {"extensions":{"KHR_lights_punctual":{"light":1}}},{"extensions":{"KHR_lights_punctual":{"light":2}}}])"))
+                            .frame;
+    ASSERT_EQ(frame.lights.size(), 2u);
+    EXPECT_EQ(frame.lights[0].intensity, glm::vec3(8, 4, 0));
+    EXPECT_EQ(frame.lights[0].position, glm::dvec3(1, 2, 3));
+    EXPECT_NEAR(frame.lights[0].range, std::sqrt(8 * 256), 1e-3);
+    EXPECT_EQ(frame.lights[1].type, LightType::round_spot);
+    EXPECT_EQ(frame.lights[1].direction, glm::vec3(0, 0, -1));
+    EXPECT_EQ(frame.lights[1].range, 3);
+    EXPECT_FLOAT_EQ(frame.lights[1].outer_angle, 0.2f);
+    EXPECT_EQ(frame.sun.irradiance, glm::vec3(3));
+    EXPECT_EQ(frame.hemisphere.sky, glm::vec3(0));
+}
+
+TEST(ImportGltf, MaterialsKeepTheirFactorsAndModes) {
+    const ImportedScene scene = imported(Gltf().with_triangle().text(showing(triangle, R"(,"materials":[
+        {"name":"a","alphaMode":"BLEND","doubleSided":true,"emissiveFactor":[1,0.5,0],
+         "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.25,"roughnessFactor":0.75},
+         "extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":6}}},
+        {"name":"b","alphaMode":"MASK","alphaCutoff":0.3,"extensions":{"KHR_materials_unlit":{}}},
+        {"name":"c","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.4]}}])")));
+    const std::vector<Material>& materials = scene.frame.materials;
+    EXPECT_EQ(materials[0].alpha_mode, AlphaMode::blend);
+    EXPECT_EQ(materials[0].base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(materials[0].metallic, 0.25f);
+    EXPECT_EQ(materials[0].roughness, 0.75f);
+    EXPECT_EQ(materials[0].emissive, glm::vec3(6, 3, 0));
+    EXPECT_TRUE(materials[0].double_sided);
+    EXPECT_EQ(materials[0].lighting_model, LightingModel::ggx);
+    EXPECT_EQ(materials[1].alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(materials[1].mask_cutoff, 0.3f);
+    EXPECT_EQ(materials[1].lighting_model, LightingModel::unlit);
+    EXPECT_EQ(materials[2].base_color.w, 1) << "the alpha of an opaque material does not count";
+}
+
+TEST(ImportGltf, TransmissionBecomesChromaticTransmittance) {
+    const Material material = imported(Gltf().with_triangle().text(showing(triangle, R"(,"materials":[
+        {"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1],"metallicFactor":0},
+         "extensions":{"KHR_materials_transmission":{"transmissionFactor":0.8}}}])")))
+                                  .frame.materials[0];
+    EXPECT_EQ(material.alpha_mode, AlphaMode::blend);
+    EXPECT_NEAR(material.transmission.x, 0.8, 1e-6);
+    EXPECT_NEAR(material.transmission.z, 0.2, 1e-6);
+    EXPECT_NEAR(material.base_color.x, 0.2, 1e-6);
+    EXPECT_NEAR(material.base_color.z, 0.05, 1e-6);
+    EXPECT_EQ(material.base_color.w, 1);
+}
+
+std::string with_image(const std::string& image, const std::string& texture_info) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+    return gltf.text(
+        showing(R"({"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}})") +
+        fmt::format(R"(,"images":[{{{}}}],"textures":[{{"source":0,"sampler":0}}],"samplers":[{{"wrapS":33071,"wrapT":33071}}],
+        "materials":[{{"alphaMode":"BLEND","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{}}}}}}}])",
+                    image, texture_info));
+}
+
+TEST(ImportGltf, PngBecomesATextureWithLinearMips) {
+    const Frame frame = imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "")).frame;
+    ASSERT_EQ(frame.textures.size(), 1u);
+    const Texture& texture = frame.textures[0];
+    EXPECT_EQ(texture.format, TextureFormat::rgba8_srgb);
+    EXPECT_EQ(texture.address, AddressMode::clamp);
+    EXPECT_EQ(texture.mips, 2u);
+    ASSERT_EQ(texture.texels.size(), 20u);
+    EXPECT_EQ(texture.texels[7], std::byte{128}) << "green is half covered";
+    // Two of four texels have red: linear 0.5 is sRGB 188. Alpha is linear: (255 + 128 + 0 + 255) / 4 = 159.5.
+    EXPECT_EQ(texture.texels[16], std::byte{188});
+    EXPECT_NEAR(static_cast<int>(texture.texels[19]), 159.5, 0.6);
+}
+
+TEST(ImportGltf, JpegIsRead) {
+    const Frame frame = imported(with_image(fmt::format(R"("uri":"data:image/jpeg;base64,{}")", tiny_jpeg), "")).frame;
+    ASSERT_EQ(frame.textures.size(), 1u);
+    EXPECT_EQ(frame.textures[0].mips, 4u);
+    EXPECT_NEAR(static_cast<int>(frame.textures[0].texels[0]), 188, 2);
+    EXPECT_NEAR(mean_color(frame.textures[0]).x, 0.5, 0.01);
+}
+
+TEST(ImportGltf, TextureTransformTurnsCounterClockwiseOnScreen) {
+    const Frame frame = imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png),
+                                            R"(,"extensions":{"KHR_texture_transform":
+        {"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,3]}})"))
+                            .frame;
+    const std::array<float, 6>& m = frame.materials[0].base_color_texture.transform;
+    const std::array<float, 6> expected = {0, 3, 0.5f, -2, 0, 0.25f};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(m[i], expected[i], 1e-6) << i;
+}
+
+TEST(ImportGltf, MissingImageIsAWarning) {
+    const ImportedScene scene = imported(with_image(R"("uri":"not_there.png")", ""));
+    EXPECT_TRUE(scene.frame.textures.empty());
+    EXPECT_EQ(scene.frame.materials[0].base_color_texture.texture, no_index);
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("not_there.png")));
+}
+
+TEST(ImportGltf, NormalMapsGetTangentsAlongU) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.floats({0, 1, 1, 1, 0, 0}, "VEC2", 2);  // u grows with x, v falls with y
+    gltf.floats({0, 1, 0, 0, 1, 1}, "VEC2", 2);  // u grows with y: mirrored
+    const auto tangent = [&](int uv) {
+        return imported(gltf.text(showing(fmt::format(R"({{"material":0,"attributes":{{"POSITION":0,"TEXCOORD_0":{}}}}})", uv)) +
+                                  fmt::format(R"(,"images":[{{"uri":"data:image/png;base64,{}"}}],"textures":[{{"source":0}}],
+            "materials":[{{"normalTexture":{{"index":0}}}}])",
+                                              tiny_png)))
+            .frame.meshes[0]
+            .tangents[0];
+    };
+    EXPECT_EQ(tangent(1), glm::vec4(1, 0, 0, 1));  // cross(z, x) = y: towards smaller v
+    EXPECT_EQ(glm::vec3(tangent(2)).y, 1);
+}
+
+TEST(ImportGltf, OddMipsWeighTexelsByArea) {
+    Texture texture;
+    texture.width = 3;
+    texture.height = 1;
+    for (const int grey : {30, 60, 120}) {
+        for (int c = 0; c < 4; ++c) texture.texels.push_back(static_cast<std::byte>(grey));
+    }
+    const Texture done = with_mips(texture);
+    EXPECT_EQ(done.mips, 2u);
+    EXPECT_EQ(done.texels[12], std::byte{70});
+}
+
+TEST(ImportGltf, RequiredExtensionsMustBeSupportedOthersAreIgnored) {
+    const Gltf gltf = Gltf().with_triangle();
+    EXPECT_THAT(refusal(gltf.text(showing(triangle, R"(,"extensionsRequired":["EXT_sparkle"])"))),
+                HasSubstr("requires EXT_sparkle, which is not supported"));
+    EXPECT_THAT(imported(gltf.text(showing(triangle, R"(,"extensionsUsed":["EXT_sparkle"])"))).warnings,
+                Contains(HasSubstr("EXT_sparkle is ignored")));
+}
+
+TEST(ImportGltf, OrthographicCameraIsReplacedWithAWarning) {
+    const ImportedScene scene = imported(Gltf().with_triangle().text(
+        R"("nodes":[{"camera":0},{"mesh":0}],"cameras":[{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":9}}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])"));
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("orthographic")));
+    EXPECT_GT(scene.frame.view.projection[0][0], 0);
+}
+
+TEST(ImportGltf, AccessorsThatLeaveTheirBufferAreRefused) {
+    const auto broken = [](const std::string& accessor, const std::string& view) {
+        return refusal(fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,{}"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36{}}}],"accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3"{}}}],{}}})",
+            base64(std::string(36, '\0')), view, accessor, showing(triangle)));
+    };
+    EXPECT_THAT(broken(R"(,"count":4)", ""), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"(,"count":4611686018427387904)", ""), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":4)", ""), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":18446744073709551612)", ""), HasSubstr("leave buffer view"));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":8)"), HasSubstr("leaves its buffer"));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":18446744073709551608)"), HasSubstr("leaves its buffer"));
+    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteStride":252)"), HasSubstr("leave buffer view"));
+}
+
+TEST(ImportGltf, DanglingReferencesAreRefused) {
+    const Gltf gltf = Gltf().with_triangle();
+    const std::string meshes = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])";
+    EXPECT_THAT(refusal(gltf.text(R"("nodes":[{"mesh":3}],)" + meshes)), HasSubstr("mesh 3"));
+    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}],)" + meshes)),
+                HasSubstr("reached twice"));
+    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[7]}],"nodes":[{}],)" + meshes)), HasSubstr("node 7"));
+    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"POSITION":9}})"))), HasSubstr("accessor 9"));
+    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"NORMAL":0}})"))), HasSubstr("POSITION"));
+    Gltf far = Gltf().with_triangle();
+    far.accessor(bytes_of<std::uint16_t>({0, 1, 3}), 5123, "SCALAR", 3);
+    EXPECT_THAT(refusal(far.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})"))), HasSubstr("vertex 3 of 3"));
+}
+
+TEST(ImportGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
+    const ImportedScene scene = imported(with_image(R"("bufferView":0,"mimeType":"image/png")", ""));
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("neither PNG nor JPEG")));
+    std::string text = with_image(R"("bufferView":0,"mimeType":"image/png")", "");
+    const std::string view = R"({"buffer":0,"byteOffset":0,"byteLength":36})";
+    text.insert(text.find(view), R"({"buffer":0,"byteOffset":16,"byteLength":1000000},)");
+    for (const char* accessor : {"\"bufferView\":1,\"comp", "\"bufferView\":0,\"comp"}) {  // the others move up by one
+        text[text.find(accessor) + 13]++;
+    }
+    EXPECT_THAT(imported(text).warnings, Contains(HasSubstr("leaves its buffer")));
+}
+
+TEST(ImportGltf, WhatIsNoGltfIsRefused) {
+    EXPECT_THAT(refusal("not json"), HasSubstr("no readable glTF"));
+    EXPECT_THAT(refusal(""), HasSubstr("no readable glTF"));
+    EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), HasSubstr("no readable glTF"));
+    EXPECT_FALSE(import_gltf("/nowhere/at_all.gltf", {}));
+}
+
+TEST(ImportGltf, TruncatedFilesNeverCrash) {
+    const std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "");
+    for (std::size_t length = 0; length < text.size(); length += 7) EXPECT_FALSE(import_text(text.substr(0, length))) << length;
+}
+
+class RealScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealScene, IsImportedAndValid) {
+    const std::filesystem::path path = std::filesystem::path(STRATA_SOURCE_DIR) / "../shared/assets" / GetParam();
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+    const auto scene = import_gltf(path, {});
+    ASSERT_TRUE(scene) << scene.error().sentence;
+    EXPECT_TRUE(check_frame(scene->frame));
+    EXPECT_FALSE(scene->frame.draws.empty());
+    for (const Mesh& mesh : scene->frame.meshes) ASSERT_EQ(mesh.normals.size(), mesh.positions.size()) << mesh.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Assets, RealScene,
+    testing::Values("AlphaBlendModeTest/AlphaBlendModeTest.glb", "EmissiveStrengthTest/EmissiveStrengthTest.glb",
+                    "FlightHelmet/FlightHelmet.gltf", "GlassTable/glass-table.glb", "GlassVaseFlowers/GlassVaseFlowers.glb",
+                    "JungleScene/scene.gltf", "LightsPunctualLamp/LightsPunctualLamp.gltf", "Lights_playcanvas/Lights.glb",
+                    "TransmissionRoughnessTest/TransmissionRoughnessTest.glb", "TransmissionTest/TransmissionTest.glb",
+                    "hotel-room-lotus-carpet/hotel-room-lotus-carpet.glb"));
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,236 @@
+// What an application records is what is read, whatever happens to the process or the disk meanwhile.
+#include "capture_format/recorder.h"
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+
+#include "capture_format/container.h"
+#include "capture_format/decode_frame.h"
+#include "capture_format/encode_frame.h"
+#include "capture_format/reader.h"
+#include "tests/1_capture/frame_fields.h"
+#include "tests/1_capture/sample_frames.h"
+#include "tests/1_capture/temporary_file.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+void record(const std::filesystem::path& path, std::span<const Frame> frames) {
+    auto recorder = Recorder::create(path);
+    ASSERT_TRUE(recorder) << recorder.error().sentence;
+    for (const Frame& frame : frames) {
+        const auto recorded = recorder->record(frame);
+        ASSERT_TRUE(recorded) << recorded.error().sentence;
+    }
+    ASSERT_TRUE(recorder->finish());
+}
+
+TEST(Recorder, WhatWasRecordedIsWhatIsReadBitForBit) {
+    const TemporaryFile file;
+    const Frame frames[] = {rich_frame(), triangle_frame()};
+    record(file.path(), frames);
+    const auto capture = Capture::open(file.path());
+    ASSERT_TRUE(capture) << capture.error().sentence;
+    ASSERT_EQ(capture->frame_count(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto frame = capture->frame(i);
+        ASSERT_TRUE(frame) << frame.error().sentence;
+        EXPECT_EQ(bits_of(*frame), bits_of(frames[i]));
+    }
+}
+
+TEST(Recorder, EveryFieldSurvivesEncodingWhateverItsBits) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        Frame frame;
+        RandomBits random{std::mt19937_64(seed)};
+        walk(frame, random);
+        const TemporaryFile file;
+        BlobCollector blobs;
+        const std::vector<std::byte> section = encode_frame(frame, blobs);
+        auto writer = ContainerWriter::create(file.path());
+        const PackedBlobs packed = blobs.pack()->front();
+        ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, packed.stored, packed.raw_bytes}) && writer->finish());
+        const auto container = Container::open(file.path());
+        auto store = BlobStore::open(*container);
+        const auto decoded = decode_frame(section, *store);
+        ASSERT_TRUE(decoded) << decoded.error().sentence;
+        EXPECT_EQ(bits_of(*decoded), bits_of(frame)) << "seed " << seed;
+    }
+}
+
+TEST(Recorder, CallByCallIsTheSameAsAWholeFrame) {
+    const TemporaryFile file;
+    const Frame frame = rich_frame();
+    auto recorder = Recorder::create(file.path());
+    recorder->begin_frame(frame.view, frame.time, frame.index, frame.seed);
+    for (const Texture& texture : frame.textures) recorder->add_texture(texture);
+    for (const Mesh& mesh : frame.meshes) recorder->add_mesh(mesh);
+    for (const Material& material : frame.materials) recorder->add_material(material);
+    for (const Draw& draw : frame.draws) recorder->draw(draw);
+    for (const Emitter& emitter : frame.emitters) recorder->emitter(emitter);
+    for (const Light& light : frame.lights) recorder->light(light);
+    EXPECT_EQ(recorder->add_blocker(frame.blockers[0]), 0u);
+    EXPECT_EQ(recorder->add_portal(frame.portals[0]), 0u);
+    recorder->environment(frame.sun, frame.hemisphere, frame.fog, frame.background);
+    for (const LightVolume& volume : frame.light_volumes) recorder->light_volume(volume);
+    recorder->weather(frame.rain);
+    recorder->camera(frame.lens, frame.film);
+    for (const StageChoice& choice : frame.recorded_with) recorder->stage(choice);
+    ASSERT_TRUE(recorder->end_frame());
+    ASSERT_TRUE(recorder->finish());
+    EXPECT_EQ(bits_of(*Capture::open(file.path())->frame(0)), bits_of(frame));
+}
+
+TEST(Recorder, EqualResourcesAcrossFramesAreStoredOnce) {
+    const TemporaryFile one, ten("ten");
+    const std::vector<Frame> frames(10, rich_frame());
+    record(one.path(), std::span(frames).first(1));
+    record(ten.path(), frames);
+    const auto first = Capture::open(one.path());
+    const auto all = Capture::open(ten.path());
+    EXPECT_EQ(all->summary().blobs, first->summary().blobs);
+    EXPECT_EQ(all->summary().blob_bytes_raw, first->summary().blob_bytes_raw);
+    EXPECT_EQ(bits_of(*all->frame(9)), bits_of(frames[9]));
+}
+
+TEST(Recorder, AFileCopiedBeforeFinishIsReadableToItsLastFrame) {
+    const TemporaryFile file, copy("copy");
+    auto recorder = Recorder::create(file.path());
+    ASSERT_TRUE(recorder->record(triangle_frame()) && recorder->record(rich_frame()));
+    std::filesystem::copy_file(file.path(), copy.path(), std::filesystem::copy_options::overwrite_existing);
+    const auto refused = Capture::open(copy.path());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::bad_input);
+    EXPECT_THAT(refused.error().sentence, HasSubstr("has no directory"));
+    const auto partial = Capture::open(copy.path(), Partial::allowed);
+    ASSERT_TRUE(partial) << partial.error().sentence;
+    EXPECT_TRUE(partial->summary().cut_short);
+    ASSERT_EQ(partial->frame_count(), 2u);
+    EXPECT_EQ(bits_of(*partial->frame(1)), bits_of(rich_frame()));
+}
+
+TEST(Recorder, AWriterKilledAnywhereLosesOnlyTheFrameItWasWriting) {
+    const TemporaryFile file, cut("cut");
+    auto recorder = Recorder::create(file.path());
+    ASSERT_TRUE(recorder->record(triangle_frame()));
+    const std::size_t one_frame = std::filesystem::file_size(file.path());
+    ASSERT_TRUE(recorder->record(rich_frame()));
+    const std::vector<std::byte> both = read_file(file.path());
+    for (std::size_t size = one_frame; size < both.size(); size += 7) {
+        write_file(cut.path(), std::span(both).first(size));
+        const auto capture = Capture::open(cut.path(), Partial::allowed);
+        ASSERT_TRUE(capture) << capture.error().sentence;
+        ASSERT_EQ(capture->frame_count(), 1u);
+        EXPECT_TRUE(capture->frame(0));
+    }
+}
+
+TEST(Recorder, ADiskThatFillsUpKeepsTheWholeFrames) {
+    const TemporaryFile file;
+    auto recorder = Recorder::create(file.path());
+    ASSERT_TRUE(recorder->record(triangle_frame()));
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit full = {std::filesystem::file_size(file.path()) + 500, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+    const auto recorded = recorder->record(rich_frame());
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    ASSERT_FALSE(recorded);
+    EXPECT_THAT(recorded.error().sentence, HasSubstr("cannot write " + file.path().string()));
+    EXPECT_EQ(recorder->finish().error().sentence, recorded.error().sentence) << "a broken recorder stays broken";
+    EXPECT_EQ(Capture::open(file.path(), Partial::allowed)->frame_count(), 1u);
+}
+
+TEST(Recorder, APathThatCannotBeWrittenIsAnErrorThatSaysWhy) {
+    EXPECT_THAT(Recorder::create("/nowhere/x.strata").error().sentence,
+                HasSubstr("cannot write /nowhere/x.strata: No such file"));
+    EXPECT_THAT(Recorder::create("/dev/full").error().sentence, HasSubstr("cannot write /dev/full: No space left"));
+    EXPECT_EQ(Recorder::create(testing::TempDir()).error().fault, Fault::usage);
+}
+
+TEST(Recorder, CallsOutOfOrderAreErrors) {
+    const TemporaryFile file;
+    const View view = triangle_frame().view;
+    EXPECT_THAT(Recorder::create(file.path())->end_frame().error().sentence, HasSubstr("without begin_frame()"));
+    auto twice = Recorder::create(file.path());
+    twice->begin_frame(view, 0, 0, 0);
+    twice->begin_frame(view, 0, 0, 0);
+    EXPECT_THAT(twice->end_frame().error().sentence, HasSubstr("twice"));
+    auto open = Recorder::create(file.path());
+    open->begin_frame(view, 0, 0, 0);
+    EXPECT_THAT(open->finish().error().sentence, HasSubstr("before end_frame()"));
+    auto finished = Recorder::create(file.path());
+    ASSERT_TRUE(finished->finish());
+    EXPECT_THAT(finished->record(triangle_frame()).error().sentence, HasSubstr("is finished"));
+}
+
+TEST(Recorder, AFrameThatCouldNotBeReadIsNotWrittenAndTheNextOneIs) {
+    const TemporaryFile file;
+    Frame wrong = triangle_frame();
+    wrong.draws[0].material = 5;
+    auto recorder = Recorder::create(file.path());
+    const auto refused = recorder->record(wrong);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().sentence, "frame 0 cannot be recorded: draw 0 'triangle': it uses material 5 of 1");
+    ASSERT_TRUE(recorder->record(triangle_frame()) && recorder->finish());
+    EXPECT_EQ(Capture::open(file.path())->frame_count(), 1u);
+}
+
+TEST(Recorder, EqualCapturesHaveEqualIdsWhereverTheyLie) {
+    const TemporaryFile here, there("there"), other("other");
+    const Frame frames[] = {rich_frame(), triangle_frame()};
+    record(here.path(), frames);
+    record(there.path(), frames);
+    record(other.path(), std::span(frames).first(1));
+    const std::string id = Capture::open(here.path())->id();
+    EXPECT_THAT(id, testing::MatchesRegex("[0-9a-f]{32}"));
+    EXPECT_EQ(Capture::open(there.path())->id(), id);
+    EXPECT_NE(Capture::open(other.path())->id(), id);
+}
+
+TEST(Recorder, NotesAndThumbnailTravelAlong) {
+    const TemporaryFile file;
+    const Texture picture{.name = "any",
+                          .format = TextureFormat::rgba8_srgb,
+                          .width = 2,
+                          .height = 1,
+                          .texels = std::vector<std::byte>(8, std::byte{7})};
+    auto recorder = Recorder::create(file.path(), "a rainy night");
+    ASSERT_TRUE(recorder->thumbnail(picture) && recorder->finish());
+    const auto capture = Capture::open(file.path());
+    EXPECT_EQ(capture->summary().notes, "a rainy night");
+    EXPECT_EQ(capture->thumbnail().width, 2u);
+    EXPECT_EQ(capture->thumbnail().texels, picture.texels);
+    EXPECT_EQ(capture->frame_count(), 0u);
+    EXPECT_THAT(capture->frame(0).error().sentence, HasSubstr("there is no frame 0: the capture has 0"));
+}
+
+TEST(Recorder, AThumbnailOfAnotherShapeIsRefused) {
+    const TemporaryFile file;
+    auto recorder = Recorder::create(file.path());
+    const Texture picture{.name = "any", .width = 2, .height = 2, .texels = std::vector<std::byte>(8)};
+    EXPECT_THAT(recorder->thumbnail(picture).error().sentence, HasSubstr("RGBA8"));
+}
+
+TEST(Recorder, ExpectationsAreAppendedAndDoNotChangeTheId) {
+    const TemporaryFile file;
+    const Frame frame = triangle_frame();
+    record(file.path(), std::span(&frame, 1));
+    const std::string id = Capture::open(file.path())->id();
+    ASSERT_TRUE(append_expectation(file.path(), "display 1234"));
+    ASSERT_TRUE(append_expectation(file.path(), "color 5678"));
+    const auto capture = Capture::open(file.path());
+    EXPECT_THAT(capture->expectations(), testing::ElementsAre("display 1234", "color 5678"));
+    EXPECT_EQ(capture->id(), id);
+    EXPECT_TRUE(capture->frame(0));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,112 @@
+#include "tests/1_capture/sample_frames.h"
+
+#include <bit>
+#include <limits>
+
+namespace strata {
+namespace {
+
+/// A quiet NaN whose payload must survive.
+const float odd_nan = std::bit_cast<float>(0x7fc12345u);
+const float infinite = std::numeric_limits<float>::infinity();
+
+Texture checker() {
+    Texture texture{.name = "checker", .width = 2, .height = 2, .mips = 2, .texels = {}};
+    for (int i = 0; i < 5 * 4; ++i) texture.texels.push_back(static_cast<std::byte>(i * 12));
+    return texture;
+}
+
+/// Float texels may hold anything.
+Texture floats() {
+    Texture texture{.name = "floats", .format = TextureFormat::rgba32f, .width = 1, .height = 1, .texels = {}};
+    for (const float value : {odd_nan, -0.0f, infinite, 1e-45f}) {
+        for (const std::byte byte : std::bit_cast<std::array<std::byte, 4>>(value)) texture.texels.push_back(byte);
+    }
+    return texture;
+}
+
+Mesh triangle() {
+    Mesh mesh{.name = "triangle"};
+    mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.normals = {{0, 0, -1}, {0, 0, -1}, {0, 0, odd_nan}};
+    mesh.tangents = {{1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, -1}};
+    mesh.uv0 = mesh.uv1 = {{0, 1}, {1, 1}, {.5f, 0}};
+    mesh.colors = {{1, 0, 0, 1}, {0, odd_nan, 0, 1}, {0, 0, infinite, -0.0f}};
+    mesh.indices = {0, 1, 2};
+    return mesh;
+}
+
+Material glass() {
+    Material material{.name = "glass", .alpha_mode = AlphaMode::blend};
+    material.base_color = {.9f, .8f, .7f, .4f};
+    material.transmission = {.9f, .5f, .1f};
+    material.emissive = {0, -0.0f, .25f};
+    material.distortion = .01f;
+    material.double_sided = true;
+    material.base_color_texture = {.texture = 0, .uv_set = 1, .transform = {2, 0, .5f, 0, 3, -.25f}};
+    return material;
+}
+
+Emitter smoke() {
+    Emitter emitter{.name = "smoke", .texture = 0, .soft_depth_fade = .5f, .resolution = Resolution::low};
+    emitter.particles = {{.center = {0, 1, 4}, .color = {odd_nan, 1, 1}, .alpha = infinite, .depth_offset = odd_nan},
+                         {.center = {1, 1, 5}, .rotation = .5f, .emissive = {3, 2, 1}}};
+    return emitter;
+}
+
+Light spot() {
+    Light light{.name = "spot", .type = LightType::square_spot, .position = {0, 3, 4}};
+    light.intensity = {40, -1, 3};
+    light.texture = 0;
+    light.shadow = {.casts = true, .map_size = 256, .bias = .01f};
+    light.clip_planes = {{.normal = {0, 1, 0}, .distance = .125}};
+    light.blockers = {0};
+    light.portals = {0};
+    return light;
+}
+
+}  // namespace
+
+Frame triangle_frame() {
+    Frame frame;
+    frame.view.width = 16;
+    frame.view.height = 9;
+    frame.view.projection = perspective(1, 16. / 9, frame.view.near);
+    frame.meshes = {{.name = "triangle", .positions = {{-1, 0, 3}, {1, 0, 3}, {0, 1, 3}}, .indices = {0, 1, 2}}};
+    frame.materials = {{.name = "plain"}};
+    frame.draws = {{.name = "triangle"}};
+    frame.sun.irradiance = {1, 1, 1};
+    return frame;
+}
+
+Frame rich_frame() {
+    Frame frame = triangle_frame();
+    frame.view.samples = 4;
+    frame.view.jitter = {.125f, -0.0f};
+    frame.time = 1.0 / 3;
+    frame.index = 1ull << 40;
+    frame.seed = ~0ull;
+    frame.textures = {checker(), floats()};
+    frame.meshes.push_back(triangle());
+    frame.materials.push_back(glass());
+    frame.draws.push_back(
+        {.name = "pane", .mesh = 1, .material = 1, .mobility = Mobility::moving, .sort_priority = -3, .layer = 2});
+    frame.draws.back().to_world[3] = {0, 0, 5, 1};
+    frame.emitters = {smoke()};
+    frame.blockers = {{.center = {0, 2, 4}, .half_u = 2, .one_sided = true}};
+    frame.portals = {{.center = {0, 2, 4}, .half_u = .5f}};
+    frame.lights = {
+        spot(), {.name = "lamp", .position = {1, 2, 3}}, {.name = "tube", .type = LightType::tube, .half_extent = {1, 0}}};
+    frame.hemisphere = {{.1f, .2f, .3f}, {.05f, .04f, .03f}};
+    frame.background = {.5f, .6f, .7f};
+    frame.fog = {.02f, {.3f, .3f, -0.0f}};
+    frame.light_volumes = {{.kind = VolumeKind::fixed_local, .occlusion = VolumeOcclusion::axial, .cells = {8, 4, 8}}};
+    frame.rain = {.intensity = .5f, .wetness = .25f, .direction = {0, -1, 0}};
+    frame.lens = {.bloom = .1f, .auto_exposure = true, .focus_distance = 4, .aperture = .01f, .distortion = true};
+    frame.film = {.grain = .1f, .fade = .2f, .white = 2};
+    frame.recorded_with = {
+        {"transparency", "sorted_lists", {{"budget", std::int64_t{-7}}, {"falloff", .1}, {"mode", std::string("all")}}}};
+    return frame;
+}
+
+}  // namespace strata

@@ -1,0 +1,120 @@
+// What shaders say about themselves, on shaders that are built in.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passes/frame_images.h"
+#include "passes/graph/shader.h"
+#include "tests/2_graph/small_graphs.h"
+
+namespace strata {
+namespace {
+
+std::vector<std::string> binding_names(const Shader& shader) {
+    std::vector<std::string> names;
+    for (const ShaderBinding& binding : shader.bindings) names.push_back(binding.name);
+    return names;
+}
+
+TEST(Reflection, EveryBuiltInShaderCanBeRead) {
+    for (const EmbeddedShader& embedded : embedded_shaders()) {
+        const Result<Shader> shader = reflect(std::string(embedded.name), embedded.code);
+        EXPECT_TRUE(shader) << shader.error().sentence;
+    }
+}
+
+TEST(Reflection, OnlyWhatAShaderUsesIsBound) {
+    const Shader* draw = ShaderLibrary::built_in().find("shaders/draw.vert");
+    ASSERT_TRUE(draw);
+    EXPECT_THAT(binding_names(*draw), testing::ElementsAre("View", "Vertices", "Draws"));
+    for (const ShaderBinding& binding : draw->bindings) {
+        EXPECT_EQ(binding.set, 1u);
+        EXPECT_FALSE(binding.written) << binding.name;
+    }
+}
+
+TEST(Reflection, KindsDirectionsAndGroupsAreRead) {
+    const Shader* spread = ShaderLibrary::built_in().find("shaders/spread_depth.comp");
+    ASSERT_TRUE(spread);
+    ASSERT_THAT(binding_names(*spread), testing::ElementsAre("samples", "layers"));
+    EXPECT_TRUE(spread->bindings[0].multisampled);
+    EXPECT_EQ(spread->bindings[1].kind, BindingKind::storage_image);
+    EXPECT_TRUE(spread->bindings[1].arrayed && spread->bindings[1].written && !spread->bindings[1].read);
+    EXPECT_EQ(spread->bindings[1].format, Format::r32f);
+    EXPECT_EQ(spread->group, (Extent{8, 8, 1}));
+}
+
+TEST(Reflection, IntegerImagesAndColorOutputsAreRead) {
+    const Shader* gather = ShaderLibrary::built_in().find("shaders/gather_integer.frag");
+    ASSERT_TRUE(gather);
+    EXPECT_TRUE(gather->bindings.at(0).integer && gather->bindings.at(0).arrayed);
+    EXPECT_EQ(gather->color_outputs, 1u);
+}
+
+TEST(Reflection, NestedStructsAreFlattened) {
+    const Shader* draw = ShaderLibrary::built_in().find("shaders/draw.vert");
+    ASSERT_TRUE(draw);
+    const auto row = std::ranges::find(draw->members, "vertices.tangent", &BlockMember::name);
+    ASSERT_NE(row, draw->members.end());
+    EXPECT_EQ(row->block, "Vertices");
+    EXPECT_EQ(row->holder, "Vertex");
+    EXPECT_EQ(row->offset, 24u);
+}
+
+TEST(Reflection, WhatIsNotSpirvIsAnErrorAndNoCrash) {
+    const std::uint32_t words[] = {1, 2, 3, 4, 5, 6};
+    const Result<Shader> shader = reflect("nonsense.comp", words);
+    ASSERT_FALSE(shader);
+    EXPECT_THAT(shader.error().sentence, testing::StartsWith("shader nonsense.comp is not valid SPIR-V"));
+}
+
+TEST(Reflection, AShaderNobodyLooksUpIsNotReflected) {
+    const ShaderLibrary& library = ShaderLibrary::built_in();
+    library.find("shaders/fullscreen.vert");
+    const std::size_t before = library.reflected();
+    library.find("shaders/fullscreen.vert");
+    EXPECT_EQ(library.find("shaders/nowhere.comp"), nullptr);
+    EXPECT_EQ(library.reflected(), before);
+    EXPECT_LT(before, library.names().size());
+}
+
+/// spread and gather against the real shaders: the plan compiles, for every kind of format.
+TEST(Reflection, SamplesBecomeLayersAndComeBack) {
+    for (const Format format : {Format::rgba16f, Format::r32ui, Format::rgba8_unorm}) {
+        Graph graph;
+        Image samples = graph.create("samples", {.extent = {64, 32}, .format = format, .samples = 4});
+        graph.clear(samples, {});
+        const Image layers = spread(graph, samples, "layers");
+        EXPECT_EQ(graph.shape(layers), (Shape{.extent = {64, 32}, .format = format, .layers = 4}));
+        const Image back = gather(graph, layers, "back");
+        EXPECT_EQ(graph.shape(back), graph.shape(samples));
+        graph.keep(back);
+        const Result<Plan> plan = compile(graph, ShaderLibrary::built_in());
+        EXPECT_TRUE(plan) << plan.error().sentence;
+    }
+}
+
+TEST(Reflection, DepthBecomesLayersWhateverItsSamples) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+        Graph graph;
+        Image depth = graph.create("depth", {.extent = {64, 32}, .format = Format::d32f, .samples = samples});
+        graph.clear(depth, {});
+        const Image layers = spread(graph, depth, "depth layers");
+        EXPECT_EQ(graph.shape(layers), (Shape{.extent = {64, 32}, .format = Format::r32f, .layers = samples}));
+        graph.keep(layers);
+        const Result<Plan> plan = compile(graph, ShaderLibrary::built_in());
+        EXPECT_TRUE(plan) << plan.error().sentence;
+    }
+}
+
+TEST(Reflection, AtOneSampleColorNeedsNeither) {
+    Graph graph;
+    Image color = graph.create("color", small_shape());
+    EXPECT_EQ(spread(graph, color, "layers"), color);
+    EXPECT_EQ(gather(graph, color, "samples"), color);
+    EXPECT_TRUE(graph.steps().empty());
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,260 @@
+// Blocks of shaders and structs of C++ are the same bytes. SPIR-V carries member names and offsets, so the shaders say
+// themselves where they read; nothing runs.
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "passes/graph/shader.h"
+#include "passes/registry.h"
+#include "passes/shaders/scene.shared.h"
+
+namespace strata {
+namespace {
+
+struct Field {
+    std::string_view name;
+    std::size_t offset;
+};
+
+struct Record {
+    std::string_view name;
+    std::size_t bytes;
+    std::vector<Field> fields;
+};
+
+std::vector<Record> view_records() {
+    using V = ViewRecord;
+    return {{"ViewRecord",
+             sizeof(V),
+             {{"projection", offsetof(V, projection)},
+              {"to_world", offsetof(V, to_world)},
+              {"ndc_scale", offsetof(V, ndc_scale)},
+              {"ndc_offset", offsetof(V, ndc_offset)},
+              {"extent", offsetof(V, extent)},
+              {"samples", offsetof(V, samples)},
+              {"near", offsetof(V, near)},
+              {"exposure", offsetof(V, exposure)},
+              {"white", offsetof(V, white)},
+              {"background", offsetof(V, background)},
+              {"fog_density", offsetof(V, fog_density)},
+              {"fog_color", offsetof(V, fog_color)},
+              {"sky", offsetof(V, sky)},
+              {"ground", offsetof(V, ground)},
+              {"light_count", offsetof(V, light_count)},
+              {"shadow_count", offsetof(V, shadow_count)},
+              {"draw_count", offsetof(V, draw_count)},
+              {"seed", offsetof(V, seed)},
+              {"frame_index", offsetof(V, frame_index)},
+              {"time", offsetof(V, time)}}}};
+}
+
+std::vector<Record> geometry_records() {
+    using V = Vertex;
+    using D = DrawRecord;
+    return {{"Vertex",
+             sizeof(V),
+             {{"position", offsetof(V, position)},
+              {"normal", offsetof(V, normal)},
+              {"tangent", offsetof(V, tangent)},
+              {"uv0", offsetof(V, uv0)},
+              {"uv1", offsetof(V, uv1)},
+              {"color", offsetof(V, color)},
+              {"emissive", offsetof(V, emissive)},
+              {"depth_offset", offsetof(V, depth_offset)}}},
+            {"DrawRecord",
+             sizeof(D),
+             {{"to_view", offsetof(D, to_view)},
+              {"normal_to_view", offsetof(D, normal_to_view)},
+              {"material", offsetof(D, material)},
+              {"submission", offsetof(D, submission)},
+              {"soft_fade", offsetof(D, soft_fade)},
+              {"layer", offsetof(D, layer)},
+              {"bound_center", offsetof(D, bound_center)},
+              {"bound_radius", offsetof(D, bound_radius)}}}};
+}
+
+std::vector<Record> material_records() {
+    using U = TextureUseRecord;
+    using M = MaterialRecord;
+    using T = TextureRecord;
+    return {{"TextureUseRecord",
+             sizeof(U),
+             {{"texture", offsetof(U, texture)},
+              {"uv_set", offsetof(U, uv_set)},
+              {"row0", offsetof(U, row0)},
+              {"row1", offsetof(U, row1)}}},
+            {"MaterialRecord",
+             sizeof(M),
+             {{"base_color", offsetof(M, base_color)},
+              {"emissive", offsetof(M, emissive)},
+              {"metallic", offsetof(M, metallic)},
+              {"transmission", offsetof(M, transmission)},
+              {"roughness", offsetof(M, roughness)},
+              {"lighting_model", offsetof(M, lighting_model)},
+              {"alpha_mode", offsetof(M, alpha_mode)},
+              {"mask_cutoff", offsetof(M, mask_cutoff)},
+              {"normal_scale", offsetof(M, normal_scale)},
+              {"occlusion_strength", offsetof(M, occlusion_strength)},
+              {"distortion", offsetof(M, distortion)},
+              {"double_sided", offsetof(M, double_sided)},
+              {"base_color_texture", offsetof(M, base_color_texture)},
+              {"metallic_roughness_texture", offsetof(M, metallic_roughness_texture)},
+              {"normal_texture", offsetof(M, normal_texture)},
+              {"emissive_texture", offsetof(M, emissive_texture)},
+              {"occlusion_texture", offsetof(M, occlusion_texture)}}},
+            {"TextureRecord",
+             sizeof(T),
+             {{"first", offsetof(T, first)},
+              {"format", offsetof(T, format)},
+              {"width", offsetof(T, width)},
+              {"height", offsetof(T, height)},
+              {"mips", offsetof(T, mips)},
+              {"address", offsetof(T, address)}}}};
+}
+
+std::vector<Record> light_records() {
+    using L = LightRecord;
+    using S = ShadowRecord;
+    return {{"LightRecord",
+             sizeof(L),
+             {{"position", offsetof(L, position)},
+              {"type", offsetof(L, type)},
+              {"direction", offsetof(L, direction)},
+              {"range", offsetof(L, range)},
+              {"intensity", offsetof(L, intensity)},
+              {"source_radius", offsetof(L, source_radius)},
+              {"axis_u", offsetof(L, axis_u)},
+              {"cos_inner", offsetof(L, cos_inner)},
+              {"cos_outer", offsetof(L, cos_outer)},
+              {"shadow", offsetof(L, shadow)},
+              {"shadow_slots", offsetof(L, shadow_slots)},
+              {"visibility_layer", offsetof(L, visibility_layer)}}},
+            {"ShadowRecord",
+             sizeof(S),
+             {{"view_to_map", offsetof(S, view_to_map)},
+              {"light", offsetof(S, light)},
+              {"size", offsetof(S, size)},
+              {"bias", offsetof(S, bias)},
+              {"range_begin", offsetof(S, range_begin)},
+              {"range_end", offsetof(S, range_end)},
+              {"texel", offsetof(S, texel)}}}};
+}
+
+std::map<std::string_view, Record> scene_records() {
+    std::map<std::string_view, Record> all;
+    for (const auto& group : {view_records(), geometry_records(), material_records(), light_records()})
+        for (const Record& record : group) all.emplace(record.name, record);
+    return all;
+}
+
+/// The last part of "outer.inner".
+std::string own_name(const BlockMember& member) { return member.name.substr(member.name.rfind('.') + 1); }
+
+std::vector<const Shader*> built_in_shaders() {
+    std::vector<const Shader*> shaders;
+    for (const std::string& name : ShaderLibrary::built_in().names()) shaders.push_back(ShaderLibrary::built_in().find(name));
+    return shaders;
+}
+
+TEST(Layout, SceneRecordsLieWhereTheShadersReadThem) {
+    const auto records = scene_records();
+    std::set<std::string_view> seen;
+    for (const Shader* shader : built_in_shaders()) {
+        for (const BlockMember& member : shader->members) {
+            const auto record = records.find(member.holder);
+            if (record == records.end()) continue;
+            seen.insert(record->first);
+            const auto field = std::ranges::find(record->second.fields, own_name(member), &Field::name);
+            ASSERT_NE(field, record->second.fields.end()) << member.holder << " has no " << own_name(member) << " in this table";
+            EXPECT_EQ(member.offset_in_holder, field->offset) << shader->name << ": " << member.holder << "." << own_name(member);
+        }
+    }
+    EXPECT_TRUE(seen.contains("ViewRecord") && seen.contains("Vertex") && seen.contains("DrawRecord")) << "nothing was compared";
+}
+
+TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
+    const std::map<std::string_view, std::size_t> strides = {
+        {"vertices", sizeof(Vertex)},        {"draws", sizeof(DrawRecord)},   {"materials", sizeof(MaterialRecord)},
+        {"textures", sizeof(TextureRecord)}, {"lights", sizeof(LightRecord)}, {"shadows", sizeof(ShadowRecord)},
+    };
+    const std::set<std::string> scene_blocks = {"Vertices", "Draws", "Materials", "Textures", "Lights", "Shadows"};
+    for (const Shader* shader : built_in_shaders()) {
+        for (const BlockMember& member : shader->members) {
+            if (!scene_blocks.contains(member.block) || member.holder != member.block) continue;
+            const auto known = strides.find(member.name);
+            ASSERT_NE(known, strides.end()) << shader->name << ": " << member.block << "." << member.name;
+            EXPECT_EQ(member.stride, known->second) << shader->name << ": " << member.name;
+        }
+    }
+}
+
+TEST(Layout, TheRecordsOfThisTableAreComplete) {
+    for (const auto& [name, record] : scene_records()) {
+        std::vector<std::size_t> offsets;
+        for (const Field& field : record.fields) offsets.push_back(field.offset);
+        EXPECT_TRUE(std::ranges::is_sorted(offsets)) << name;
+        EXPECT_EQ(std::ranges::adjacent_find(offsets), offsets.end()) << name;
+    }
+}
+
+/// Offsets by member name of every struct or block in the technique's shaders.
+std::map<std::string, std::map<std::string, std::uint32_t>> structs_of(const Technique& technique) {
+    std::map<std::string, std::map<std::string, std::uint32_t>> structs;
+    for (const Shader* shader : built_in_shaders()) {
+        if (!shader->name.starts_with(std::string(technique.name) + "/")) continue;
+        for (const BlockMember& member : shader->members) structs[member.holder][own_name(member)] = member.offset_in_holder;
+    }
+    return structs;
+}
+
+/// The name as GLSL spells it.
+std::string identifier(std::string_view name) {
+    std::string text(name);
+    std::ranges::replace(text, '-', '_');
+    std::ranges::replace(text, ' ', '_');
+    return text;
+}
+
+/// Wherever a struct of the technique's shaders has members of all these names, they lie at these offsets.
+void expect_offsets(const Technique& technique, const std::vector<Field>& fields) {
+    for (const auto& [name, members] : structs_of(technique)) {
+        const bool is_this = std::ranges::all_of(fields, [&](const Field& f) { return members.contains(identifier(f.name)); });
+        if (!is_this) continue;
+        for (const Field& field : fields)
+            EXPECT_EQ(members.at(identifier(field.name)), field.offset) << technique.name << ": " << name << "." << field.name;
+    }
+}
+
+TEST(Layout, ParametersLieWhereTheTechniquesShadersReadThem) {
+    for (const Technique& technique : techniques()) {
+        std::vector<Field> fields;
+        for (const Param& param : technique.params) fields.push_back({param.name, param.offset});
+        if (!fields.empty()) expect_offsets(technique, fields);
+    }
+}
+
+TEST(Layout, CountersLieWhereTheTechniquesShadersCount) {
+    for (const Technique& technique : techniques()) {
+        std::vector<Field> fields;
+        for (const Counter& counter : technique.counters) fields.push_back({counter.name, counter.offset});
+        if (!fields.empty()) expect_offsets(technique, fields);
+    }
+}
+
+TEST(Layout, ACountersBlockIsAsLargeAsItsStruct) {
+    for (const Technique& technique : techniques()) {
+        for (const Shader* shader : built_in_shaders()) {
+            if (!shader->name.starts_with(std::string(technique.name) + "/")) continue;
+            for (const BlockMember& member : shader->members)
+                if (member.block == "Counters" && member.holder == "Counters") {
+                    EXPECT_EQ(member.bytes, technique.counter_bytes) << shader->name;
+                }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,142 @@
+// What a technique says about itself is complete and consistent. Loops over the list; needs no device.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "tests/support/print.h"
+
+namespace strata {
+namespace {
+
+class Description : public testing::TestWithParam<Technique> {};
+
+std::string test_name(const testing::TestParamInfo<Technique>& info) {
+    std::string text(info.param.name);
+    std::ranges::replace(text, '/', '_');
+    return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, Description, testing::ValuesIn(techniques().begin(), techniques().end()), test_name);
+
+template <typename Rows>
+void expect_distinct_and_explained(const Rows& rows) {
+    std::set<std::string_view> names;
+    for (const auto& row : rows) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name << " occurs twice";
+        EXPECT_FALSE(row.name.empty());
+        EXPECT_FALSE(row.help.empty()) << row.name << " has no help";
+    }
+}
+
+TEST_P(Description, NamesItsSourceItsTitleAndHowItFails) {
+    const Technique& technique = GetParam();
+    EXPECT_FALSE(technique.title.empty());
+    EXPECT_FALSE(technique.source.empty());
+    EXPECT_GE(technique.summary.size(), 20u) << "say what it does and how it fails";
+}
+
+TEST_P(Description, IsNamedForItsStage) {
+    const Technique& technique = GetParam();
+    EXPECT_TRUE(technique.name.starts_with(std::string(name(technique.stage)) + "/"));
+}
+
+TEST_P(Description, HasParametersWithDefaultsInTheirRange) {
+    const Technique& technique = GetParam();
+    expect_distinct_and_explained(technique.params);
+    for (const Param& param : technique.params) {
+        const double high = param.choices.empty() ? param.high : static_cast<double>(param.choices.size() - 1);
+        const double low = param.choices.empty() ? param.low : 0;
+        EXPECT_LT(low, high) << param.name;
+        EXPECT_TRUE(param.fallback >= low && param.fallback <= high) << param.name << " falls back to " << param.fallback;
+        EXPECT_TRUE(param.scalar == Scalar::real || param.fallback == std::floor(param.fallback)) << param.name;
+        EXPECT_TRUE(param.scale == Scale::linear || low > 0) << param.name << " is logarithmic";
+        EXPECT_TRUE(param.choices.empty() || param.scalar == Scalar::integer) << param.name;
+    }
+}
+
+TEST_P(Description, AcceptsEveryLineItsSettingsWrite) {
+    Settings settings(GetParam().params), again(GetParam().params);
+    for (const std::string& line : settings.lines()) {
+        const std::size_t equals = line.find('=');
+        const Result<void> set = again.set(line.substr(0, equals), std::string_view(line).substr(equals + 1));
+        EXPECT_TRUE(set) << set.error().sentence;
+    }
+    EXPECT_TRUE(settings == again);
+}
+
+TEST_P(Description, HasCountersInsideTheirStruct) {
+    const Technique& technique = GetParam();
+    expect_distinct_and_explained(technique.counters);
+    std::set<std::size_t> offsets;
+    for (const Counter& counter : technique.counters) {
+        EXPECT_LE(counter.offset + sizeof(std::uint32_t), technique.counter_bytes) << counter.name;
+        EXPECT_TRUE(offsets.insert(counter.offset).second) << counter.name << " counts into another's place";
+    }
+    EXPECT_EQ(technique.counters.empty(), technique.counter_bytes == 0);
+}
+
+TEST_P(Description, HasViewsThatCanBeShown) {
+    expect_distinct_and_explained(GetParam().views);
+    for (const DebugView& view : GetParam().views) {
+        EXPECT_LT(view.low, view.high) << view.name;
+        EXPECT_NE(view.add, nullptr) << view.name;
+    }
+}
+
+TEST_P(Description, HasAToleranceWithAReason) {
+    const Technique& technique = GetParam();
+    EXPECT_FALSE(std::holds_alternative<std::monostate>(technique.model)) << "there is nothing to compare the GPU with";
+    EXPECT_FALSE(technique.tolerance.because.empty());
+    EXPECT_GE(technique.tolerance.worst, technique.tolerance.rmse);
+    EXPECT_LT(technique.tolerance.rmse, 0.05) << "a tolerance, not a licence";
+}
+
+TEST_P(Description, AddsSomething) { EXPECT_NE(GetParam().add, nullptr); }
+
+TEST(Stages, AStageWithTechniquesHasATruthAJudgeAndScenariosThatExist) {
+    for (const StageInfo& stage : stages()) {
+        EXPECT_FALSE(stage.purpose.empty()) << stage.name;
+        EXPECT_EQ(find_stage(stage.name), stage.stage);
+        for (const std::string_view output : stage.outputs) EXPECT_NE(find_frame_image(output), nullptr) << output;
+        for (const std::string_view scenario : stage.scenarios) EXPECT_TRUE(find_scenario(scenario)) << scenario;
+        if (techniques_of(stage.stage).empty()) continue;
+        EXPECT_NE(stage.truth, nullptr) << stage.name;
+        EXPECT_NE(stage.judge, nullptr) << stage.name;
+        EXPECT_FALSE(stage.outputs.empty()) << stage.name;
+        EXPECT_FALSE(stage.scenarios.empty()) << stage.name;
+    }
+}
+
+TEST(Stages, AnEmptyFrameSaysWhyItNeedsAlmostNothing) {
+    for (const StageInfo& stage : stages()) {
+        const auto reason = stage.unwanted(Features{});
+        const bool always = stage.stage == Stage::gbuffer || stage.stage == Stage::combine;
+        EXPECT_EQ(reason.has_value(), !always) << stage.name;
+    }
+    EXPECT_EQ(info(Stage::transparency).unwanted(Features{}), "the frame has no transparent draws or particles");
+}
+
+TEST(Registry, AMisspelledTechniqueIsAnErrorWithTheNearestName) {
+    for (const Technique& technique : techniques()) {
+        std::string typed(technique.name);
+        std::swap(typed[typed.size() - 2], typed[typed.size() - 1]);
+        const auto found = find_technique(typed);
+        ASSERT_FALSE(found);
+        EXPECT_EQ(found.error().sentence, fmt::format("no technique {}; did you mean {}?", typed, technique.name));
+    }
+}
+
+TEST(Registry, NamesAreUniqueAndEachKnowsItsPlaceInItsStage) {
+    std::set<std::string_view> names;
+    for (const Technique& technique : techniques()) {
+        EXPECT_TRUE(names.insert(technique.name).second) << technique.name;
+        EXPECT_EQ(techniques_of(technique.stage).at(index_in_stage(technique))->name, technique.name);
+    }
+}
+
+}  // namespace
+}  // namespace strata
