@@ -52,6 +52,7 @@ private:
     Draw draw(const schema::Draw&);
     Emitter emitter(const schema::Emitter&);
     ShadowUse shadow(const schema::ShadowUse&);
+    ClipPlane clip_plane(const schema::ClipPlane&);
     Light light(const schema::Light&);
     Blocker blocker(const schema::Blocker&);
     Portal portal(const schema::Portal&);
@@ -196,12 +197,11 @@ ShadowUse Decoder::shadow(const schema::ShadowUse& table) {
     return {.casts = table.casts(), .map_size = table.map_size_px(), .bias = table.bias_m()};
 }
 
+ClipPlane Decoder::clip_plane(const schema::ClipPlane& table) {
+    return {same_bits<glm::dvec3>(*table.normal()), table.distance_m()};
+}
+
 Light Decoder::light(const schema::Light& table) {
-    std::vector<ClipPlane> clip_planes;
-    for (const schema::ClipPlane* plane : *table.clip_planes()) {
-        if (clip_planes.size() == longest_light_list) break;
-        clip_planes.push_back({same_bits<glm::dvec3>(plane->normal()), plane->distance_m()});
-    }
     return {
         .name = text(table.name()),
         .type = static_cast<LightType>(table.type()),
@@ -216,7 +216,7 @@ Light Decoder::light(const schema::Light& table) {
         .outer_angle = table.outer_angle_rad(),
         .texture = table.texture(),
         .shadow = shadow(*table.shadow()),
-        .clip_planes = std::move(clip_planes),
+        .clip_planes = list(*table.clip_planes(), &Decoder::clip_plane),
         .blockers = indices(*table.blockers()),
         .portals = indices(*table.portals()),
     };

@@ -41,6 +41,7 @@ private:
     Offset<schema::Draw> draw(const Draw&);
     Offset<schema::Emitter> emitter(const Emitter&);
     Offset<schema::ShadowUse> shadow(const ShadowUse&);
+    Offset<schema::ClipPlane> clip_plane(const ClipPlane&);
     Offset<schema::Light> light(const Light&);
     Offset<schema::Blocker> blocker(const Blocker&);
     Offset<schema::Portal> portal(const Portal&);
@@ -190,12 +191,15 @@ Offset<schema::ShadowUse> Encoder::shadow(const ShadowUse& shadow) {
     return schema::CreateShadowUse(builder_, shadow.casts, shadow.map_size, shadow.bias);
 }
 
+Offset<schema::ClipPlane> Encoder::clip_plane(const ClipPlane& plane) {
+    const schema::DVec3 normal = bits(plane.normal);
+    return schema::CreateClipPlane(builder_, &normal, plane.distance);
+}
+
 Offset<schema::Light> Encoder::light(const Light& light) {
-    std::vector<schema::ClipPlane> planes;
-    for (const ClipPlane& plane : light.clip_planes) planes.emplace_back(bits(plane.normal), plane.distance);
     const auto name = builder_.CreateString(light.name);
     const auto shadow_use = shadow(light.shadow);
-    const auto clip_planes = builder_.CreateVectorOfStructs(planes);
+    const auto clip_planes = list(light.clip_planes, &Encoder::clip_plane);
     const auto blockers = builder_.CreateVector(light.blockers);
     const auto portals = builder_.CreateVector(light.portals);
     const schema::DVec3 position = bits(light.position);

@@ -7,17 +7,10 @@
 #include <stb_image.h>
 
 #include "capture_format/import_gltf_accessors.h"
+#include "capture_format/inspection.h"
 #include "capture_format/texture_mips.h"
 
 namespace strata::gltf {
-namespace {
-
-/// The largest edge every Vulkan 1.3 device can hold is 4096, common ones hold 16384; larger files are refused before they
-/// are decompressed.
-constexpr int largest_edge = 16384;
-
-}  // namespace
-
 Result<Texture> TextureImport::decode(int index) const {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.images.size()) {
         return fail(Fault::bad_input, "image {} does not exist", index);
@@ -35,9 +28,10 @@ Result<Texture> TextureImport::decode(int index) const {
         return fail(Fault::bad_input, "image {} '{}' is neither PNG nor JPEG, or its file is missing", index,
                     image.name + image.uri);
     }
-    if (width > largest_edge || height > largest_edge) {
+    // before it is decompressed: a few bytes can ask for gigabytes
+    if (static_cast<std::uint32_t>(std::max(width, height)) > largest_extent) {
         return fail(Fault::bad_input, "image {} has {} x {} texels; at most {} per edge are read", index, width, height,
-                    largest_edge);
+                    largest_extent);
     }
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
         stbi_load_from_memory(encoded.data(), size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);

@@ -6,16 +6,16 @@ set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
 # One SPIR-V file from one GLSL file, rebuilt when anything it includes changes. Appends to the variable named by spirv_list.
 function(compile_shader source spirv_list)
     file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/passes ${source})
-    set(spirv ${CMAKE_BINARY_DIR}/shaders/${name}.spv)
-    get_filename_component(folder ${spirv} DIRECTORY)
+    set(compiled ${CMAKE_BINARY_DIR}/shaders/${name}.spv)
+    get_filename_component(folder ${compiled} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(
-        OUTPUT ${spirv}
+        OUTPUT ${compiled}
         COMMAND Vulkan::glslangValidator --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} -I${CMAKE_BINARY_DIR}/generated
-                --depfile ${spirv}.d -o ${spirv} ${source}
-        DEPENDS ${source} DEPFILE ${spirv}.d
+                --depfile ${compiled}.d -o ${compiled} ${source}
+        DEPENDS ${source} DEPFILE ${compiled}.d
         COMMENT "GLSL ${name}")
-    set(${spirv_list} ${${spirv_list}} ${spirv} PARENT_SCOPE)
+    set(${spirv_list} ${${spirv_list}} ${compiled} PARENT_SCOPE)
 endfunction()
 
 # All shaders in one assembly file (.incbin) and a C++ table of their names.

@@ -32,21 +32,28 @@ glm::dvec4 packed_floats(std::uint32_t bits) {
 double channel_of(Format format, const std::byte* from, std::uint32_t channel) {
     switch (format) {
         case Format::r8_unorm:
-        case Format::rgba8_unorm: return read<std::uint8_t>(from, channel) / 255.0;
+        case Format::rgba8_unorm:
+            return read<std::uint8_t>(from, channel) / 255.0;
         case Format::r16_unorm:
-        case Format::rgba16_unorm: return read<std::uint16_t>(from, channel) / 65535.0;
+        case Format::rgba16_unorm:
+            return read<std::uint16_t>(from, channel) / 65535.0;
         case Format::r16f:
         case Format::rg16f:
-        case Format::rgba16f: return half(read<std::uint16_t>(from, channel));
+        case Format::rgba16f:
+            return half(read<std::uint16_t>(from, channel));
         case Format::r32f:
         case Format::rg32f:
         case Format::rgba32f:
-        case Format::d32f: return double{read<float>(from, channel)};
-        case Format::r8ui: return read<std::uint8_t>(from, channel);
+        case Format::d32f:
+            return double{read<float>(from, channel)};
+        case Format::r8ui:
+            return read<std::uint8_t>(from, channel);
         case Format::r32ui:
         case Format::rg32ui:
-        case Format::rgba32ui: return read<std::uint32_t>(from, channel);
-        case Format::r11g11b10f: break;
+        case Format::rgba32ui:
+            return read<std::uint32_t>(from, channel);
+        case Format::r11g11b10f:
+            break;
     }
     return packed_floats(read<std::uint32_t>(from, 0))[static_cast<glm::length_t>(channel)];
 }
@@ -68,6 +75,7 @@ glm::dvec4 texel(const HostImage& image, std::uint32_t x, std::uint32_t y, std::
 ReferenceImage in_double(const HostImage& image) {
     const Extent& extent = image.shape.extent;
     ReferenceImage result(extent.width, extent.height, image.shape.layers * extent.depth);
+    result.channels = row(image.shape.format).channels;
     for (std::uint32_t layer = 0; layer < result.layers; ++layer)
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) result.at(x, y, layer) = texel(image, x, y, layer);

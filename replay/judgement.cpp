@@ -39,7 +39,7 @@ struct Compared {
     WorstTexel where;
 };
 
-/// Channels past those the format has read 0, 0, 1 on both sides; only rgb and a where the model sets it differ.
+/// The channels that the result has.
 void compare(std::string_view name, const ReferenceImage& got, const ReferenceImage& wanted, Compared& all) {
     const double scale = std::max(root_mean_square(wanted), 1e-9);
     for (std::size_t i = 0; i < wanted.texels.size() && i < got.texels.size(); ++i) {
@@ -47,13 +47,13 @@ void compare(std::string_view name, const ReferenceImage& got, const ReferenceIm
             ++all.undecided;
             continue;
         }
-        const glm::dvec3 a = got.texels[i], b = wanted.texels[i];
-        if (glm::all(glm::lessThan(glm::abs(b), glm::dvec3(trivial_below)))) ++all.trivial;
+        const glm::dvec4 a = got.texels[i], b = wanted.texels[i];
+        if (glm::all(glm::lessThan(glm::abs(glm::dvec3(b)), glm::dvec3(trivial_below)))) ++all.trivial;
         ++all.texels;
-        for (int c = 0; c < 3; ++c) {
+        for (glm::length_t c = 0; c < static_cast<glm::length_t>(got.channels); ++c) {
             double error = std::abs(a[c] - b[c]) / std::max(std::abs(b[c]), scale);
             if (std::isnan(error)) error = std::isnan(a[c]) && std::isnan(b[c]) ? 0 : HUGE_VAL;
-            all.square_sum += error * error / 3;
+            all.square_sum += error * error / got.channels;
             if (error <= all.worst && !all.where.image.empty()) continue;
             all.worst = error;
             const auto x = static_cast<std::uint32_t>(i % wanted.width), row = static_cast<std::uint32_t>(i / wanted.width);

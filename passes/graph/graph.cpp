@@ -326,21 +326,4 @@ void Graph::drop_scope(std::uint32_t scope) {
     std::erase_if(steps_, [scope](const Step& step) { return step.scope == scope; });
 }
 
-void Graph::insert_in_scope(Step step) {
-    const auto after = std::ranges::find_if(steps_, [&](const Step& other) { return other.scope > step.scope; });
-    steps_.insert(after, std::move(step));
-}
-
-void Graph::restore(std::uint32_t scope, const Image& from, Image to) {
-    Step step = shader_step("restore " + record(to).name, {}, CopyWork{.from = from, .to = to});
-    step.scope = scope;
-    insert_in_scope(std::move(step));
-}
-
-void Graph::restore(std::uint32_t scope, const Buffer& from, Buffer to) {
-    Step step = shader_step("restore " + record(to).name, {}, CopyWork{.buffer_from = from, .buffer_to = to});
-    step.scope = scope;
-    insert_in_scope(std::move(step));
-}
-
 }  // namespace strata

@@ -147,9 +147,6 @@ public:
 
     /// Takes out the steps of a scope (their outputs then come from elsewhere: the memo).
     void drop_scope(std::uint32_t scope);
-    /// Where a dropped scope stood, `to` gets the contents it would have had then from an image of equal shape.
-    void restore(std::uint32_t scope, const Image& from, Image to);
-    void restore(std::uint32_t scope, const Buffer& from, Buffer to);
 
 private:
     template <typename Self>
@@ -160,7 +157,6 @@ private:
     friend class DrawPass;
 
     std::size_t append(Step);
-    void insert_in_scope(Step);
     /// Asserts that the handle is the newest version.
     void check_fresh(Image) const;
     void check_fresh(Buffer) const;

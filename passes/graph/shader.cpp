@@ -238,12 +238,12 @@ Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code) {
 
 ShaderLibrary::ShaderLibrary() : mutex_(std::make_unique<std::mutex>()) {}
 
+ShaderLibrary::ShaderLibrary(std::span<const EmbeddedShader> embedded) : ShaderLibrary() {
+    for (const EmbeddedShader& shader : embedded) sources_.emplace(shader.name, shader.code);
+}
+
 const ShaderLibrary& ShaderLibrary::built_in() {
-    static const ShaderLibrary library = [] {
-        ShaderLibrary made;
-        for (const EmbeddedShader& shader : embedded_shaders()) made.sources_.emplace(shader.name, shader.code);
-        return made;
-    }();
+    static const ShaderLibrary library(embedded_shaders());
     return library;
 }
 

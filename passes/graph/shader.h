@@ -29,7 +29,7 @@ struct ShaderBinding {
     bool read = true, written = false;  ///< from readonly / writeonly
     ImageDimension dimension = ImageDimension::two;
     bool arrayed = false, multisampled = false;
-    bool integer = false;          ///< usampler / uimage
+    bool integer = false;               ///< usampler / uimage
     std::optional<Format> format = {};  ///< storage images: the declared format, if it is one of ours
 };
 
@@ -65,10 +65,16 @@ struct Shader {
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.
 Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code);
 
+/// One shader as the build embedded it.
+struct EmbeddedShader {
+    std::string_view name;
+    std::span<const std::uint32_t> code;
+};
 /// The shaders by name. Looking one up reflects it the first time: a shader no stage needs is never touched.
 class ShaderLibrary {
 public:
     ShaderLibrary();
+    explicit ShaderLibrary(std::span<const EmbeddedShader>);
     /// The shaders built into the program.
     static const ShaderLibrary& built_in();
     void add(Shader);
@@ -84,11 +90,6 @@ private:
     std::unique_ptr<std::mutex> mutex_;  ///< guards shaders_: sessions on several threads share the built-in library
 };
 
-/// One shader as the build embedded it.
-struct EmbeddedShader {
-    std::string_view name;
-    std::span<const std::uint32_t> code;
-};
 /// Written by the build from the list of techniques.
 std::span<const EmbeddedShader> embedded_shaders();
 

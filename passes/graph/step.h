@@ -45,7 +45,7 @@ struct Buffer {
 
 /// Which mip and layer of an image a binding means; all of them where nothing is said.
 struct Part {
-    std::optional<std::uint32_t> mip, layer;
+    std::optional<std::uint32_t> mip = {}, layer = {};
     friend bool operator==(const Part&, const Part&) = default;
 };
 

@@ -11,6 +11,7 @@ namespace strata {
 /// width x height x layers texels of four doubles; layer = sample where an image has samples.
 struct ReferenceImage {
     std::uint32_t width = 0, height = 0, layers = 1;
+    std::uint32_t channels = 4;  ///< that mean something; the others read 0, 0, 1
     std::vector<glm::dvec4> texels;
     std::vector<bool> undecided = {};  ///< empty, or one per texel: coverage hangs on rounding there, do not compare
 

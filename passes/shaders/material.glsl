@@ -58,11 +58,19 @@ vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
     return mix(upper, lower, f.y);
 }
 
+// The varyings uv0, uv1 with their derivatives. These are taken of the varyings alone: lavapipe 22.3 reads buffers as 0 in
+// helper lanes, so anything that went through a buffer (a size, a transform) has no derivative along a triangle's edge.
+struct Footprint {
+    vec4 uv, dx, dy;
+};
+
+Footprint footprint(vec4 uv) { return Footprint(uv, dFdxFine(uv), dFdyFine(uv)); }
+
 // log2 of the longer side of the pixel's footprint in texels of the finest mip, within the mips there are.
-float level_of_detail(TextureRecord t, vec2 uv) {
+float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
     const vec2 size = vec2(t.width, t.height);
-    const float footprint = max(length(dFdxFine(uv * size)), length(dFdyFine(uv * size)));
-    return clamp(log2(max(footprint, 1.0)), 0.0, float(t.mips - 1u));
+    const float side = max(length(dx * size), length(dy * size));
+    return clamp(log2(max(side, 1.0)), 0.0, float(t.mips - 1u));
 }
 
 vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
@@ -73,12 +81,14 @@ vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
 }
 
 // The texture of a use at (uv0, uv1), its transform applied; white where there is none.
-vec4 texture_at(TextureUseRecord use, vec4 uv) {
+vec4 texture_at(TextureUseRecord use, Footprint f) {
     if (use.texture == no_index) return vec4(1.0);
-    const vec3 chosen = vec3(use.uv_set == 0u ? uv.xy : uv.zw, 1.0);
-    const vec2 at = vec2(dot(use.row0, chosen), dot(use.row1, chosen));
+    const bool first = use.uv_set == 0u;
+    const vec3 uv = vec3(first ? f.uv.xy : f.uv.zw, 1.0);
+    const vec2 dx = first ? f.dx.xy : f.dx.zw, dy = first ? f.dy.xy : f.dy.zw;
+    const mat2 turn = mat2(use.row0.x, use.row1.x, use.row0.y, use.row1.y);
     const TextureRecord t = textures[use.texture];
-    return trilinear(t, at, level_of_detail(t, at));
+    return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, turn * dx, turn * dy));
 }
 
 // The triangle's own outward normal, for meshes without normals (they are 0 there).
@@ -89,7 +99,7 @@ vec3 face_normal(vec3 position, bool front_facing) {
 
 // The bitangent is made in the right-handed object space (glTF 2.0, 3.7.2.1: cross(normal, tangent) * w) and carried to view
 // space, where a cross product has the sign of the transform's determinant. The tangent is made perpendicular first.
-vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec4 uv) {
+vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, Footprint uv) {
     if (material.normal_texture.texture == no_index) return n;
     vec3 local = texture_at(material.normal_texture, uv).xyz * 2.0 - 1.0;
     local.xy *= material.normal_scale;
@@ -101,7 +111,8 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec
 }
 
 // The varyings of draw.vert, as they are. A normal of a back face is turned around.
-MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 uv, vec4 color, bool front_facing) {
+MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 varying_uv, vec4 color, bool front_facing) {
+    const Footprint uv = footprint(varying_uv);
     const MaterialRecord material = materials[draws[draw].material];
     const vec4 base = material.base_color * color * texture_at(material.base_color_texture, uv);
     const vec4 surface = texture_at(material.metallic_roughness_texture, uv);

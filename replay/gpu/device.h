@@ -14,17 +14,17 @@ namespace strata {
 struct DeviceInfo {
     std::uint32_t index = 0;
     std::string name, driver, driver_version, cpu;
-    std::string kind;               ///< "discrete", "integrated", "cpu", ...
-    bool software = false;          ///< times are the CPU's and no model of a GPU
-    std::uint64_t max_buffer_bytes = 0;   ///< of one storage buffer binding
+    std::string kind;                    ///< "discrete", "integrated", "cpu", ...
+    bool software = false;               ///< times are the CPU's and no model of a GPU
+    std::uint64_t max_buffer_bytes = 0;  ///< of one storage buffer binding
     std::uint32_t max_image_extent = 0;
     Capabilities capabilities;
-    std::string lacks;              ///< empty when the device can replay, else the first missing feature of the baseline
+    std::string lacks;  ///< empty when the device can replay, else the first missing feature of the baseline
 };
 
 struct DeviceChoice {
-    std::string gpu;                ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
-    bool validation = false;        ///< core, synchronization and queue-submit validation; messages become errors
+    std::string gpu;          ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
+    bool validation = false;  ///< core, synchronization and queue-submit validation; messages become errors
 };
 
 /// Every device of the machine, usable or not.

@@ -6,32 +6,29 @@
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/plan_memory.h"
 #include "replay/gpu/readback.h"
+#include "replay/gpu/sample_layers.h"
 #include "replay/gpu/step_recorder.h"
 #include "replay/gpu/stopwatch.h"
 
 namespace strata {
 namespace {
 
-/// Copies mip 0 of an image between two steps and leaves it in the layouts it had.
-std::size_t copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image, Readback& readback) {
-    const PartRange top{.layers = image.shape().layers};
-    const auto before = image.layouts();
-    const auto go_to = [&](const PartRange& range, vk::ImageLayout layout) {
-        const auto barriers = image.transitions(range, layout, DeviceImage::Contents::keep);
-        commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
-        image.set_layout(range, layout);
+/// Copies of images on their way to the host: they live until the commands have run.
+struct HostCopies {
+    struct Copy {
+        std::size_t ticket = 0;
+        Shape shape;
     };
-    go_to(top, vk::ImageLayout::eTransferSrcOptimal);
-    const std::size_t ticket = readback.add(commands, image);
-    for (std::uint32_t layer = 0; layer < top.layers; ++layer) {
-        if (before[layer] != vk::ImageLayout::eUndefined) go_to({.layer = layer}, before[layer]);
-    }
-    return ticket;
-}
+    Readback readback;
+    std::vector<std::unique_ptr<SampleLayers>> spread;
 
-Shape single_mip(Shape shape) {
-    shape.mips = 1;
-    return shape;
+    HostImage take(const Copy& copy) const { return {copy.shape, readback.take(copy.ticket)}; }
+};
+
+void go_to(const vk::raii::CommandBuffer& commands, DeviceImage& image, const PartRange& range, vk::ImageLayout layout) {
+    const auto barriers = image.transitions(range, layout, DeviceImage::Contents::keep);
+    commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
+    image.set_layout(range, layout);
 }
 
 class VulkanExecutor final : public Executor {
@@ -62,12 +59,13 @@ private:
         PlanResources resources;
         DescriptorSets sets;
         Stopwatch stopwatch;
-        Readback peeks;
-        std::vector<std::size_t> tickets;  // of the peeks, in the order they were asked for
+        HostCopies peeks;
+        std::vector<HostCopies::Copy> peeked;  // in the order they were asked for
     };
 
     Execution execute(const Plan&, const RunOptions&);
     void record(const vk::raii::CommandBuffer&, Frame&);
+    HostCopies::Copy copy_out(const vk::raii::CommandBuffer&, DeviceImage&, HostCopies&);
     void record_peeks(const vk::raii::CommandBuffer&, Frame&, std::size_t step);
     void read_kept(Frame&, Execution&);
     void fail_on_messages();
@@ -119,8 +117,8 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
                 PlanResources(plan, *memory_, imports_),
                 DescriptorSets(*device_, plan, samplers_, placeholders_),
                 Stopwatch(*device_, intervals),
-                Readback(*device_),
-                std::vector<std::size_t>(options.peeks.size())};
+                {Readback(*device_), {}},
+                std::vector<HostCopies::Copy>(options.peeks.size())};
 
     auto commands = device_->begin_commands();
     const auto layouts = imports_.layouts();
@@ -140,10 +138,7 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     fail_on_messages();
 
     execution.step_ms = frame.stopwatch.milliseconds();
-    for (std::size_t i = 0; i < options.peeks.size(); ++i) {
-        const Shape& shape = plan.images[options.peeks[i].image.id].shape;
-        execution.peeked.push_back({single_mip(shape), frame.peeks.take(frame.tickets[i])});
-    }
+    for (const HostCopies::Copy& copy : frame.peeked) execution.peeked.push_back(frame.peeks.take(copy));
     read_kept(frame, execution);
     return execution;
 }
@@ -168,7 +163,27 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
     }
     if (end == plan.steps.size()) recorder.barriers(plan.final_barriers);
     imports_.settle(commands);  // a shortened run leaves them anywhere
-    frame.peeks.finish(commands);
+    frame.peeks.readback.finish(commands);
+}
+
+/// Copies mip 0 of an image between two steps and leaves it in the layouts it had.
+HostCopies::Copy VulkanExecutor::copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image, HostCopies& copies) {
+    const PartRange top{.layers = image.shape().layers};
+    const auto before = image.layouts();
+    HostCopies::Copy copy;
+    if (image.shape().samples > 1) {
+        auto& spread = copies.spread.emplace_back(std::make_unique<SampleLayers>(*device_, image, samplers_, placeholders_));
+        const DeviceImage& layers = spread->record(commands, pipelines_);
+        copy = {copies.readback.add(commands, layers), layers.shape()};
+    } else {
+        go_to(commands, image, top, vk::ImageLayout::eTransferSrcOptimal);
+        copy = {copies.readback.add(commands, image), image.shape()};
+        copy.shape.mips = 1;
+    }
+    for (std::uint32_t layer = 0; layer < top.layers; ++layer) {
+        if (before[layer] != vk::ImageLayout::eUndefined) go_to(commands, image, {.layer = layer}, before[layer]);
+    }
+    return copy;
 }
 
 void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame& frame, std::size_t step) {
@@ -176,33 +191,35 @@ void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame
         const Peek& peek = frame.options.peeks[i];
         if (peek.step != step) continue;
         if (!frame.resources.holds(peek.image)) {
-            throw DeviceFailure(fmt::format("{}: the image {} holds nothing after this step", place_,
-                                            frame.plan.images[peek.image.id].name));
+            throw DeviceFailure(
+                fmt::format("{}: the image {} holds nothing after this step", place_, frame.plan.images[peek.image.id].name));
         }
-        frame.tickets[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks);
+        frame.peeked[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks);
     }
 }
 
 /// What a shortened run did not get to is left out; so are imports, which are the caller's already.
 void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
     place_ = "read the frame back";
-    Readback readback(*device_);
-    std::map<std::uint32_t, std::size_t> images, buffers;
+    HostCopies copies{Readback(*device_), {}};
+    std::map<std::uint32_t, HostCopies::Copy> images;
+    std::map<std::uint32_t, std::size_t> buffers;
     const Plan& plan = frame.plan;
     device_->run_once([&](const vk::raii::CommandBuffer& commands) {
         full_barrier(commands);
         for (const Image image : plan.kept_images) {
             const bool is_there = !plan.images[image.id].import && frame.resources.holds(image);
-            if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), readback);
+            if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), copies);
         }
         for (const Buffer buffer : plan.kept_buffers) {
             const bool is_there = std::ranges::count(plan.used_buffers, buffer.id) > 0;
-            if (is_there) buffers[buffer.id] = readback.add(commands, frame.resources.buffer(buffer), plan.buffers[buffer.id].bytes);
+            if (is_there)
+                buffers[buffer.id] = copies.readback.add(commands, frame.resources.buffer(buffer), plan.buffers[buffer.id].bytes);
         }
-        readback.finish(commands);
+        copies.readback.finish(commands);
     });
-    for (const auto& [id, ticket] : images) execution.images[id] = {single_mip(plan.images[id].shape), readback.take(ticket)};
-    for (const auto& [id, ticket] : buffers) execution.buffers[id] = readback.take(ticket);
+    for (const auto& [id, copy] : images) execution.images[id] = copies.take(copy);
+    for (const auto& [id, ticket] : buffers) execution.buffers[id] = copies.readback.take(ticket);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// An image to copy out right after a step of the plan (its index in Plan::steps).
+/// An image to copy out right after a step of the plan (its index in Plan::steps). A DeviceFailure when no step made it yet, or
+/// a later image has taken its memory.
 struct Peek {
     std::size_t step = 0;
     Image image;
@@ -31,17 +32,18 @@ struct Peek {
 enum class Timestamps { off, on };
 
 struct RunOptions {
-    std::optional<std::size_t> until;    ///< last step to run, all of them where empty
+    std::optional<std::size_t> until;  ///< last step to run, all of them where empty
     std::vector<Peek> peeks;
     Timestamps timestamps = Timestamps::off;
 };
 
 struct Execution {
-    std::vector<double> step_ms;         ///< one per executed step with timestamps on
-    double wall_ms = 0;                  ///< submit to fence
-    std::map<std::uint32_t, HostImage> images;              ///< kept images by id
-    std::map<std::uint32_t, std::vector<std::byte>> buffers;///< kept buffers by id
-    std::vector<HostImage> peeked;       ///< in the order of RunOptions::peeks
+    std::vector<double> step_ms;  ///< one per executed step with timestamps on
+    double wall_ms = 0;           ///< submit to fence
+    // Images with several samples come back as layers, their depth as r32f. A shortened run gives what it made.
+    std::map<std::uint32_t, HostImage> images;                ///< kept images by id, imports excluded
+    std::map<std::uint32_t, std::vector<std::byte>> buffers;  ///< kept buffers by id
+    std::vector<HostImage> peeked;                            ///< in the order of RunOptions::peeks
 };
 
 class Executor {
@@ -49,7 +51,7 @@ public:
     static std::unique_ptr<Executor> create(Device&);
     virtual ~Executor() = default;
 
-    /// Creates or replaces a resource that outlives plans, known to Graph::import by its id.
+    /// Creates or replaces a resource that outlives plans, known to Graph::import by its id. Images are zero at first.
     virtual void upload(ImportId, std::span<const std::byte>) = 0;
     virtual void create_image(ImportId, const Shape&) = 0;
     virtual void forget(ImportId) = 0;

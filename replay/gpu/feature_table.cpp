@@ -96,7 +96,8 @@ std::string missing_limit(const vk::raii::PhysicalDevice& device) {
 
     const auto& subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>();
     using Operation = vk::SubgroupFeatureFlagBits;
-    const vk::SubgroupFeatureFlags operations = Operation::eBasic | Operation::eVote | Operation::eArithmetic | Operation::eBallot;
+    const vk::SubgroupFeatureFlags operations =
+        Operation::eBasic | Operation::eVote | Operation::eArithmetic | Operation::eBallot;
     const vk::ShaderStageFlags stages = vk::ShaderStageFlagBits::eCompute | vk::ShaderStageFlagBits::eFragment;
     if ((subgroup.supportedOperations & operations) != operations) return "subgroup arithmetic and ballots";
     if ((subgroup.supportedStages & stages) != stages) return "subgroup operations in fragment shaders";
@@ -133,8 +134,9 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
     const vk::QueueFlags everything = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
-    const auto found = std::ranges::find_if(
-        families, [&](const auto& family) { return (family.queueFlags & everything) == everything && family.timestampValidBits > 0; });
+    const auto found = std::ranges::find_if(families, [&](const auto& family) {
+        return (family.queueFlags & everything) == everything && family.timestampValidBits > 0;
+    });
     if (found == families.end()) return std::nullopt;
     return static_cast<std::uint32_t>(found - families.begin());
 }

@@ -49,9 +49,12 @@ vk::FormatFeatureFlags needed_features(Format format) {
     using Bit = vk::FormatFeatureFlagBits;
     const vk::FormatFeatureFlags any = Bit::eSampledImage | Bit::eTransferSrc | Bit::eTransferDst;
     switch (device_row(format).use) {
-        case Use::depth: return any | Bit::eDepthStencilAttachment;
-        case Use::drawn: return any | Bit::eStorageImage | Bit::eColorAttachment;
-        case Use::blended: return any | Bit::eStorageImage | Bit::eColorAttachment | Bit::eColorAttachmentBlend;
+        case Use::depth:
+            return any | Bit::eDepthStencilAttachment;
+        case Use::drawn:
+            return any | Bit::eStorageImage | Bit::eColorAttachment;
+        case Use::blended:
+            return any | Bit::eStorageImage | Bit::eColorAttachment | Bit::eColorAttachmentBlend;
     }
     return any;
 }

@@ -73,7 +73,8 @@ void DeviceImage::set_layout(const PartRange& range, vk::ImageLayout layout) {
         std::fill_n(layouts_.begin() + static_cast<std::ptrdiff_t>(index(mip, range.layer)), range.layers, layout);
 }
 
-std::vector<vk::ImageMemoryBarrier2> DeviceImage::transitions(const PartRange& range, vk::ImageLayout to, Contents contents) const {
+std::vector<vk::ImageMemoryBarrier2> DeviceImage::transitions(const PartRange& range, vk::ImageLayout to,
+                                                              Contents contents) const {
     constexpr auto everything = vk::PipelineStageFlagBits2::eAllCommands;
     constexpr auto any = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite;
     std::vector<vk::ImageMemoryBarrier2> found;

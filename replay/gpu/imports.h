@@ -18,9 +18,11 @@ public:
     void upload(ImportId, std::span<const std::byte>);
     void create_image(ImportId, const Shape&);
     void forget(ImportId);
+    /// Somebody else's image under a key: the caller keeps it alive.
+    void lend(ImportId id, DeviceImage& image) { lent_.insert_or_assign(id.key, &image); }
 
     /// Throws std::out_of_range for an import nobody made.
-    DeviceImage& image(ImportId id) { return images_.at(id.key); }
+    DeviceImage& image(ImportId id) { return lent_.contains(id.key) ? *lent_.at(id.key) : images_.at(id.key); }
     DeviceBuffer& buffer(ImportId id) { return buffers_.at(id.key); }
     std::uint64_t bytes_held() const;
 
@@ -35,6 +37,7 @@ private:
     OpenedDevice* device_;
     std::map<std::uint64_t, DeviceImage> images_;
     std::map<std::uint64_t, DeviceBuffer> buffers_;
+    std::map<std::uint64_t, DeviceImage*> lent_;
 };
 
 }  // namespace strata

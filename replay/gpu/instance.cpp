@@ -38,7 +38,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, V
 
 // The loader sends messages of its own with type GENERAL: only the layer's are wanted.
 vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
-    return {{}, vk::DebugUtilsMessageSeverityFlagBitsEXT::eError, vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, &collect, &log};
+    return {
+        {}, vk::DebugUtilsMessageSeverityFlagBitsEXT::eError, vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, &collect, &log};
 }
 
 vk::raii::Instance make_instance(const vk::raii::Context& context, Validation validation, bool has_labels, ValidationLog& log) {
@@ -74,7 +75,8 @@ Result<Instance> Instance::create(Validation validation) {
         }
         return Instance(std::move(context), validation);
     } catch (const std::exception& problem) {  // no loader is a runtime_error, no driver a vk::SystemError
-        return fail(Fault::device_lacks, "no Vulkan on this machine ({}): install a driver, mesa-vulkan-drivers at least", problem.what());
+        return fail(Fault::device_lacks, "no Vulkan on this machine ({}): install a driver, mesa-vulkan-drivers at least",
+                    problem.what());
     }
 }
 

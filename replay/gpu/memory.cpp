@@ -69,7 +69,8 @@ private:
 
 Memory::Memory(MemoryBlock& block, std::uint64_t offset, std::uint64_t bytes) : block_(&block), offset_(offset), bytes_(bytes) {}
 
-Memory::Memory(Memory&& other) noexcept : block_(std::exchange(other.block_, nullptr)), offset_(other.offset_), bytes_(other.bytes_) {}
+Memory::Memory(Memory&& other) noexcept
+    : block_(std::exchange(other.block_, nullptr)), offset_(other.offset_), bytes_(other.bytes_) {}
 
 Memory::~Memory() {
     if (block_) block_->give_back(offset_, bytes_);
@@ -106,9 +107,15 @@ std::uint32_t MemoryPool::type_for(std::uint32_t allowed, MemoryUse use) const {
     vk::MemoryPropertyFlags best, enough;
     switch (use) {
         case MemoryUse::images:
-        case MemoryUse::buffers: best = Bit::eDeviceLocal; break;
-        case MemoryUse::upload: best = enough = host; break;
-        case MemoryUse::readback: best = host | Bit::eHostCached, enough = host; break;
+        case MemoryUse::buffers:
+            best = Bit::eDeviceLocal;
+            break;
+        case MemoryUse::upload:
+            best = enough = host;
+            break;
+        case MemoryUse::readback:
+            best = host | Bit::eHostCached, enough = host;
+            break;
     }
     for (const vk::MemoryPropertyFlags wanted : {best, enough}) {
         for (std::uint32_t type = 0; type < properties_.memoryTypeCount; ++type) {

@@ -13,8 +13,10 @@
 namespace strata {
 
 enum class MemoryUse : std::uint32_t {
-    images, buffers,  ///< on the device
-    upload, readback, ///< mapped and coherent; readback cached where there is such memory
+    images,
+    buffers,  ///< on the device
+    upload,
+    readback,  ///< mapped and coherent; readback cached where there is such memory
 };
 
 class MemoryBlock;

@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include "passes/graph/shader.h"
+#include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/raster_state.h"
-#include "replay/gpu/format_table.h"
 
 namespace strata {
 namespace {
@@ -155,8 +155,8 @@ vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep
     const vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(
         0, formats, state.depth == DepthUse::none ? vk::Format::eUndefined : device_format(Format::d32f));
-    const auto info = vk::GraphicsPipelineCreateInfo({}, stages, &pulled, &triangles, nullptr, &viewport, &raster, &samples, &depth,
-                                                     &blend, &dynamics, layout)
+    const auto info = vk::GraphicsPipelineCreateInfo({}, stages, &pulled, &triangles, nullptr, &viewport, &raster, &samples,
+                                                     &depth, &blend, &dynamics, layout)
                           .setPNext(&rendering);
     return {device, nullptr, info};
 }
@@ -165,10 +165,14 @@ vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep
 
 vk::DescriptorType descriptor_type(BindingKind kind) {
     switch (kind) {
-        case BindingKind::sampled_image: return vk::DescriptorType::eCombinedImageSampler;
-        case BindingKind::storage_image: return vk::DescriptorType::eStorageImage;
-        case BindingKind::storage_buffer: return vk::DescriptorType::eStorageBuffer;
-        case BindingKind::uniform_buffer: return vk::DescriptorType::eUniformBuffer;
+        case BindingKind::sampled_image:
+            return vk::DescriptorType::eCombinedImageSampler;
+        case BindingKind::storage_image:
+            return vk::DescriptorType::eStorageImage;
+        case BindingKind::storage_buffer:
+            return vk::DescriptorType::eStorageBuffer;
+        case BindingKind::uniform_buffer:
+            return vk::DescriptorType::eUniformBuffer;
     }
     return vk::DescriptorType::eStorageBuffer;
 }

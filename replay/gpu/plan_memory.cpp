@@ -9,7 +9,8 @@ PlanMemory::PlanMemory(OpenedDevice& device, const Plan& plan) : key_(key_of(pla
         const MemorySlot& slot = plan.slots[i];
         if (!slot.images.empty()) slots_.try_emplace(i, device, slot.shape, plan.images[slot.images.front()].name);
     }
-    for (const std::uint32_t id : plan.used_buffers) buffers_.try_emplace(id, device, plan.buffers[id].bytes, plan.buffers[id].name);
+    for (const std::uint32_t id : plan.used_buffers)
+        buffers_.try_emplace(id, device, plan.buffers[id].bytes, plan.buffers[id].name);
 }
 
 std::vector<std::uint64_t> PlanMemory::key_of(const Plan& plan) {

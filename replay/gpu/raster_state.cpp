@@ -29,11 +29,13 @@ constexpr BlendRow rows[] = {
 static_assert(std::ranges::is_sorted(rows, {}, &BlendRow::blend));
 
 bool writes_outside(const PlannedStep& planned) {
-    return std::ranges::any_of(planned.bindings, [](const PlannedBinding& planned_binding) { return writes(planned_binding.binding.access); });
+    return std::ranges::any_of(planned.bindings,
+                               [](const PlannedBinding& planned_binding) { return writes(planned_binding.binding.access); });
 }
 
 bool is_lone_opaque_color(const RasterState& state) {
-    return state.colors.size() == 1 && state.depth == DepthUse::none && state.samples == 1 && state.colors.front().blend == Blend::none;
+    return state.colors.size() == 1 && state.depth == DepthUse::none && state.samples == 1 &&
+           state.colors.front().blend == Blend::none;
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ std::size_t Readback::add(const vk::raii::CommandBuffer& commands, const DeviceI
     Shape shape = image.shape();
     assert(shape.samples == 1);
     shape.mips = 1;
-    Copy& copy = copies_.emplace_back(DeviceBuffer(*device_, strata::bytes(shape), "readback", MemoryUse::readback), strata::bytes(shape));
+    Copy& copy =
+        copies_.emplace_back(DeviceBuffer(*device_, strata::bytes(shape), "readback", MemoryUse::readback), strata::bytes(shape));
     const vk::ImageSubresourceLayers layers(image.subresources({}).aspectMask, 0, 0, shape.layers);
     const vk::Extent3D extent(shape.extent.width, shape.extent.height, shape.extent.depth);
     commands.copyImageToBuffer(image.handle(), image.layout({}), copy.staging.handle(),

@@ -2,7 +2,6 @@
 // bytes are taken out in the same order.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "replay/gpu/buffer.h"

@@ -14,7 +14,8 @@ AccessSet all_of(AccessSet all, Access leading) { return all.empty() ? AccessSet
 std::uint32_t at_mip(std::uint32_t size, std::uint32_t mip) { return std::max(1u, size >> mip); }
 
 bool is_discarded(const PlannedStep& planned, const Image& image) {
-    return std::ranges::any_of(planned.barriers, [&](const Barrier& barrier) { return barrier.discard && barrier.image.id == image.id; });
+    return std::ranges::any_of(planned.barriers,
+                               [&](const Barrier& barrier) { return barrier.discard && barrier.image.id == image.id; });
 }
 
 }  // namespace
@@ -122,7 +123,8 @@ void StepRecorder::record(const PlannedStep&, const CopyWork& work) {
     for (std::uint32_t mip = 0; mip < std::min(from.shape().mips, shape.mips); ++mip) {
         const vk::ImageAspectFlags aspect = to.subresources({}).aspectMask;
         const vk::ImageSubresourceLayers layers(aspect, mip, 0, std::min(from.shape().layers, shape.layers));
-        const vk::Extent3D extent(at_mip(shape.extent.width, mip), at_mip(shape.extent.height, mip), at_mip(shape.extent.depth, mip));
+        const vk::Extent3D extent(at_mip(shape.extent.width, mip), at_mip(shape.extent.height, mip),
+                                  at_mip(shape.extent.depth, mip));
         mips.push_back({layers, {}, layers, {}, extent});
     }
     commands_->copyImage(from.handle(), from.layout({}), to.handle(), to.layout({}), mips);

@@ -25,8 +25,9 @@ void Stopwatch::end(const vk::raii::CommandBuffer& commands) { write(commands); 
 std::vector<double> Stopwatch::milliseconds() const {
     std::vector<double> intervals;
     if (written_ == 0) return intervals;
-    const auto [result, ticks] = pool_.getResults<std::uint64_t>(0, written_, written_ * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                 vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const auto [result, ticks] =
+        pool_.getResults<std::uint64_t>(0, written_, written_ * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     for (std::size_t i = 0; i + 1 < ticks.size(); i += 2) {
         intervals.push_back(static_cast<double>(ticks[i + 1] - ticks[i]) * period_ns_ * 1e-6);
     }

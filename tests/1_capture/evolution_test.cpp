@@ -60,8 +60,11 @@ TEST(Evolution, EveryFieldHasAnId) {
     bool in_table = false;
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("table ")) in_table = true;
-        else if (line.starts_with("}")) in_table = false;
-        else if (in_table && line.find(':') < line.find("//")) EXPECT_THAT(line, HasSubstr("(id: "));
+        if (line.starts_with("}")) in_table = false;
+        const bool declares = in_table && line.starts_with(" ") && line.find(':') < line.find("//");
+        if (declares) {
+            EXPECT_THAT(line, HasSubstr("(id: "));
+        }
     }
 }
 

@@ -67,9 +67,8 @@ void open_fully(const std::filesystem::path& path, Outcome& outcome) {
         }
         for (std::size_t i = 0; i < capture->frame_count(); ++i) {
             const auto frame = capture->frame(i);
-            frame ? ++outcome.frames : ++outcome.sentences;
-            if (frame) EXPECT_TRUE(check_frame(*frame));
-            if (!frame) EXPECT_FALSE(frame.error().sentence.empty());
+            ++(frame ? outcome.frames : outcome.sentences);
+            EXPECT_TRUE(frame ? bool(check_frame(*frame)) : !frame.error().sentence.empty());
         }
     }
 }

@@ -1,119 +1,23 @@
-// glTF scenes become frames: values by hand on small files written here, robustness on broken ones, and real scenes when
-// they are there.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+// glTF scenes become frames: values by hand on small files written here, and real scenes when they are there.
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "capture_format/import_gltf.h"
 #include "capture_format/reader.h"
 #include "capture_format/texture_mips.h"
+#include "tests/support/gltf_text.h"
 
 namespace strata {
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
-
-/// 2 x 2: red, half-covered green; uncovered blue, white.
-constexpr const char* tiny_png =
-    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAFElEQVR42mP4z8DwHwgbGMA0EAAAP9cIeV/HbbEAAAAASUVORK5CYII=";
-/// 8 x 8 of grey 188.
-constexpr const char* tiny_jpeg =
-    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wCEAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMUFRUVDA8XGBYUGBIUFRQB"
-    "AwQEBQQFCQUFCRQNCw0UFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFP/AABEIAAgACAMBIgACEQEDEQH/xAGi"
-    "AAABBQEBAQEBAQAAAAAAAAAAAQIDBAUGBwgJCgsQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBka"
-    "JSYnKCkqNDU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS"
-    "09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+gEAAwEBAQEBAQEBAQAAAAAAAAECAwQFBgcICQoLEQACAQIEBAMEBwUEBAABAncAAQIDEQQFITEGEkFRB2Fx"
-    "EyIygQgUQpGhscEJIzNS8BVictEKFiQ04SXxFxgZGiYnKCkqNTY3ODk6Q0RFRkdISUpTVFVWV1hZWmNkZWZnaGlqc3R1dnd4eXqCg4SFhoeIiYqSk5SVlpeY"
-    "mZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS09TV1tfY2dri4+Tl5ufo6ery8/T19vf4+fr/2gAMAwEAAhEDEQA/APqCiiigD//Z";
-
-std::string base64(const std::string& bytes) {
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t j = 0; j < 3; ++j) {
-            group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-        }
-        for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? digits[group >> (18 - 6 * j) & 63] : '=';
-    }
-    return text;
-}
-
-template <typename T>
-std::string bytes_of(std::initializer_list<T> values) {
-    std::string bytes(values.size() * sizeof(T), '\0');
-    std::memcpy(bytes.data(), std::data(values), bytes.size());
-    return bytes;
-}
-
-/// A glTF with one buffer; every accessor gets a buffer view of its own.
-class Gltf {
-public:
-    /// The index of the new accessor. `more` is JSON that follows a comma.
-    int accessor(const std::string& bytes, int component, const std::string& type, std::size_t count,
-                 const std::string& more = "") {
-        views_ += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}", views_.empty() ? "" : ",", bytes_.size(),
-                              bytes.size());
-        accessors_ += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"type\":\"{}\",\"count\":{}{}}}",
-                                  accessors_.empty() ? "" : ",", count_, component, type, count, more);
-        bytes_ += bytes;
-        bytes_.resize((bytes_.size() + 3) / 4 * 4);
-        return count_++;
-    }
-    int floats(std::initializer_list<float> values, const std::string& type, std::size_t components,
-               const std::string& more = "") {
-        return accessor(bytes_of(values), 5126, type, values.size() / components, more);
-    }
-    /// A triangle (0,0,0) (1,0,0) (0,1,0) as accessor 0.
-    Gltf& with_triangle() {
-        floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
-        return *this;
-    }
-    std::string text(const std::string& members) const {
-        return fmt::format(
-            "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":{},\"uri\":"
-            "\"data:application/octet-stream;base64,{}\"}}],\"bufferViews\":[{}],\"accessors\":[{}],{}}}",
-            bytes_.size(), base64(bytes_), views_, accessors_, members);
-    }
-
-private:
-    std::string bytes_, views_, accessors_;
-    int count_ = 0;
-};
-
-/// One node that shows one mesh of one primitive.
-std::string showing(const std::string& primitive, const std::string& more = "") {
-    return fmt::format("\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"name\":\"m\",\"primitives\":[{}]}}]{}", primitive, more);
-}
-
-Result<ImportedScene> import_text(const std::string& text, const GltfOptions& options = {}) {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("strata_" + test + ".gltf");
-    std::ofstream(path, std::ios::binary) << text;
-    auto result = import_gltf(path, options);
-    std::filesystem::remove(path);
-    return result;
-}
-
-ImportedScene imported(const std::string& text, const GltfOptions& options = {}) {
-    auto scene = import_text(text, options);
-    if (!scene) throw std::runtime_error(scene.error().sentence);
-    return *std::move(scene);
-}
-
-std::string refusal(const std::string& text) {
-    const auto scene = import_text(text);
-    return scene ? "it was imported" : scene.error().sentence;
-}
-
-constexpr const char* triangle = R"({"attributes":{"POSITION":0}})";
 
 TEST(ImportGltf, TriangleWithoutNormalsGetsTheNormalOfItsPlane) {
     const Frame frame = imported(Gltf().with_triangle().text(showing(triangle))).frame;
@@ -274,16 +178,6 @@ TEST(ImportGltf, TransmissionBecomesChromaticTransmittance) {
     EXPECT_EQ(material.base_color.w, 1);
 }
 
-std::string with_image(const std::string& image, const std::string& texture_info) {
-    Gltf gltf = Gltf().with_triangle();
-    gltf.floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
-    return gltf.text(
-        showing(R"({"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}})") +
-        fmt::format(R"(,"images":[{{{}}}],"textures":[{{"source":0,"sampler":0}}],"samplers":[{{"wrapS":33071,"wrapT":33071}}],
-        "materials":[{{"alphaMode":"BLEND","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0{}}}}}}}])",
-                    image, texture_info));
-}
-
 TEST(ImportGltf, PngBecomesATextureWithLinearMips) {
     const Frame frame = imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "")).frame;
     ASSERT_EQ(frame.textures.size(), 1u);
@@ -349,76 +243,6 @@ TEST(ImportGltf, OddMipsWeighTexelsByArea) {
     const Texture done = with_mips(texture);
     EXPECT_EQ(done.mips, 2u);
     EXPECT_EQ(done.texels[12], std::byte{70});
-}
-
-TEST(ImportGltf, RequiredExtensionsMustBeSupportedOthersAreIgnored) {
-    const Gltf gltf = Gltf().with_triangle();
-    EXPECT_THAT(refusal(gltf.text(showing(triangle, R"(,"extensionsRequired":["EXT_sparkle"])"))),
-                HasSubstr("requires EXT_sparkle, which is not supported"));
-    EXPECT_THAT(imported(gltf.text(showing(triangle, R"(,"extensionsUsed":["EXT_sparkle"])"))).warnings,
-                Contains(HasSubstr("EXT_sparkle is ignored")));
-}
-
-TEST(ImportGltf, OrthographicCameraIsReplacedWithAWarning) {
-    const ImportedScene scene = imported(Gltf().with_triangle().text(
-        R"("nodes":[{"camera":0},{"mesh":0}],"cameras":[{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":9}}],
-        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])"));
-    EXPECT_THAT(scene.warnings, Contains(HasSubstr("orthographic")));
-    EXPECT_GT(scene.frame.view.projection[0][0], 0);
-}
-
-TEST(ImportGltf, AccessorsThatLeaveTheirBufferAreRefused) {
-    const auto broken = [](const std::string& accessor, const std::string& view) {
-        return refusal(fmt::format(
-            R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,{}"}}],
-            "bufferViews":[{{"buffer":0,"byteLength":36{}}}],"accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3"{}}}],{}}})",
-            base64(std::string(36, '\0')), view, accessor, showing(triangle)));
-    };
-    EXPECT_THAT(broken(R"(,"count":4)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":4611686018427387904)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":4)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3,"byteOffset":18446744073709551612)", ""), HasSubstr("leave buffer view"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":8)"), HasSubstr("leaves its buffer"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteOffset":18446744073709551608)"), HasSubstr("leaves its buffer"));
-    EXPECT_THAT(broken(R"(,"count":3)", R"(,"byteStride":252)"), HasSubstr("leave buffer view"));
-}
-
-TEST(ImportGltf, DanglingReferencesAreRefused) {
-    const Gltf gltf = Gltf().with_triangle();
-    const std::string meshes = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])";
-    EXPECT_THAT(refusal(gltf.text(R"("nodes":[{"mesh":3}],)" + meshes)), HasSubstr("mesh 3"));
-    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"children":[0]}],)" + meshes)),
-                HasSubstr("reached twice"));
-    EXPECT_THAT(refusal(gltf.text(R"("scenes":[{"nodes":[7]}],"nodes":[{}],)" + meshes)), HasSubstr("node 7"));
-    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"POSITION":9}})"))), HasSubstr("accessor 9"));
-    EXPECT_THAT(refusal(gltf.text(showing(R"({"attributes":{"NORMAL":0}})"))), HasSubstr("POSITION"));
-    Gltf far = Gltf().with_triangle();
-    far.accessor(bytes_of<std::uint16_t>({0, 1, 3}), 5123, "SCALAR", 3);
-    EXPECT_THAT(refusal(far.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})"))), HasSubstr("vertex 3 of 3"));
-}
-
-TEST(ImportGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
-    const ImportedScene scene = imported(with_image(R"("bufferView":0,"mimeType":"image/png")", ""));
-    EXPECT_THAT(scene.warnings, Contains(HasSubstr("neither PNG nor JPEG")));
-    std::string text = with_image(R"("bufferView":0,"mimeType":"image/png")", "");
-    const std::string view = R"({"buffer":0,"byteOffset":0,"byteLength":36})";
-    text.insert(text.find(view), R"({"buffer":0,"byteOffset":16,"byteLength":1000000},)");
-    for (const char* accessor : {"\"bufferView\":1,\"comp", "\"bufferView\":0,\"comp"}) {  // the others move up by one
-        text[text.find(accessor) + 13]++;
-    }
-    EXPECT_THAT(imported(text).warnings, Contains(HasSubstr("leaves its buffer")));
-}
-
-TEST(ImportGltf, WhatIsNoGltfIsRefused) {
-    EXPECT_THAT(refusal("not json"), HasSubstr("no readable glTF"));
-    EXPECT_THAT(refusal(""), HasSubstr("no readable glTF"));
-    EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), HasSubstr("no readable glTF"));
-    EXPECT_FALSE(import_gltf("/nowhere/at_all.gltf", {}));
-}
-
-TEST(ImportGltf, TruncatedFilesNeverCrash) {
-    const std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "");
-    for (std::size_t length = 0; length < text.size(); length += 7) EXPECT_FALSE(import_text(text.substr(0, length))) << length;
 }
 
 class RealScene : public testing::TestWithParam<const char*> {};

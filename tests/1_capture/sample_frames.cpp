@@ -1,3 +1,4 @@
+// Built by hand, with values that differ from the defaults and bits that arithmetic would lose.
 #include "tests/1_capture/sample_frames.h"
 
 #include <bit>
@@ -9,6 +10,14 @@ namespace {
 /// A quiet NaN whose payload must survive.
 const float odd_nan = std::bit_cast<float>(0x7fc12345u);
 const float infinite = std::numeric_limits<float>::infinity();
+
+/// A resource with nothing but a name.
+template <typename T>
+T named(const char* name) {
+    T resource;
+    resource.name = name;
+    return resource;
+}
 
 Texture checker() {
     Texture texture{.name = "checker", .width = 2, .height = 2, .mips = 2, .texels = {}};
@@ -26,7 +35,7 @@ Texture floats() {
 }
 
 Mesh triangle() {
-    Mesh mesh{.name = "triangle"};
+    Mesh mesh = named<Mesh>("triangle");
     mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.normals = {{0, 0, -1}, {0, 0, -1}, {0, 0, odd_nan}};
     mesh.tangents = {{1, 0, 0, 1}, {1, 0, 0, 1}, {1, 0, 0, -1}};
@@ -37,7 +46,8 @@ Mesh triangle() {
 }
 
 Material glass() {
-    Material material{.name = "glass", .alpha_mode = AlphaMode::blend};
+    Material material = named<Material>("glass");
+    material.alpha_mode = AlphaMode::blend;
     material.base_color = {.9f, .8f, .7f, .4f};
     material.transmission = {.9f, .5f, .1f};
     material.emissive = {0, -0.0f, .25f};
@@ -48,14 +58,19 @@ Material glass() {
 }
 
 Emitter smoke() {
-    Emitter emitter{.name = "smoke", .texture = 0, .soft_depth_fade = .5f, .resolution = Resolution::low};
+    Emitter emitter = named<Emitter>("smoke");
+    emitter.texture = 0;
+    emitter.soft_depth_fade = .5f;
+    emitter.resolution = Resolution::low;
     emitter.particles = {{.center = {0, 1, 4}, .color = {odd_nan, 1, 1}, .alpha = infinite, .depth_offset = odd_nan},
                          {.center = {1, 1, 5}, .rotation = .5f, .emissive = {3, 2, 1}}};
     return emitter;
 }
 
 Light spot() {
-    Light light{.name = "spot", .type = LightType::square_spot, .position = {0, 3, 4}};
+    Light light = named<Light>("spot");
+    light.type = LightType::square_spot;
+    light.position = {0, 3, 4};
     light.intensity = {40, -1, 3};
     light.texture = 0;
     light.shadow = {.casts = true, .map_size = 256, .bias = .01f};
@@ -72,9 +87,11 @@ Frame triangle_frame() {
     frame.view.width = 16;
     frame.view.height = 9;
     frame.view.projection = perspective(1, 16. / 9, frame.view.near);
-    frame.meshes = {{.name = "triangle", .positions = {{-1, 0, 3}, {1, 0, 3}, {0, 1, 3}}, .indices = {0, 1, 2}}};
-    frame.materials = {{.name = "plain"}};
-    frame.draws = {{.name = "triangle"}};
+    frame.meshes = {named<Mesh>("triangle")};
+    frame.meshes[0].positions = {{-1, 0, 3}, {1, 0, 3}, {0, 1, 3}};
+    frame.meshes[0].indices = {0, 1, 2};
+    frame.materials = {named<Material>("plain")};
+    frame.draws = {named<Draw>("triangle")};
     frame.sun.irradiance = {1, 1, 1};
     return frame;
 }
@@ -95,8 +112,10 @@ Frame rich_frame() {
     frame.emitters = {smoke()};
     frame.blockers = {{.center = {0, 2, 4}, .half_u = 2, .one_sided = true}};
     frame.portals = {{.center = {0, 2, 4}, .half_u = .5f}};
-    frame.lights = {
-        spot(), {.name = "lamp", .position = {1, 2, 3}}, {.name = "tube", .type = LightType::tube, .half_extent = {1, 0}}};
+    frame.lights = {spot(), named<Light>("lamp"), named<Light>("tube")};
+    frame.lights[1].position = {1, 2, 3};
+    frame.lights[2].type = LightType::tube;
+    frame.lights[2].half_extent = {1, 0};
     frame.hemisphere = {{.1f, .2f, .3f}, {.05f, .04f, .03f}};
     frame.background = {.5f, .6f, .7f};
     frame.fog = {.02f, {.3f, .3f, -0.0f}};

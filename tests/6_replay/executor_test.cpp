@@ -177,7 +177,8 @@ TEST(Executor, CountsInTheScopeOfTheTechniqueFromZeroOnEveryRun) {
     frame.graph.compute("counted.comp").stores("target", target).over({64, 3});
     frame.graph.keep(target);
     const Buffer counters = frame.graph.scopes().back().counters;
-    for (int run = 0; run < 2; ++run) EXPECT_THAT(values_of<std::uint32_t>(frame.run().buffers.at(counters.id)), ElementsAre(192, 0));
+    for (int run = 0; run < 2; ++run)
+        EXPECT_THAT(values_of<std::uint32_t>(frame.run().buffers.at(counters.id)), ElementsAre(192, 0));
 }
 
 TEST(Executor, CopiesImagesAndBuffersIntoImportsThatOutliveThePlan) {
@@ -218,7 +219,8 @@ TEST(Executor, PeeksAtAnImageBetweenSteps) {
 
 TEST(Executor, SaysWhenThereIsNothingToPeekAt) {
     TestFrame frame;
-    Image first = frame.graph.create("first", {.format = Format::r32f}), second = frame.graph.create("second", {.format = Format::r16f});
+    Image first = frame.graph.create("first", {.format = Format::r32f}),
+          second = frame.graph.create("second", {.format = Format::r16f});
     frame.graph.clear(first, {{1}});
     frame.graph.clear(second, {{1}});
     frame.graph.keep(first);
@@ -228,7 +230,8 @@ TEST(Executor, SaysWhenThereIsNothingToPeekAt) {
 
 TEST(Executor, StopsAfterTheStepItIsTold) {
     TestFrame frame;
-    Image early = frame.graph.create("early", {.format = Format::r32f}), late = frame.graph.create("late", {.format = Format::r16f});
+    Image early = frame.graph.create("early", {.format = Format::r32f}),
+          late = frame.graph.create("late", {.format = Format::r16f});
     frame.graph.clear(early, {{1}});
     frame.graph.clear(late, {{1}});
     frame.graph.keep(early);

@@ -13,8 +13,9 @@ template <typename... Words>
 HostImage image_of(Format format, Words... words) {
     HostImage image{{.format = format}, {}};
     const auto append = [&](auto word) {
-        const auto* bytes = reinterpret_cast<const std::byte*>(&word);
-        image.texels.insert(image.texels.end(), bytes, bytes + sizeof word);
+        const std::size_t end = image.texels.size();
+        image.texels.resize(end + sizeof word);
+        std::memcpy(image.texels.data() + end, &word, sizeof word);
     };
     (append(words), ...);
     return image;

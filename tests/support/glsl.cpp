@@ -33,8 +33,8 @@ Shader glsl(const std::string& name, std::string_view source, const std::string&
     const auto base = std::filesystem::temp_directory_path() / fmt::format("strata_test_{}_{}", getpid(), codes.size());
     const std::string glsl = base.string() + extension, spirv = base.string() + ".spv", log = base.string() + ".log";
     std::ofstream(glsl) << preamble << source;
-    const std::string command = fmt::format("glslangValidator --quiet --target-env vulkan1.3 '-I{}' -o {} {} > {}", include_folder,
-                                            spirv, glsl, log);
+    const std::string command =
+        fmt::format("glslangValidator --quiet --target-env vulkan1.3 '-I{}' -o {} {} > {}", include_folder, spirv, glsl, log);
     const bool compiled = std::system(command.c_str()) == 0;
     const std::string said = read_text(log), bytes = read_text(spirv);
     for (const std::string& file : {glsl, spirv, log}) std::filesystem::remove(file);

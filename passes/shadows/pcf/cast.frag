@@ -8,8 +8,9 @@ layout(location = 1) in float in_alpha;
 layout(location = 2) flat in uint in_draw;
 
 void main() {
+    const Footprint uv = footprint(in_uv);
     const MaterialRecord material = materials[draws[in_draw].material];
-    if (material.alpha_mode != alpha_mask) return;  // the same for the whole triangle: derivatives below are safe
-    const float alpha = material.base_color.a * in_alpha * texture_at(material.base_color_texture, in_uv).a;
+    if (material.alpha_mode != alpha_mask) return;
+    const float alpha = material.base_color.a * in_alpha * texture_at(material.base_color_texture, uv).a;
     if (alpha < material.mask_cutoff) discard;
 }
