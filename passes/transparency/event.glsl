@@ -18,6 +18,7 @@ layout(location = 6) flat in uint in_draw;
 
 layout(constant_id = 0) const uint first_emitter = 0u;  // draws from here on are emitters
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
+layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -27,12 +28,19 @@ struct Event {
     bool visible;
 };
 
+// What takes a varying to the sample. lavapipe 22.3 interpolates `sample` varyings there but divides by the w of the pixel's
+// center: on a tilted surface a constant 1 is half a percent off. gl_FragCoord.z is the sample's, and where in_position.z is,
+// too, this is 1. A constant and not view.near: helper lanes read zeros from buffers there, and uv needs its derivatives.
+float to_sample() { return sample_near > 0.0 ? sample_near / (gl_FragCoord.z * in_position.z) : 1.0; }
+
+vec3 position_here() { return in_position * to_sample(); }
+
 // How much of a soft particle is left this far in front of the opaque surface behind it.
 float faded() {
     const float metres = draws[in_draw].soft_fade;
     if (soft_fade == 0u || metres <= 0.0) return 1.0;
     const float opaque = texelFetch(depth_layers, ivec3(gl_FragCoord.xy, gl_SampleID), 0).r;
-    return opaque > 0.0 ? clamp((view_z(opaque) - in_position.z) / metres, 0.0, 1.0) : 1.0;
+    return opaque > 0.0 ? clamp((view_z(opaque) - position_here().z) / metres, 0.0, 1.0) : 1.0;
 }
 
 // All lights without shadows, sky and ground; an unlit material is its own light.
@@ -44,10 +52,10 @@ vec3 lit(MaterialPoint m) {
 }
 
 Event blended(float alpha, vec3 p, vec3 transmission) {
-    return Event(in_position.z, alpha, p, 1.0 - alpha * (1.0 - transmission), vec3(0.0), true);
+    return Event(position_here().z, alpha, p, 1.0 - alpha * (1.0 - transmission), vec3(0.0), true);
 }
 
-Event additive(vec3 e) { return Event(in_position.z, 0.0, vec3(0.0), vec3(1.0), e, true); }
+Event additive(vec3 e) { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), e, true); }
 
 Event mesh_event(MaterialPoint m) {
     const float a = valid_alpha(m.alpha);
@@ -59,10 +67,12 @@ Event mesh_event(MaterialPoint m) {
 
 // m is the emitter's texture alone: the particle's color is kept out of it.
 Event particle_event(MaterialPoint m) {
-    const float fade = faded(), a = valid_alpha(in_color.a * m.alpha * fade);
-    const vec3 c = in_color.rgb * m.base_color, e = in_emissive.rgb * m.base_color * (m.alpha * fade);
+    const vec4 color = in_color * to_sample();
+    const vec3 emissive = in_emissive.rgb * to_sample();
+    const float fade = faded(), a = valid_alpha(color.a * m.alpha * fade);
+    const vec3 c = color.rgb * m.base_color, e = emissive * m.base_color * (m.alpha * fade);
     if (m.alpha_mode == alpha_additive) return additive(e + a * c);
-    const vec3 p = m.alpha_mode == alpha_premultiplied ? c * (in_color.a * fade) : a * c;
+    const vec3 p = m.alpha_mode == alpha_premultiplied ? c * (color.a * fade) : a * c;
     Event event = blended(a, p, vec3(0.0));
     event.e = e;
     return event;
@@ -70,21 +80,23 @@ Event particle_event(MaterialPoint m) {
 
 // Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact (chapter 0.4).
 void add_fog(inout Event event) {
-    const float remains = fog_remains(in_position.z);
+    const float remains = fog_remains(event.z);
     event.p = event.p * remains + event.alpha * (1.0 - remains) * view.fog_color;
     event.e *= remains;
 }
 
 Event transparent_event() {
     const bool particle = in_draw >= first_emitter;
-    const vec4 color = particle ? vec4(1.0) : in_color;
-    const MaterialPoint m = material_point(in_draw, in_position, in_normal, in_tangent, in_uv, color, gl_FrontFacing);
+    const float scale = to_sample();
+    const vec4 color = particle ? vec4(1.0) : in_color * scale;
+    const vec4 tangent = vec4(in_tangent.xyz, sign(in_tangent.w));
+    const MaterialPoint m = material_point(in_draw, position_here(), in_normal, tangent, in_uv * scale, color, gl_FrontFacing);
     Event event = particle ? particle_event(m) : mesh_event(m);
     if (view.fog_density > 0.0) add_fog(event);
     event.p = finite_or_zero(event.p);
     event.e = finite_or_zero(event.e);
-    event.visible = is_finite(in_position.z) && !invisible(event.alpha, event.e);
-    event.z -= in_emissive.w;
+    event.visible = is_finite(event.z) && !invisible(event.alpha, event.e);
+    event.z -= in_emissive.w * scale;
     return event;
 }
 

@@ -10,6 +10,7 @@ DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, con
     pass.tests_depth(images.depth)
         .samples("depth_layers", soft ? images.depth_layers : Image{})
         .fixes("soft_fade", soft ? 1u : 0u)
+        .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("first_emitter", static_cast<std::uint32_t>(images.recorded->draws.size()));
     return pass;
 }

@@ -14,8 +14,8 @@ std::string technique_of(Stage stage, std::size_t place) { return std::string(te
 
 TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
     const auto session = scenario_session("three_panes");
-    const Run first = must(session->run({}));
-    const Run second = must(session->run({}));
+    const auto first = must(session->run({}));
+    const auto second = must(session->run({}));
     EXPECT_EQ(first.acts_from_memo, 0u);
     EXPECT_GT(second.acts_from_memo, 0u);
     EXPECT_LT(second.steps.size(), first.steps.size());
@@ -25,13 +25,13 @@ TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
 TEST(Memo, AnotherTransparencyKeepsEveryStageBeforeIt) {
     const auto session = scenario_session("three_panes");
     must(session->run({.uses = {technique_of(Stage::transparency, 0)}}));
-    const Run other = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
+    const auto other = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
     for (const StepRecord& step : other.steps) {
         EXPECT_EQ(step.scope.find("gbuffer: "), step.scope.starts_with("memo") ? step.scope.find("gbuffer: ") : std::string::npos) << step.scope;
         EXPECT_FALSE(step.scope.starts_with("lighting: ")) << step.scope;
     }
     session->forget_memo();
-    const Run fresh = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
+    const auto fresh = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
     EXPECT_EQ(hash_of(other.images.at("display")), hash_of(fresh.images.at("display")));
 }
 
@@ -47,7 +47,7 @@ TEST(Memo, ASettingIsPartOfTheKey) {
     must(session->run(plain));
     Request changed = plain;
     changed.sets = {fmt::format("{}={}", param.name, other)};
-    const Run run = must(session->run(changed));
+    const auto run = must(session->run(changed));
     bool executed = false;
     for (const StepRecord& step : run.steps) executed = executed || step.scope.starts_with("transparency: ");
     EXPECT_TRUE(executed);
@@ -55,8 +55,8 @@ TEST(Memo, ASettingIsPartOfTheKey) {
 
 TEST(Memo, CountersOfKeptActsAreReportedAgain) {
     const auto session = scenario_session("three_panes");
-    const Run first = must(session->run({}));
-    const Run second = must(session->run({}));
+    const auto first = must(session->run({}));
+    const auto second = must(session->run({}));
     for (const CounterRecord& counter : first.counters) {
         const auto same = [&](const CounterRecord& c) { return c.technique == counter.technique && c.name == counter.name; };
         const auto found = std::ranges::find_if(second.counters, same);

@@ -18,16 +18,16 @@ std::vector<std::string> scenario_names() {
 
 TEST_P(EveryScenario, ForcingEverythingChangesNoPixel) {
     const auto session = scenario_session(GetParam());
-    const Run plain = must(session->run({.outputs = {"color", "display"}}));
+    const auto plain = must(session->run({.outputs = {"color", "display"}}));
     Request forced{.outputs = {"color", "display"}};
     forced.force.assign(all_features().begin(), all_features().end());
-    const Run all = must(session->run(forced));
+    const auto all = must(session->run(forced));
     for (const auto& [name, image] : plain.images) EXPECT_EQ(hash_of(image), hash_of(all.images.at(name))) << name;
 }
 
 TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
     const auto session = scenario_session(GetParam());
-    const Run run = must(session->run({}));
+    const auto run = must(session->run({}));
     for (const SkippedStage& skipped : run.skipped) {
         EXPECT_FALSE(skipped.reason.empty());
         EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
@@ -39,7 +39,7 @@ TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
 
 TEST(OnlyWhatIsNeeded, AnEmptyFrameLeavesOutMostStages) {
     const auto session = scenario_session("empty");
-    const Run run = must(session->run({}));
+    const auto run = must(session->run({}));
     EXPECT_GE(run.skipped.size(), 8u);
 }
 

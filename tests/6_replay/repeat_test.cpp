@@ -11,10 +11,10 @@ TEST(Repeat, TwentyReplaysGiveEqualBits) {
     const auto session = scenario_session("interpenetrating_panes", 4);
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         const Request request{.uses = {std::string(technique->name)}, .outputs = {"color", "display"}};
-        const Run first = must(session->run(request));
+        const auto first = must(session->run(request));
         for (int repeat = 1; repeat < 20; ++repeat) {
             session->forget_memo();
-            const Run again = must(session->run(request));
+            const auto again = must(session->run(request));
             for (const auto& [name, image] : first.images)
                 ASSERT_EQ(hash_of(image), hash_of(again.images.at(name))) << technique->name << " " << name << " repeat " << repeat;
         }
