@@ -53,15 +53,15 @@ struct Material {
     std::string name;
     LightingModel lighting_model = LightingModel::ggx;
     AlphaMode alpha_mode = AlphaMode::opaque;
-    glm::vec4 base_color{1};      ///< linear, unpremultiplied; a is coverage
+    glm::vec4 base_color{1};  ///< linear, unpremultiplied; a is coverage
     float metallic = 0;
     float roughness = 1;
-    glm::vec3 emissive{0};        ///< radiance
+    glm::vec3 emissive{0};  ///< radiance
     float normal_scale = 1;
     float occlusion_strength = 1;
     float mask_cutoff = 0.5f;
-    glm::vec3 transmission{0};    ///< k of t = 1 - alpha (1 - k): the color glass lets through; 0 is grey smoke
-    float distortion = 0;         ///< uv offset per unit of view-space normal
+    glm::vec3 transmission{0};  ///< k of t = 1 - alpha (1 - k): the color glass lets through; 0 is grey smoke
+    float distortion = 0;       ///< uv offset per unit of view-space normal
     bool double_sided = false;
     TextureUse base_color_texture, metallic_roughness_texture, normal_texture, emissive_texture, occlusion_texture;
 };
@@ -76,29 +76,29 @@ struct Draw {
     glm::dmat4 to_world{1};           ///< object to world
     glm::dmat4 previous_to_world{1};  ///< the same one frame earlier
     Mobility mobility = Mobility::fixed;
-    std::int32_t sort_priority = 0;   ///< object-sorted transparency draws lower values first
+    std::int32_t sort_priority = 0;  ///< object-sorted transparency draws lower values first
     Resolution resolution = Resolution::full;
-    std::uint32_t layer = 0;          ///< 0 the world; others are in-world interfaces, drawn in front in this order
+    std::uint32_t layer = 0;  ///< 0 the world; others are in-world interfaces, drawn in front in this order
     bool casts_shadow = true;
 };
 
 /// One camera-facing quad. Its corners are center +- size, turned by rotation around the view axis.
 struct Particle {
-    glm::dvec3 center{0};      ///< world
-    float size = 1;            ///< half the edge, metres
-    float rotation = 0;        ///< radians, counter-clockwise on screen
-    glm::vec3 color{1};        ///< unpremultiplied scattered radiance, already lit
+    glm::dvec3 center{0};  ///< world
+    float size = 1;        ///< half the edge, metres
+    float rotation = 0;    ///< radians, counter-clockwise on screen
+    glm::vec3 color{1};    ///< unpremultiplied scattered radiance, already lit
     float alpha = 1;
-    glm::vec3 emissive{0};     ///< radiance added without coverage
+    glm::vec3 emissive{0};           ///< radiance added without coverage
     glm::vec4 uv_frame{0, 0, 1, 1};  ///< left, top, width, height of the flipbook cell
-    float depth_offset = 0;    ///< metres towards the eye, for sorting and blending, not for the depth test
+    float depth_offset = 0;          ///< metres towards the eye, for sorting and blending, not for the depth test
 };
 
 struct Emitter {
     std::string name;
     std::uint32_t texture = no_index;  ///< rgb multiplies color and emissive, a multiplies alpha
     AlphaMode alpha_mode = AlphaMode::blend;
-    float soft_depth_fade = 0;     ///< metres over which a quad fades before the opaque surface behind it; 0 is hard
+    float soft_depth_fade = 0;  ///< metres over which a quad fades before the opaque surface behind it; 0 is hard
     std::int32_t sort_priority = 0;
     Resolution resolution = Resolution::full;
     std::uint32_t layer = 0;
@@ -128,15 +128,15 @@ struct Light {
     glm::vec3 direction{0, -1, 0};  ///< where it shines, unit
     glm::vec3 axis_u{1, 0, 0};      ///< unit, perpendicular to direction
     glm::vec3 intensity{1};
-    float range = 10;               ///< the window is exactly 0 from here on
-    float source_radius = 0;        ///< sphere, disc, tube
-    glm::vec2 half_extent{0};       ///< rectangle half sizes; tube half length in x
+    float range = 10;                              ///< the window is exactly 0 from here on
+    float source_radius = 0;                       ///< sphere, disc, tube
+    glm::vec2 half_extent{0};                      ///< rectangle half sizes; tube half length in x
     float inner_angle = 0.5f, outer_angle = 0.7f;  ///< half angles; a square spot uses outer for u and inner for v
-    std::uint32_t texture = no_index;   ///< projected (spots) or emitted (rectangle)
+    std::uint32_t texture = no_index;              ///< projected (spots) or emitted (rectangle)
     ShadowUse shadow;
-    std::vector<ClipPlane> clip_planes;        ///< at most 6
-    std::vector<std::uint32_t> blockers;       ///< indices into Frame::blockers, at most 32
-    std::vector<std::uint32_t> portals;        ///< indices into Frame::portals, at most 32
+    std::vector<ClipPlane> clip_planes;   ///< at most 6
+    std::vector<std::uint32_t> blockers;  ///< indices into Frame::blockers, at most 32
+    std::vector<std::uint32_t> portals;   ///< indices into Frame::portals, at most 32
 };
 
 /// A rectangle that stops light: center +- u * half_u +- v * half_v.
@@ -161,7 +161,7 @@ struct Sun {
     float angular_radius = 0.00465f;
     ShadowUse shadow;
     std::uint32_t cascades = 3;
-    float shadow_distance = 60;     ///< metres of view depth covered by the cascades
+    float shadow_distance = 60;  ///< metres of view depth covered by the cascades
     bool shafts = false;
 };
 
@@ -212,10 +212,10 @@ struct Film {
 /// Where the frame is seen from. `projection` is Vulkan's clip space for view space (+y up): reversed depth, infinite far:
 /// clip = (P00 x + P20 z, -(P11 y + P21 z), near, z). Jitter is not in it.
 struct View {
-    glm::dvec3 origin{0};    ///< the eye, world
-    glm::dmat3 to_view{1};   ///< rotation, world to view
+    glm::dvec3 origin{0};   ///< the eye, world
+    glm::dmat3 to_view{1};  ///< rotation, world to view
     glm::mat4 projection{0};
-    glm::vec2 jitter{0};     ///< NDC, added to x / w and y / w
+    glm::vec2 jitter{0};  ///< NDC, added to x / w and y / w
     std::uint32_t width = 160, height = 90;
     std::uint32_t samples = 1;  ///< 1 or 4
     float near = 0.1f;          ///< metres
@@ -246,7 +246,7 @@ struct Frame {
     std::vector<Texture> textures;
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
-    std::vector<Draw> draws;  ///< in submission order
+    std::vector<Draw> draws;        ///< in submission order
     std::vector<Emitter> emitters;  ///< submitted after all draws
 
     std::vector<Light> lights;

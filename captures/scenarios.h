@@ -12,12 +12,12 @@ namespace strata {
 
 struct ScenarioOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
-    std::uint32_t frames = 1;      ///< how many there will be: sets nothing but the animation's end
+    std::uint32_t frames = 1;  ///< how many there will be: sets nothing but the animation's end
     std::uint64_t seed = 1;
 };
 
 struct Scenario {
-    std::string_view name, question;   ///< "three_cards", "what leaks through three near-opaque cards?"
+    std::string_view name, question;         ///< "three_cards", "what leaks through three near-opaque cards?"
     std::uint32_t width = 160, height = 90;  ///< natural extent
     Frame (*build)(std::uint32_t frame, const ScenarioOptions&);
 };

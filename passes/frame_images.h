@@ -23,38 +23,38 @@ struct FrameImages {
     std::uint32_t samples = 1;  ///< 1 or 4
 
     // Draw lists of the scene, all indexed triangles over the offered scene buffers (passes/shaders/scene.shared.h).
-    DrawList all_opaque;        ///< opaque and masked draws, before culling
-    DrawList opaque;            ///< after the culling stage
-    DrawList casters;           ///< opaque and masked draws that cast shadows
-    DrawList transparent;       ///< transparent draws in submission order, then emitters
-    DrawList back_to_front;     ///< the same, sorted by object; particles sorted within their emitter
+    DrawList all_opaque;     ///< opaque and masked draws, before culling
+    DrawList opaque;         ///< after the culling stage
+    DrawList casters;        ///< opaque and masked draws that cast shadows
+    DrawList transparent;    ///< transparent draws in submission order, then emitters
+    DrawList back_to_front;  ///< the same, sorted by object; particles sorted within their emitter
 
     // culling
-    Image visible;              ///< r32ui, 1024 wide: 1 where the opaque draw (y * 1024 + x of all_opaque) is drawn
+    Image visible;  ///< r32ui, 1024 wide: 1 where the opaque draw (y * 1024 + x of all_opaque) is drawn
     // shadows
-    Image shadow_maps;          ///< d32f, one layer per map (see shadow slots in scene.shared.h), 0 nothing, 1 at the light
-    Image visibility;           ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
+    Image shadow_maps;  ///< d32f, one layer per map (see shadow slots in scene.shared.h), 0 nothing, 1 at the light
+    Image visibility;   ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
     // gbuffer
-    Image depth;                ///< d32f, `samples` samples: reversed, near / z
-    Image depth_layers;         ///< r32f array, layer = sample: the same depth for shaders to read
+    Image depth;                         ///< d32f, `samples` samples: reversed, near / z
+    Image depth_layers;                  ///< r32f array, layer = sample: the same depth for shaders to read
     Image gbuffer0, gbuffer1, gbuffer2;  ///< arrays, layer = sample; what is in them is the technique's (its decode.glsl)
     std::uint32_t gbuffer_layout = 0;    ///< index_in_stage of the technique that wrote them: fixes "gbuffer_layout"
-    Image emission;             ///< rgba16f array: radiance of emissive and unlit surfaces; a is 1 on a surface, 0 on background
+    Image emission;  ///< rgba16f array: radiance of emissive and unlit surfaces; a is 1 on a surface, 0 on background
     // what the G-buffer holds, decoded; computed only when somebody asks for it (passes/gbuffer/surfaces.comp)
-    Image surface_normal;       ///< rgba32f array: view-space normal xyz, view z (0: no surface)
-    Image surface_color;        ///< rgba32f array: base color, roughness
-    Image surface_material;     ///< rgba32f array: lighting model, metallic, occlusion
+    Image surface_normal;    ///< rgba32f array: view-space normal xyz, view z (0: no surface)
+    Image surface_color;     ///< rgba32f array: base color, roughness
+    Image surface_material;  ///< rgba32f array: lighting model, metallic, occlusion
     // edges
-    Image edges;                ///< r8ui: 1 where every sample of the pixel is shaded alone; none at 1 sample
+    Image edges;  ///< r8ui: 1 where every sample of the pixel is shaded alone; none at 1 sample
     // occlusion, indirect
-    Image occlusion;            ///< r16f array: ambient visibility; none when the stage is left out (1 everywhere)
-    Image indirect;             ///< rgba16f array: irradiance / pi from the indirect stage; none when left out
+    Image occlusion;  ///< r16f array: ambient visibility; none when the stage is left out (1 everywhere)
+    Image indirect;   ///< rgba16f array: irradiance / pi from the indirect stage; none when left out
     // lighting
-    Image light;                ///< rgba16f array: radiance reflected from lights; none when left out
+    Image light;  ///< rgba16f array: radiance reflected from lights; none when left out
     // combine, transparency
-    Image color;                ///< rgba32f array: linear radiance, per sample
+    Image color;  ///< rgba32f array: linear radiance, per sample
     // film end
-    Image display;              ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
+    Image display;  ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
 };
 
 /// A member of FrameImages by its name.

@@ -14,7 +14,20 @@
 namespace strata {
 
 enum class Stage : std::uint32_t {
-    culling, shadows, extinction, gbuffer, edges, rain, occlusion, indirect, lighting, sun_shafts, combine, transparency, lens, film,
+    culling,
+    shadows,
+    extinction,
+    gbuffer,
+    edges,
+    rain,
+    occlusion,
+    indirect,
+    lighting,
+    sun_shafts,
+    combine,
+    transparency,
+    lens,
+    film,
     count_,
 };
 
@@ -44,7 +57,7 @@ struct StageInfo {
     std::optional<std::string> (*unwanted)(const Features&);
     /// Images of frame_images.h the stage writes; the first is the one that is judged and shown.
     std::vector<std::string_view> outputs;
-    Truth truth = nullptr;   ///< null: the stage has no technique yet
+    Truth truth = nullptr;  ///< null: the stage has no technique yet
     Judge judge = nullptr;
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong.
     std::vector<std::string_view> scenarios;

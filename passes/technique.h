@@ -30,8 +30,8 @@ struct Param {
     std::string_view help;
     Scale scale = Scale::linear;
     std::span<const std::string_view> choices = {};  ///< an integer parameter's values by name, from 0
-    Scalar scalar = Scalar::real;  ///< set by param<>()
-    std::size_t offset = 0;        ///< set by param<>()
+    Scalar scalar = Scalar::real;                    ///< set by param<>()
+    std::size_t offset = 0;                          ///< set by param<>()
 };
 
 namespace detail {
@@ -46,7 +46,8 @@ template <auto Member>
 std::size_t offset_of() {
     using Owner = typename MemberOf<decltype(Member)>::Owner;
     const Owner owner{};
-    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(owner.*Member)) - reinterpret_cast<const std::byte*>(&owner));
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(owner.*Member)) -
+                                    reinterpret_cast<const std::byte*>(&owner));
 }
 }  // namespace detail
 
@@ -139,10 +140,10 @@ struct Tolerance {
 
 struct Technique {
     Stage stage;
-    std::string_view name;      ///< "transparency/weighted": its folder below passes/
+    std::string_view name;  ///< "transparency/weighted": its folder below passes/
     std::string_view title;
-    std::string_view source;    ///< paper or talk
-    std::string_view summary;   ///< one sentence: what it does and how it fails
+    std::string_view source;   ///< paper or talk
+    std::string_view summary;  ///< one sentence: what it does and how it fails
     std::vector<Param> params = {};
     std::vector<Counter> counters = {};
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct

@@ -52,7 +52,8 @@ Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
         }
         if (!image) continue;  // its stage was left out
         if (d.graph.shape(image).samples > 1)
-            return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output, d.images.samples);
+            return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,
+                        d.images.samples);
         d.outputs[output] = image;
         d.graph.keep(image);
     }
@@ -67,9 +68,9 @@ void keep_all_images(Declaration& d) {
 void keep_counters(Declaration& d) {
     for (const DeclaredAct& act : d.frame.acts) {
         const Buffer buffer = d.graph.scopes()[act.scope].counters;
-        if (!buffer || act.technique->counters.empty()) continue;
+        if (!buffer || act.technique->counters.empty() || d.scopes_from_memo.contains(act.scope)) continue;
         d.graph.keep(buffer);
-        d.counters.push_back({act.technique, buffer});
+        d.counters.push_back({act.technique, buffer, act.scope});
     }
 }
 
@@ -82,27 +83,31 @@ void refresh(const Graph& graph, FrameImages& images) {
 /// Replaces acts by what the memo kept, or has the memo keep what they make.
 class Remember {
 public:
-    Remember(Declaration& d, Memo& memo, std::uint64_t frame_key, std::vector<std::vector<std::string>> wanted, std::vector<bool> skip)
+    Remember(Declaration& d, Memo& memo, std::uint64_t frame_key, std::vector<std::vector<std::string>> wanted,
+             std::vector<bool> skip)
         : d_(&d), memo_(&memo), keys_(frame_key), wanted_(std::move(wanted)), skip_(std::move(skip)) {}
 
     void operator()(const DeclaredAct& act) {
         const std::size_t place = place_++;
         Graph& graph = d_->graph;
         const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
-        if (skip_[place] || wanted_[place].empty()) return;
+        if (skip_[place]) return remember_counters(key, act);
+        if (wanted_[place].empty()) return;
         if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
             graph.drop_scope(act.scope);
-            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name), static_cast<std::uint32_t>(act.technique->stage));
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
+                        static_cast<std::uint32_t>(act.technique->stage));
             for (const auto& image : kept->images) {
                 Image to = graph.find_image(image.name);
                 graph.copy(graph.import("kept " + image.name, image.shape, image.id), to);
             }
             d_->kept_counters.insert(d_->kept_counters.end(), kept->counters.begin(), kept->counters.end());
-            ++d_->acts_from_memo;
+            d_->scopes_from_memo.insert(act.scope);
         } else {
             std::vector<ImageRecord> records;
             for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
-            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name), static_cast<std::uint32_t>(act.technique->stage));
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
+                        static_cast<std::uint32_t>(act.technique->stage));
             for (const auto& image : memo_->reserve(key, records).images) {
                 Image to = graph.import("kept " + image.name, image.shape, image.id);
                 graph.copy(graph.find_image(image.name), to);
@@ -113,6 +118,16 @@ public:
     }
 
 private:
+    /// An act that feeds buffers is declared every time; when nobody needs it this time, its counters are those it had.
+    void remember_counters(std::uint64_t key, const DeclaredAct& act) {
+        if (const KeptAct* kept = memo_->find(key, {})) {
+            d_->counters_if_idle[act.scope] = kept->counters;
+        } else {
+            memo_->reserve(key, {});
+            d_->memo_writes.emplace_back(key, act.technique);
+        }
+    }
+
     Declaration* d_;
     Memo* memo_;
     ActKeys keys_;
@@ -120,6 +135,16 @@ private:
     std::vector<bool> skip_;
     std::size_t place_ = 0;
 };
+
+/// Acts that were culled whole count what they counted when they ran.
+void settle_idle_counters(Declaration& d) {
+    for (const auto& [scope, counters] : d.counters_if_idle) {
+        const auto in_scope = [&](const PlannedStep& planned) { return planned.step.scope == scope; };
+        if (std::ranges::any_of(d.plan.steps, in_scope)) continue;
+        d.kept_counters.insert(d.kept_counters.end(), counters.begin(), counters.end());
+        std::erase_if(d.counters, [&](const CounterSource& source) { return source.scope == scope; });
+    }
+}
 
 Result<void> fill(Declaration& d, const Request& request, const Sources& sources, Keep keep, const AfterAct& after) {
     d.images = start(sources, d.graph);
@@ -155,6 +180,7 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
     auto plan = compile(d.graph, ShaderLibrary::built_in());
     if (!plan) return plan.error();
     d.plan = *std::move(plan);
+    settle_idle_counters(d);
     return d;
 }
 

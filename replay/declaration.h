@@ -1,6 +1,8 @@
 // A request as a compiled graph: what a run, a timing, a peek and a judgement have in common.
 #pragma once
 
+#include <set>
+
 #include "passes/graph/plan.h"
 #include "replay/loaded_frame.h"
 #include "replay/memo.h"
@@ -12,6 +14,7 @@ namespace strata {
 struct CounterSource {
     const Technique* technique = nullptr;
     Buffer buffer;
+    std::uint32_t scope = 0;
 };
 
 struct Declaration {
@@ -19,11 +22,13 @@ struct Declaration {
     FrameImages images;
     DeclaredFrame frame;
     Choices choices;
-    std::map<std::string, Image> outputs;   ///< by the names asked for
+    std::map<std::string, Image> outputs;  ///< by the names asked for
     std::vector<CounterSource> counters;
-    std::vector<CounterRecord> kept_counters;             ///< of acts that came from the memo
+    std::vector<CounterRecord> kept_counters;  ///< of acts that came from the memo
+    std::map<std::uint32_t, std::vector<CounterRecord>>
+        counters_if_idle;  ///< by scope: when all who need the act came from the memo
     std::vector<std::pair<std::uint64_t, const Technique*>> memo_writes;  ///< keys this run fills
-    std::size_t acts_from_memo = 0;
+    std::set<std::uint32_t> scopes_from_memo;
     Plan plan;
 };
 
@@ -32,12 +37,13 @@ struct Sources {
     const LoadedFrame& loaded;
     const DeviceScene& scene;
     const DeviceInfo& device;
-    Memo* memo = nullptr;   ///< null: everything is executed
+    Memo* memo = nullptr;  ///< null: everything is executed
 };
 
-/// Everything of a request but `frame`, `extent_divisor` and `samples`, which are in the loaded frame. keep_all: every frame image is kept (for
-/// judging and peeking).
+/// Which images outlive the run: those asked for, or every one of the frame (for judging).
 enum class Keep { outputs, all_images };
+
+/// Declares and compiles a request on a loaded frame (which already has the request's frame, extent and samples).
 Result<Declaration> declare(const Request&, const Sources&, Keep);
 
 }  // namespace strata

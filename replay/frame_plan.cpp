@@ -63,7 +63,8 @@ Result<void> check_needs(const Technique& technique, const Capabilities& device)
 /// Declares what the technique does at one place of the frame, in a scope of its own.
 DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const Act& what) {
     const Technique& technique = *choice.technique;
-    graph.enter(fmt::format("{}: {}", name(what.at), technique.name), static_cast<std::uint32_t>(technique.stage), technique.counter_bytes);
+    graph.enter(fmt::format("{}: {}", name(what.at), technique.name), static_cast<std::uint32_t>(technique.stage),
+                technique.counter_bytes);
     const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
     DeclaredAct declared{&technique, what.at, scope, images};
     what.add(graph, images, choice.settings);
@@ -86,7 +87,8 @@ std::vector<std::pair<const Choice*, Act>> acts_at(Stage stage, const Choices& w
 Result<Choices> choose(const Frame& frame, std::span<const std::string> uses, std::span<const std::string> sets) {
     Choices choices;
     for (const StageInfo& stage : stages())
-        if (const auto known = techniques_of(stage.stage); !known.empty()) choices[stage.stage] = {known.front(), Settings(known.front()->params)};
+        if (const auto known = techniques_of(stage.stage); !known.empty())
+            choices[stage.stage] = {known.front(), Settings(known.front()->params)};
     apply_recorded(frame, choices);
     for (const std::string& use : uses) {
         const auto technique = find_technique(use);

@@ -33,8 +33,8 @@ struct SkippedStage {
 struct DeclaredAct {
     const Technique* technique = nullptr;
     Stage at;
-    std::uint32_t scope = 0;   ///< in Graph::scopes
-    FrameImages before;        ///< the handles as the act found them
+    std::uint32_t scope = 0;  ///< in Graph::scopes
+    FrameImages before;       ///< the handles as the act found them
 };
 
 struct DeclaredFrame {
@@ -46,6 +46,7 @@ struct DeclaredFrame {
 using AfterAct = std::function<void(const DeclaredAct&)>;
 
 /// Declares the frame: fills `graph` and `images`. Stages whose `unwanted` gives a reason are left out and listed.
-Result<DeclaredFrame> declare_frame(Graph&, FrameImages& images, const Choices&, const Capabilities& device, const AfterAct& = {});
+Result<DeclaredFrame> declare_frame(Graph&, FrameImages& images, const Choices&, const Capabilities& device,
+                                    const AfterAct& = {});
 
 }  // namespace strata

@@ -23,8 +23,8 @@ struct LayerPart {
     std::string name;
     std::uint32_t width = 0, height = 0;
     Imf::PixelType type = Imf::HALF;
-    std::vector<std::string> channels;   ///< in the order of the texel's channels
-    std::vector<std::byte> texels;       ///< interleaved, channel_bytes each
+    std::vector<std::string> channels;  ///< in the order of the texel's channels
+    std::vector<std::byte> texels;      ///< interleaved, channel_bytes each
     std::size_t channel_bytes = 2;
 };
 
@@ -56,12 +56,14 @@ LayerPart layer_part(const ExrPart& part, std::uint32_t layer) {
     out.channel_bytes = out.type == Imf::HALF ? 2 : 4;
     const std::size_t count = std::size_t(out.width) * out.height, texel_bytes = out.channels.size() * out.channel_bytes;
     out.texels.resize(count * texel_bytes);
-    if (texel_bytes == format.bytes && format.bytes == format.channels * out.channel_bytes && image.shape.format != Format::r11g11b10f) {
+    if (texel_bytes == format.bytes && format.bytes == format.channels * out.channel_bytes &&
+        image.shape.format != Format::r11g11b10f) {
         std::memcpy(out.texels.data(), image.texels.data() + layer * out.texels.size(), out.texels.size());
         return out;
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec4 value = texel(image, static_cast<std::uint32_t>(i % out.width), static_cast<std::uint32_t>(i / out.width), layer);
+        const glm::dvec4 value =
+            texel(image, static_cast<std::uint32_t>(i % out.width), static_cast<std::uint32_t>(i / out.width), layer);
         for (std::size_t c = 0; c < out.channels.size(); ++c) {
             std::byte* at = out.texels.data() + i * texel_bytes + c * 4;
             const double channel = value[static_cast<glm::length_t>(c)];
@@ -104,8 +106,9 @@ Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPar
             const std::size_t x_stride = part.channels.size() * part.channel_bytes;
             Imf::FrameBuffer buffer;
             for (std::size_t c = 0; c < part.channels.size(); ++c)
-                buffer.insert(part.channels[c], Imf::Slice(part.type, reinterpret_cast<char*>(part.texels.data()) + c * part.channel_bytes,
-                                                           x_stride, x_stride * part.width));
+                buffer.insert(part.channels[c],
+                              Imf::Slice(part.type, reinterpret_cast<char*>(part.texels.data()) + c * part.channel_bytes,
+                                         x_stride, x_stride * part.width));
             Imf::OutputPart output(file, static_cast<int>(i));
             output.setFrameBuffer(buffer);
             output.writePixels(static_cast<int>(part.height));
@@ -128,7 +131,8 @@ Result<void> write_png(const std::filesystem::path& path, const HostImage& image
                 rgb.push_back(static_cast<std::uint8_t>(std::lround(srgb(channel) * 255)));
             }
         }
-    if (!stbi_write_png(path.c_str(), static_cast<int>(width), static_cast<int>(height), 3, rgb.data(), static_cast<int>(width) * 3))
+    if (!stbi_write_png(path.c_str(), static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
+                        static_cast<int>(width) * 3))
         return fail(Fault::bad_input, "cannot write {}", path.string());
     return {};
 }

@@ -67,7 +67,8 @@ void compare(std::string_view name, const ReferenceImage& got, const ReferenceIm
 ImageSet run_model(const JudgedStage& stage) {
     const Technique& technique = *stage.choice.technique;
     if (const auto* pixel = std::get_if<PixelModel>(&technique.model)) return run_pixels(*pixel, stage);
-    if (const auto* image = std::get_if<ImageModel>(&technique.model)) return (*image)({stage.frame, stage.before}, stage.choice.settings);
+    if (const auto* image = std::get_if<ImageModel>(&technique.model))
+        return (*image)({stage.frame, stage.before}, stage.choice.settings);
     return {};
 }
 

@@ -2,7 +2,9 @@
 
 namespace strata {
 
-FrameVariant variant_of(const Request& request) { return {request.frame, request.extent_divisor, request.samples, request.force}; }
+FrameVariant variant_of(const Request& request) {
+    return {request.frame, request.extent_divisor, request.samples, request.force};
+}
 
 Result<LoadedFrame> load_frame(Frame recorded, const FrameVariant& variant) {
     View& view = recorded.view;
@@ -10,7 +12,8 @@ Result<LoadedFrame> load_frame(Frame recorded, const FrameVariant& variant) {
         return fail(Fault::usage, "samples are 1 or 4, not {}", variant.samples);
     if (variant.samples != 0) view.samples = variant.samples;
     if (variant.extent_divisor == 0 || view.width < variant.extent_divisor || view.height < variant.extent_divisor)
-        return fail(Fault::usage, "an extent of {} x {} cannot be divided by {}", view.width, view.height, variant.extent_divisor);
+        return fail(Fault::usage, "an extent of {} x {} cannot be divided by {}", view.width, view.height,
+                    variant.extent_divisor);
     view.width /= variant.extent_divisor;
     view.height /= variant.extent_divisor;
 

@@ -20,7 +20,7 @@ struct LoadedFrame {
     Frame frame;
     Features features;
     std::vector<std::string> notes;
-    std::uint64_t key = 0;   ///< differs between variants, for the memo
+    std::uint64_t key = 0;  ///< differs between variants, for the memo
 };
 
 FrameVariant variant_of(const Request&);

@@ -26,7 +26,8 @@ private:
 };
 
 /// Calls the visitors for every resource a step names, with its access.
-void each_use(const Step& step, const std::function<void(Image, Access)>& image, const std::function<void(Buffer, Access)>& buffer) {
+void each_use(const Step& step, const std::function<void(Image, Access)>& image,
+              const std::function<void(Buffer, Access)>& buffer) {
     for (const Binding& binding : step.bindings) {
         if (binding.image) image(binding.image, binding.access);
         if (binding.buffer) buffer(binding.buffer, binding.access);
@@ -54,7 +55,8 @@ KeptAct* Memo::find(std::uint64_t key, std::span<const std::string> images) {
     const auto found = kept_.find(key);
     if (found == kept_.end() || !found->second.filled) return nullptr;
     for (const std::string& name : images)
-        if (std::ranges::find(found->second.images, name, &KeptAct::KeptImage::name) == found->second.images.end()) return nullptr;
+        if (std::ranges::find(found->second.images, name, &KeptAct::KeptImage::name) == found->second.images.end())
+            return nullptr;
     found->second.last_used = ++clock_;
     return &found->second;
 }

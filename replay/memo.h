@@ -28,7 +28,7 @@ struct KeptAct {
     std::vector<KeptImage> images;
     std::vector<CounterRecord> counters;
     std::uint64_t bytes = 0, last_used = 0;
-    bool filled = false;   ///< false until the run that writes it has succeeded
+    bool filled = false;  ///< false until the run that writes it has succeeded
 };
 
 class Memo {

@@ -22,9 +22,12 @@ std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& 
         for (const Counter& counter : source.technique->counters) {
             std::uint32_t value = 0;
             if (bytes != execution.buffers.end()) std::memcpy(&value, bytes->second.data() + counter.offset, sizeof value);
-            const auto same = [&](const CounterRecord& r) { return r.technique == source.technique->name && r.name == counter.name; };
+            const auto same = [&](const CounterRecord& r) {
+                return r.technique == source.technique->name && r.name == counter.name;
+            };
             const auto known = std::ranges::find_if(records, same);
-            if (known == records.end()) records.push_back({std::string(source.technique->name), std::string(counter.name), value});
+            if (known == records.end())
+                records.push_back({std::string(source.technique->name), std::string(counter.name), value});
             else known->value += value;  // a technique that acts at several stages counts in each
         }
     }
@@ -59,13 +62,16 @@ std::string choice_line(const Choice& choice) {
 }
 
 Run describe_run(const Declaration& d) {
-    Run run{.skipped = d.frame.skipped, .culled = d.plan.culled, .image_bytes = d.plan.image_bytes, .buffer_bytes = d.plan.buffer_bytes};
+    Run run{.skipped = d.frame.skipped,
+            .culled = d.plan.culled,
+            .image_bytes = d.plan.image_bytes,
+            .buffer_bytes = d.plan.buffer_bytes};
     for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope].name, step.step.name, {}});
     for (const DeclaredAct& act : d.frame.acts)
         run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
     run.stage_bytes = bytes_by_stage(d.plan);
-    run.acts_from_memo = d.acts_from_memo;
-    run.acts_executed = d.frame.acts.size() - d.acts_from_memo;
+    run.acts_from_memo = d.scopes_from_memo.size();
+    run.acts_executed = d.frame.acts.size() - run.acts_from_memo;
     return run;
 }
 
@@ -83,7 +89,10 @@ public:
     using Source = std::variant<Capture, std::vector<Frame>>;
 
     DeviceSession(std::unique_ptr<Device> device, Source source)
-        : device_(std::move(device)), executor_(Executor::create(*device_)), scene_(*executor_), memo_(*executor_, memo_budget_bytes),
+        : device_(std::move(device)),
+          executor_(Executor::create(*device_)),
+          scene_(*executor_),
+          memo_(*executor_, memo_budget_bytes),
           source_(std::move(source)) {}
 
     const DeviceInfo& device() const override { return device_->info(); }
@@ -97,7 +106,8 @@ public:
     }
     Result<Frame> frame(std::size_t index) override {
         const std::size_t count = frame_count();
-        if (index >= count) return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, index);
+        if (index >= count)
+            return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, index);
         if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
         return std::get<std::vector<Frame>>(source_)[index];
     }
@@ -163,7 +173,8 @@ public:
         const auto declared = prepare(request, nullptr, Keep::outputs);
         if (!declared) return declared.error();
         const Plan& plan = declared->plan;
-        if (step >= plan.steps.size()) return fail(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
+        if (step >= plan.steps.size())
+            return fail(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
         const Image handle = declared->graph.find_image(image);
         if (!handle) return fail(Fault::usage, "the frame has no image '{}'", image);
         if (!last_write(plan, handle, step + 1)) return fail(Fault::usage, "'{}' is not written yet after step {}", image, step);
@@ -219,7 +230,8 @@ private:
 
     static void collect_images(const Declaration& d, const Execution& execution, Run& run) {
         for (const auto& [name, image] : d.outputs)
-            if (const auto found = execution.images.find(image.id); found != execution.images.end()) run.images[name] = found->second;
+            if (const auto found = execution.images.find(image.id); found != execution.images.end())
+                run.images[name] = found->second;
     }
 
     static void add_times(Run& run, const std::vector<std::vector<double>>& repeats) {
@@ -244,7 +256,8 @@ private:
     void remember(const Declaration& d, const std::vector<CounterRecord>& counters) {
         for (const auto& [key, technique] : d.memo_writes) {
             std::vector<CounterRecord> own;
-            std::ranges::copy_if(counters, std::back_inserter(own), [&](const CounterRecord& c) { return c.technique == technique->name; });
+            std::ranges::copy_if(counters, std::back_inserter(own),
+                                 [&](const CounterRecord& c) { return c.technique == technique->name; });
             memo_.commit(key, std::move(own));
         }
     }
@@ -287,7 +300,8 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     if (!execution) return execution.error();
     Inspected inspected{.choice = declared->choices.at(stage)};
     for (std::size_t i = 0; i < names.size(); ++i)
-        (names[i].second ? inspected.result : inspected.before).insert_or_assign(std::string(names[i].first), in_double(execution->peeked[i]));
+        (names[i].second ? inspected.result : inspected.before)
+            .insert_or_assign(std::string(names[i].first), in_double(execution->peeked[i]));
     return inspected;
 }
 
@@ -300,7 +314,8 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    return judge_stage({loaded_->frame, loaded_->features, inspected->choice, inspected->before, inspected->result, against, truth});
+    return judge_stage(
+        {loaded_->frame, loaded_->features, inspected->choice, inspected->before, inspected->result, against, truth});
 }
 
 Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, DeviceSession::Source source) {

@@ -20,18 +20,18 @@ namespace strata {
 
 /// What to replay and what to bring back.
 struct Request {
-    std::size_t frame = 0;                 ///< index in the capture
-    std::vector<std::string> uses, sets;   ///< as on the command line, see choose()
-    std::vector<Feature> force;            ///< features switched on though the frame lacks them
+    std::size_t frame = 0;                           ///< index in the capture
+    std::vector<std::string> uses, sets;             ///< as on the command line, see choose()
+    std::vector<Feature> force;                      ///< features switched on though the frame lacks them
     std::vector<std::string> outputs = {"display"};  ///< names of frame_images.h, or "stage/technique:view" debug views
-    std::string until;                     ///< last step to run: part of its name; empty: all
-    std::uint32_t extent_divisor = 1;      ///< replays at extent / divisor, for quick truths
-    std::uint32_t samples = 0;             ///< overrides the recorded samples when not 0
+    std::string until;                               ///< last step to run: part of its name; empty: all
+    std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
+    std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
 };
 
 struct StepRecord {
-    std::string scope, name;               ///< "transparency: transparency/weighted", the shader
-    std::optional<Spread> ms;              ///< with timing
+    std::string scope, name;   ///< "transparency: transparency/weighted", the shader
+    std::optional<Spread> ms;  ///< with timing
 };
 
 /// What one run gave.
@@ -40,15 +40,15 @@ struct Run {
     std::vector<SkippedStage> skipped;
     std::vector<CulledStep> culled;
     std::vector<CounterRecord> counters;
-    std::map<std::string, HostImage> images;    ///< by the names asked for; names the frame does not have are absent
-    std::map<std::string, std::string> choices; ///< stage to "technique key=value ..."
-    std::optional<Spread> frame_ms;             ///< with timing: sum of the steps
-    std::map<std::string, Spread> stage_ms;     ///< with timing: sum of the steps of the stage's technique
+    std::map<std::string, HostImage> images;     ///< by the names asked for; names the frame does not have are absent
+    std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
+    std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
+    std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
     std::size_t acts_executed = 0, acts_from_memo = 0;
-    std::size_t pipelines_created = 0;          ///< during this run
-    std::vector<std::string> notes;             ///< what had to be reduced to fit the device
+    std::size_t pipelines_created = 0;  ///< during this run
+    std::vector<std::string> notes;     ///< what had to be reduced to fit the device
 };
 
 /// A texel where result and model differ most, relative as in Tolerance.
@@ -60,11 +60,11 @@ struct WorstTexel {
 
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
 struct Accuracy {
-    std::vector<Figure> method;                 ///< from the stage's judge
-    double model_rmse = 0, model_worst = 0;     ///< relative, see Tolerance
+    std::vector<Figure> method;                            ///< from the stage's judge
+    double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
-    std::string not_supported;                  ///< why there is no answer, where the technique cannot do the frame
+    std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
 };
 
 /// What a result is compared with. The model of a frame of a million samples takes minutes: it may be left out.
@@ -98,7 +98,8 @@ public:
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
     virtual Result<ImageSet> truth(const Request&, Stage) = 0;
     /// Runs the request's technique of a stage and compares with its model and with the stage's truth (computed unless given).
-    virtual Result<Accuracy> judge(const Request&, Stage, Against = Against::model_and_truth, const ImageSet* truth = nullptr) = 0;
+    virtual Result<Accuracy> judge(const Request&, Stage, Against = Against::model_and_truth,
+                                   const ImageSet* truth = nullptr) = 0;
 
     /// Drops every kept stage output.
     virtual void forget_memo() = 0;

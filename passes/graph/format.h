@@ -7,8 +7,22 @@
 namespace strata {
 
 enum class Format : std::uint32_t {
-    r8_unorm, rgba8_unorm, r16_unorm, rgba16_unorm, r16f, rg16f, rgba16f, r11g11b10f, r32f, rg32f, rgba32f,
-    r8ui, r32ui, rg32ui, rgba32ui, d32f,
+    r8_unorm,
+    rgba8_unorm,
+    r16_unorm,
+    rgba16_unorm,
+    r16f,
+    rg16f,
+    rgba16f,
+    r11g11b10f,
+    r32f,
+    rg32f,
+    rgba32f,
+    r8ui,
+    r32ui,
+    rg32ui,
+    rgba32ui,
+    d32f,
 };
 
 enum class FormatKind : std::uint32_t { real, integer, depth };

@@ -75,7 +75,7 @@ struct Plan {
     std::vector<std::uint32_t> used_buffers;  ///< ids of created buffers that need memory
     std::vector<Image> kept_images;           ///< what the host reads when the frame is done
     std::vector<Buffer> kept_buffers;
-    std::vector<Barrier> final_barriers;      ///< kept images and buffers become readable by the host's copies
+    std::vector<Barrier> final_barriers;  ///< kept images and buffers become readable by the host's copies
     std::vector<CulledStep> culled;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;  ///< allocated for the frame, imports excluded
 };

@@ -21,22 +21,22 @@ const uint alpha_premultiplied = 3u;
 const uint alpha_additive = 4u;
 
 struct ViewRecord {
-    mat4 projection;        // view to clip, jitter included; reversed depth, infinite far
-    mat3 to_world;          // rotation, view to world (its transpose goes back)
-    vec2 ndc_scale;         // P00, P11
-    vec2 ndc_offset;        // P20, P21 with jitter: ndc (+y up) = scale * p.xy / p.z + offset
+    mat4 projection;  // view to clip, jitter included; reversed depth, infinite far
+    mat3 to_world;    // rotation, view to world (its transpose goes back)
+    vec2 ndc_scale;   // P00, P11
+    vec2 ndc_offset;  // P20, P21 with jitter: ndc (+y up) = scale * p.xy / p.z + offset
     uvec2 extent;
     uint samples;
     float near;
     float exposure;
-    float white;            // of the tone curve
-    vec3 background;        // radiance where no surface is
+    float white;      // of the tone curve
+    vec3 background;  // radiance where no surface is
     float fog_density;
     vec3 fog_color;
-    vec3 sky;               // hemisphere radiance from above (world +y) ...
-    vec3 ground;            // ... and below
-    uint light_count;       // of lights, the sun first when there is one
-    uint shadow_count;      // of shadows
+    vec3 sky;           // hemisphere radiance from above (world +y) ...
+    vec3 ground;        // ... and below
+    uint light_count;   // of lights, the sun first when there is one
+    uint shadow_count;  // of shadows
     uint draw_count;
     uint seed;
     uint frame_index;
@@ -45,31 +45,31 @@ struct ViewRecord {
 
 // Particles are quads with color in `color`, their emission and depth offset here too.
 struct Vertex {
-    vec3 position;          // object space of its draw (view space for particles)
+    vec3 position;  // object space of its draw (view space for particles)
     vec3 normal;
     vec4 tangent;
     vec2 uv0;
     vec2 uv1;
     vec4 color;
     vec3 emissive;
-    float depth_offset;     // metres towards the eye
+    float depth_offset;  // metres towards the eye
 };
 
 struct DrawRecord {
-    mat4 to_view;           // object to view
+    mat4 to_view;  // object to view
     mat3 normal_to_view;
     uint material;
-    uint submission;        // place in the frame: draws, then emitters
-    float soft_fade;        // metres; 0 is hard
+    uint submission;  // place in the frame: draws, then emitters
+    float soft_fade;  // metres; 0 is hard
     uint layer;
-    vec3 bound_center;      // view space sphere
+    vec3 bound_center;  // view space sphere
     float bound_radius;
 };
 
 struct TextureUseRecord {
-    uint texture;           // no_index: none, white
+    uint texture;  // no_index: none, white
     uint uv_set;
-    vec3 row0;              // u' = dot(row0, (u, v, 1))
+    vec3 row0;  // u' = dot(row0, (u, v, 1))
     vec3 row1;
 };
 
@@ -95,20 +95,20 @@ struct MaterialRecord {
 
 // Texels lie in one buffer: rgba8 is one uint, rgba16f two, rgba32f four. Mips follow each other, finest first.
 struct TextureRecord {
-    uint first;             // index of the first uint in texels
-    uint format;            // TextureFormat of capture_format/frame.h
+    uint first;   // index of the first uint in texels
+    uint format;  // TextureFormat of capture_format/frame.h
     uint width;
     uint height;
     uint mips;
-    uint address;           // AddressMode
+    uint address;  // AddressMode
 };
 
 struct LightRecord {
-    vec3 position;          // view space
-    uint type;              // LightType of capture_format/frame.h; the sun is directional
-    vec3 direction;         // where it shines
+    vec3 position;   // view space
+    uint type;       // LightType of capture_format/frame.h; the sun is directional
+    vec3 direction;  // where it shines
     float range;
-    vec3 intensity;         // W/sr; irradiance when directional
+    vec3 intensity;  // W/sr; irradiance when directional
     float source_radius;
     vec3 axis_u;
     float cos_inner;
@@ -120,13 +120,13 @@ struct LightRecord {
 
 // One shadow map: a layer of shadow_maps, its own size in its upper left corner.
 struct ShadowRecord {
-    mat4 view_to_map;       // view space to (u, v, depth, w): uv in 0..1 of this map, depth 1 at the light, 0 far
-    uint light;             // index into lights
-    uint size;              // texels per edge
-    float bias;             // in map depth
-    float range_begin;      // view depth from which this cascade serves
+    mat4 view_to_map;   // view space to (u, v, depth, w): uv in 0..1 of this map, depth 1 at the light, 0 far
+    uint light;         // index into lights
+    uint size;          // texels per edge
+    float bias;         // in map depth
+    float range_begin;  // view depth from which this cascade serves
     float range_end;
-    float texel;            // world size of a texel at unit distance (spots) or anywhere (sun), metres
+    float texel;  // world size of a texel at unit distance (spots) or anywhere (sun), metres
 };
 
 #ifdef __cplusplus

@@ -28,7 +28,8 @@ Result<void> import(const Options& options) {
     for (const std::string& warning : scene->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
     if (const auto good = check_frame(scene->frame); !good) return good;
 
-    const std::filesystem::path output = options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
+    const std::filesystem::path output =
+        options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
     auto recorder = Recorder::create(output, "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, scene->frame, options.device); !done) return done;
@@ -47,7 +48,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
-    app.add_option("--camera", options->gltf.camera, "index of the scene's camera; default its first, or one that frames the scene");
+    app.add_option("--camera", options->gltf.camera,
+                   "index of the scene's camera; default its first, or one that frames the scene");
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return import(*options); };
 }

@@ -28,18 +28,32 @@ std::vector<Count> counts(const Frame& frame) {
     std::size_t triangles = 0, particles = 0;
     for (const Draw& draw : frame.draws) triangles += frame.meshes[draw.mesh].indices.size() / 3;
     for (const Emitter& emitter : frame.emitters) particles += emitter.particles.size();
-    return {{"draws", frame.draws.size()},       {"triangles", triangles},           {"meshes", frame.meshes.size()},
-            {"materials", frame.materials.size()}, {"textures", frame.textures.size()}, {"emitters", frame.emitters.size()},
-            {"particles", particles},            {"lights", frame.lights.size()},    {"blockers", frame.blockers.size()},
-            {"portals", frame.portals.size()},   {"light_volumes", frame.light_volumes.size()}};
+    return {{"draws", frame.draws.size()},
+            {"triangles", triangles},
+            {"meshes", frame.meshes.size()},
+            {"materials", frame.materials.size()},
+            {"textures", frame.textures.size()},
+            {"emitters", frame.emitters.size()},
+            {"particles", particles},
+            {"lights", frame.lights.size()},
+            {"blockers", frame.blockers.size()},
+            {"portals", frame.portals.size()},
+            {"light_volumes", frame.light_volumes.size()}};
 }
 
 ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t index) {
     const CaptureSummary& summary = capture.summary();
-    ordered_json json{{"schema", "strata.info"}, {"schema_version", 1}, {"capture", capture.id()},
-                      {"format_version", summary.format_version}, {"frames", summary.frames}, {"file_bytes", summary.file_bytes},
-                      {"blobs", summary.blobs}, {"blob_bytes_stored", summary.blob_bytes_stored},
-                      {"blob_bytes_raw", summary.blob_bytes_raw}, {"cut_short", summary.cut_short}, {"notes", summary.notes}};
+    ordered_json json{{"schema", "strata.info"},
+                      {"schema_version", 1},
+                      {"capture", capture.id()},
+                      {"format_version", summary.format_version},
+                      {"frames", summary.frames},
+                      {"file_bytes", summary.file_bytes},
+                      {"blobs", summary.blobs},
+                      {"blob_bytes_stored", summary.blob_bytes_stored},
+                      {"blob_bytes_raw", summary.blob_bytes_raw},
+                      {"cut_short", summary.cut_short},
+                      {"notes", summary.notes}};
     ordered_json& of_frame = json["frame"];
     of_frame = {{"index", index}, {"extent", {frame.view.width, frame.view.height}}, {"samples", frame.view.samples}};
     for (const Count& count : counts(frame)) of_frame[count.name] = count.value;
@@ -56,8 +70,8 @@ void print(const Capture& capture, const Frame& frame, std::size_t index) {
                summary.frames == 1 ? "" : "s", summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
     if (!summary.notes.empty()) fmt::print("notes: {}\n", summary.notes);
     fmt::print("{} blobs, {} bytes stored for {}\n", summary.blobs, summary.blob_bytes_stored, summary.blob_bytes_raw);
-    fmt::print("\nframe {}: {} x {}, {} sample{} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height, frame.view.samples,
-               frame.view.samples == 1 ? "" : "s", frame.time);
+    fmt::print("\nframe {}: {} x {}, {} sample{} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
+               frame.view.samples, frame.view.samples == 1 ? "" : "s", frame.time);
     for (const Count& count : counts(frame))
         if (count.value) fmt::print("  {:>8} {}\n", count.value, count.name);
     fmt::print("it calls for\n");
@@ -71,7 +85,8 @@ Result<void> info(const Options& options) {
     const auto capture = Capture::open(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
-    if (options.frame >= count) return fail(Fault::usage, "the capture has {} frames; there is no frame {}", count, options.frame);
+    if (options.frame >= count)
+        return fail(Fault::usage, "the capture has {} frames; there is no frame {}", count, options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
     if (options.json) std::cout << json_of(*capture, *frame, options.frame).dump(2) << "\n";
@@ -83,8 +98,10 @@ Result<void> validate(const Options& options) {
     const auto capture = Capture::open(options.capture);
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
-        if (const auto frame = capture->frame(i); !frame) return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
-    fmt::print("{}: {} frames, every section and every index is sound\n", options.capture.filename().string(), capture->frame_count());
+        if (const auto frame = capture->frame(i); !frame)
+            return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
+    fmt::print("{}: {} frames, every section and every index is sound\n", options.capture.filename().string(),
+               capture->frame_count());
     return {};
 }
 

@@ -34,19 +34,25 @@ void print(const Technique& technique, const Options& options) {
     fmt::print("  {:<28}{}. {}\n", technique.name, technique.title, technique.source);
     if (options.what.empty()) return;
     fmt::print("  {:<28}{}\n", "", technique.summary);
-    for (const Param& param : technique.params) fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
+    for (const Param& param : technique.params)
+        fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
     for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
     for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
     for (const Feature feature : technique.cannot) fmt::print("      cannot do {}\n", name(feature));
 }
 
 ordered_json json_of(const Technique& technique) {
-    ordered_json json{{"name", technique.name}, {"stage", name(technique.stage)}, {"title", technique.title},
-                      {"source", technique.source}, {"summary", technique.summary}, {"parameters", ordered_json::array()}};
+    ordered_json json{{"name", technique.name},     {"stage", name(technique.stage)}, {"title", technique.title},
+                      {"source", technique.source}, {"summary", technique.summary},   {"parameters", ordered_json::array()}};
     for (const Param& param : technique.params)
-        json["parameters"].push_back({{"name", param.name}, {"low", param.low}, {"high", param.high}, {"default", param.fallback},
-                                      {"choices", param.choices}, {"help", param.help}});
-    for (const Counter& counter : technique.counters) json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});
+        json["parameters"].push_back({{"name", param.name},
+                                      {"low", param.low},
+                                      {"high", param.high},
+                                      {"default", param.fallback},
+                                      {"choices", param.choices},
+                                      {"help", param.help}});
+    for (const Counter& counter : technique.counters)
+        json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});
     return json;
 }
 

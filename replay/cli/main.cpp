@@ -1,6 +1,8 @@
 // strata: one verb per file, one row per verb. JSON and tables go to stdout, everything else to stderr.
-#include <CLI/CLI.hpp>
+#include <algorithm>
+
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "replay/cli/revision.h"
 #include "replay/cli/verb.h"
@@ -28,8 +30,9 @@ Result<void> list_gpus() {
 }
 
 /// "strata help VERB" is "strata VERB --help".
-int run(int count, char** arguments) {
-    CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.", "strata");
+int run(std::vector<std::string> arguments) {
+    CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.",
+                 "strata");
     app.footer(exit_codes);
     app.set_version_flag("--version", std::string("strata 0.1.0 ") + tool_revision);
     bool gpus = false;
@@ -46,7 +49,8 @@ int run(int count, char** arguments) {
         runs.emplace_back(sub, verb.declare(*sub));
     }
     try {
-        app.parse(count, arguments);
+        std::ranges::reverse(arguments);  // CLI11 takes a vector from its back
+        app.parse(arguments);
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error, std::cout, std::cerr);
         return code == 0 ? 0 : static_cast<int>(Fault::usage);
@@ -55,12 +59,7 @@ int run(int count, char** arguments) {
     if (gpus) {
         done = list_gpus();
     } else if (help->parsed() && !help_about.empty()) {
-        done = fail(Fault::usage, "there is no verb '{}'; 'strata help' lists them", help_about);
-        for (const auto& [sub, verb] : runs)
-            if (sub->get_name() == help_about) {
-                fmt::print("{}", sub->help());
-                done = {};
-            }
+        return run({help_about, "--help"});
     } else if (help->parsed() || app.get_subcommands().empty()) {
         fmt::print("{}", app.help());
     } else {
@@ -73,4 +72,4 @@ int run(int count, char** arguments) {
 }  // namespace
 }  // namespace strata
 
-int main(int count, char** arguments) { return strata::run(count, arguments); }
+int main(int count, char** arguments) { return strata::run({arguments + 1, arguments + count}); }

@@ -29,7 +29,8 @@ Result<void> record(const Options& options) {
         if (!extent) return extent.error();
         std::tie(wanted.width, wanted.height) = *extent;
     }
-    const std::filesystem::path output = options.output.empty() ? std::filesystem::path(options.scenario + ".strata") : options.output;
+    const std::filesystem::path output =
+        options.output.empty() ? std::filesystem::path(options.scenario + ".strata") : options.output;
     auto recorder = Recorder::create(output, fmt::format("scenario {} seed {}", options.scenario, wanted.seed));
     if (!recorder) return recorder.error();
     for (std::uint32_t index = 0; index < wanted.frames; ++index) {
@@ -39,8 +40,8 @@ Result<void> record(const Options& options) {
         if (const auto done = recorder->record(frame); !done) return done;
     }
     if (const auto done = recorder->finish(); !done) return done;
-    fmt::print(stderr, "recorded {} frame{} of {} at {} x {} into {}\n", wanted.frames, wanted.frames == 1 ? "" : "s", options.scenario,
-               wanted.width, wanted.height, output.string());
+    fmt::print(stderr, "recorded {} frame{} of {} at {} x {} into {}\n", wanted.frames, wanted.frames == 1 ? "" : "s",
+               options.scenario, wanted.width, wanted.height, output.string());
     return {};
 }
 

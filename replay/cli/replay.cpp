@@ -49,8 +49,10 @@ ordered_json json_of(const Session& session, const Request& request, const Run& 
         if (step.ms) row["gpu_ms"] = {{"median", step.ms->median}, {"mad", step.ms->mad}, {"repeats", step.ms->repeats}};
         json["steps"].push_back(row);
     }
-    for (const auto& [stage, ms] : run.stage_ms) json["stage_ms"][stage] = {{"median", ms.median}, {"mad", ms.mad}, {"repeats", ms.repeats}};
-    for (const SkippedStage& skipped : run.skipped) json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
+    for (const auto& [stage, ms] : run.stage_ms)
+        json["stage_ms"][stage] = {{"median", ms.median}, {"mad", ms.mad}, {"repeats", ms.repeats}};
+    for (const SkippedStage& skipped : run.skipped)
+        json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
     for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
     json["image_bytes"] = run.image_bytes;
     json["buffer_bytes"] = run.buffer_bytes;
@@ -58,7 +60,8 @@ ordered_json json_of(const Session& session, const Request& request, const Run& 
 }
 
 Result<void> write_frame(const Session& session, const Request& request, const Run& run, const Options& options) {
-    const std::string base = (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
+    const std::string base =
+        (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
     std::vector<ExrPart> parts;
     for (const auto& [name, image] : run.images) parts.push_back({name, &image});
     if (!parts.empty()) {
@@ -83,7 +86,8 @@ Result<void> check_repeats(Session& session, const Request& request, const Run& 
         if (!again) return again.error();
         for (const auto& [name, image] : first.images)
             if (again->images.at(name).texels != image.texels)
-                return fail(Fault::not_repeatable, "frame {}: '{}' differed in repeat {} of {}", request.frame, name, repeat + 1, repeats);
+                return fail(Fault::not_repeatable, "frame {}: '{}' differed in repeat {} of {}", request.frame, name, repeat + 1,
+                            repeats);
     }
     if (repeats > 1) fmt::print(stderr, "frame {}: {} repeats, every output bit for bit the same\n", request.frame, repeats);
     return {};
@@ -134,7 +138,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
     app.add_option("--outputs", options->outputs, "images to write: frame images or stage/technique:view")->delimiter(',');
     app.add_option("--until", options->until, "stop after the last step whose name contains this");
-    app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when any output differs")->check(CLI::Range(1, 100000));
+    app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when any output differs")
+        ->check(CLI::Range(1, 100000));
     app.add_option("-o,--output", options->folder, "folder for the files, made when missing");
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return replay(*options); };

@@ -87,7 +87,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_option("--stage", options->stage, "whose techniques, default transparency");
     app.add_option("--sweep", options->sweeps, "key=a,b,c: measure each value; may be repeated")->allow_extra_args(false);
     app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_option("--repeats", options->repeats, "timed runs of each row after a warm-up, default 7")->check(CLI::Range(1, 1000));
+    app.add_option("--repeats", options->repeats, "timed runs of each row after a warm-up, default 7")
+        ->check(CLI::Range(1, 1000));
     app.add_flag("--json", options->json, "one JSON object");
     app.add_flag("--csv", options->csv, "comma-separated values");
     app.add_option("-o,--output", options->output, "write to a file instead of stdout");

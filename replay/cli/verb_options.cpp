@@ -85,9 +85,11 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
         const std::string_view part = std::string_view(text).substr(begin, end - begin);
         const std::size_t dash = part.find('-');
         std::size_t first = 0, last = 0;
-        const bool good = parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
+        const bool good =
+            parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
         if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
-        if (last >= count) return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, last);
+        if (last >= count)
+            return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, last);
         for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
         begin = end + 1;
     }

@@ -11,7 +11,8 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json json_of(const Spread& spread) {
-    return {{"median", spread.median}, {"mad", spread.mad}, {"low", spread.low}, {"high", spread.high}, {"repeats", spread.repeats}};
+    return {
+        {"median", spread.median}, {"mad", spread.mad}, {"low", spread.low}, {"high", spread.high}, {"repeats", spread.repeats}};
 }
 
 ordered_json json_of(const Measurement& row) {
@@ -23,13 +24,17 @@ ordered_json json_of(const Measurement& row) {
     for (const Figure& figure : row.accuracy.method)
         json["method_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
     const WorstTexel& worst = row.accuracy.worst;
-    json["implementation_error"] = {
-        {"rmse", row.accuracy.model_rmse},
-        {"worst", row.accuracy.model_worst},
-        {"worst_texel", {{"image", worst.image}, {"x", worst.x}, {"y", worst.y}, {"layer", worst.layer},
-                         {"got", {worst.got.x, worst.got.y, worst.got.z}}, {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z}}}},
-        {"compared", row.accuracy.compared},
-        {"undecided", row.accuracy.undecided}};
+    json["implementation_error"] = {{"rmse", row.accuracy.model_rmse},
+                                    {"worst", row.accuracy.model_worst},
+                                    {"worst_texel",
+                                     {{"image", worst.image},
+                                      {"x", worst.x},
+                                      {"y", worst.y},
+                                      {"layer", worst.layer},
+                                      {"got", {worst.got.x, worst.got.y, worst.got.z}},
+                                      {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z}}}},
+                                    {"compared", row.accuracy.compared},
+                                    {"undecided", row.accuracy.undecided}};
     json["stage_ms"] = json_of(row.stage_ms);
     json["frame_ms"] = json_of(row.frame_ms);
     json["stage_bytes"] = row.stage_bytes;
@@ -42,19 +47,22 @@ ordered_json json_of(const Measurement& row) {
 }  // namespace
 
 std::string as_json(const Report& report) {
-    ordered_json json{
-        {"schema", "strata.report"},
-        {"schema_version", 1},
-        {"stage", name(report.stage)},
-        {"capture", report.capture_id},
-        {"frame", report.frame},
-        {"extent", {report.width, report.height}},
-        {"samples", report.samples},
-        {"device", {{"name", report.device.name}, {"driver", report.device.driver}, {"driver_version", report.device.driver_version},
-                    {"cpu", report.device.cpu}, {"software", report.device.software}}},
-        {"repeats", report.repeats},
-        {"truth", report.truth},
-        {"rows", ordered_json::array()}};
+    ordered_json json{{"schema", "strata.report"},
+                      {"schema_version", 1},
+                      {"stage", name(report.stage)},
+                      {"capture", report.capture_id},
+                      {"frame", report.frame},
+                      {"extent", {report.width, report.height}},
+                      {"samples", report.samples},
+                      {"device",
+                       {{"name", report.device.name},
+                        {"driver", report.device.driver},
+                        {"driver_version", report.device.driver_version},
+                        {"cpu", report.device.cpu},
+                        {"software", report.device.software}}},
+                      {"repeats", report.repeats},
+                      {"truth", report.truth},
+                      {"rows", ordered_json::array()}};
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
     for (const Measurement& row : report.rows) json["rows"].push_back(json_of(row));
     return json.dump(2) + "\n";
@@ -72,8 +80,8 @@ std::string as_csv(const Report& report) {
             continue;
         }
         for (const Figure& figure : row.accuracy.method) csv += fmt::format(",{:.9g}", figure.value);
-        csv += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{},{},\n", row.accuracy.model_rmse, row.stage_ms.median, row.stage_ms.mad,
-                           row.frame_ms.median, row.frame_ms.mad, row.stage_bytes, row.on_front ? 1 : 0);
+        csv += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{},{},\n", row.accuracy.model_rmse, row.stage_ms.median,
+                           row.stage_ms.mad, row.frame_ms.median, row.frame_ms.mad, row.stage_bytes, row.on_front ? 1 : 0);
     }
     return csv;
 }

@@ -12,16 +12,19 @@ std::string label(const Measurement& row) { return row.settings.empty() ? row.te
 
 std::string counters_text(const Measurement& row) {
     std::string text;
-    for (const CounterRecord& counter : row.counters) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.name, counter.value);
+    for (const CounterRecord& counter : row.counters)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.name, counter.value);
     return text;
 }
 
 }  // namespace
 
 std::string as_text(const Report& report) {
-    std::string text = fmt::format("{} of frame {}, {} x {}, {} sample{} per pixel, capture {}\n", name(report.stage), report.frame,
-                                   report.width, report.height, report.samples, report.samples > 1 ? "s" : "", report.capture_id);
-    text += fmt::format("device {} ({}), {} timed runs each, interleaved\n", report.device.name, report.device.driver, report.repeats);
+    std::string text =
+        fmt::format("{} of frame {}, {} x {}, {} sample{} per pixel, capture {}\n", name(report.stage), report.frame,
+                    report.width, report.height, report.samples, report.samples > 1 ? "s" : "", report.capture_id);
+    text += fmt::format("device {} ({}), {} timed runs each, interleaved\n", report.device.name, report.device.driver,
+                        report.repeats);
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
     text += fmt::format("truth: {}\n\n", report.truth);
@@ -32,7 +35,8 @@ std::string as_text(const Report& report) {
     if (!report.rows.empty())
         for (const Figure& figure : report.rows.front().accuracy.method)
             text += fmt::format("  {:>14}", figure.unit.empty() ? figure.name : figure.name + " [" + figure.unit + "]");
-    text += fmt::format("  {:>10}  {:>8}  {:>7}  {:>9}  {:>8}  {}\n", "impl. rmse", "ms", "+- mad", "frame ms", "MiB", "counters");
+    text +=
+        fmt::format("  {:>10}  {:>8}  {:>7}  {:>9}  {:>8}  {}\n", "impl. rmse", "ms", "+- mad", "frame ms", "MiB", "counters");
     for (const Measurement& row : report.rows) {
         text += fmt::format("{} {:<{}}", row.on_front ? '*' : ' ', label(row), width);
         if (!row.accuracy.not_supported.empty()) {
@@ -40,10 +44,13 @@ std::string as_text(const Report& report) {
             continue;
         }
         for (const Figure& figure : row.accuracy.method) text += fmt::format("  {:>14.6g}", figure.value);
-        text += fmt::format("  {:>10.2e}  {:>8.3f}  {:>7.3f}  {:>9.3f}  {:>8}  {}\n", row.accuracy.model_rmse, row.stage_ms.median,
-                            row.stage_ms.mad, row.frame_ms.median, bytes_text(row.stage_bytes), counters_text(row));
+        text +=
+            fmt::format("  {:>10.2e}  {:>8.3f}  {:>7.3f}  {:>9.3f}  {:>8}  {}\n", row.accuracy.model_rmse, row.stage_ms.median,
+                        row.stage_ms.mad, row.frame_ms.median, bytes_text(row.stage_bytes), counters_text(row));
     }
-    text += "\n* on the Pareto front: nothing measured is both more accurate and faster. impl. rmse: GPU against the method's model in double.\n";
+    text +=
+        "\n* on the Pareto front: nothing measured is both more accurate and faster. impl. rmse: GPU against the method's model "
+        "in double.\n";
     return text;
 }
 

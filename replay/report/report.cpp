@@ -95,9 +95,10 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
                                      relative_error(*accuracy), yardstick.model_divisor);
         return yardstick;
     }
-    return fail(Fault::usage,
-                "{} x {} at {} samples is too large for the truth of {} in double, and no technique can stand in; record a smaller frame",
-                view.width, view.height, view.samples, name(wanted.stage));
+    return fail(
+        Fault::usage,
+        "{} x {} at {} samples is too large for the truth of {} in double, and no technique can stand in; record a smaller frame",
+        view.width, view.height, view.samples, name(wanted.stage));
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {
@@ -139,8 +140,14 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     View view = frame->view;
     if (wanted.base.samples) view.samples = wanted.base.samples;
 
-    Report report{.stage = wanted.stage, .capture_id = session.capture_id(), .frame = wanted.base.frame, .repeats = wanted.repeats,
-                  .width = view.width, .height = view.height, .samples = view.samples, .device = session.device()};
+    Report report{.stage = wanted.stage,
+                  .capture_id = session.capture_id(),
+                  .frame = wanted.base.frame,
+                  .repeats = wanted.repeats,
+                  .width = view.width,
+                  .height = view.height,
+                  .samples = view.samples,
+                  .device = session.device()};
     const auto planned = session.plan(wanted.base);
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped)
@@ -161,7 +168,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         auto accuracy = measure_accuracy(session, all[i], wanted.stage, *yardstick);
         if (!accuracy) return accuracy.error();
         if (accuracy->not_supported.empty()) timed.push_back(all[i].request);
-        report.rows.push_back({.technique = std::string(all[i].technique->name), .settings = all[i].settings, .accuracy = *std::move(accuracy)});
+        report.rows.push_back(
+            {.technique = std::string(all[i].technique->name), .settings = all[i].settings, .accuracy = *std::move(accuracy)});
     }
     tell("timing", .7);
     const auto runs = session.time(timed, wanted.repeats);
@@ -172,7 +180,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         const std::string stage_name(name(wanted.stage));
         row.stage_ms = run->stage_ms.at(stage_name);
         row.frame_ms = *run->frame_ms;
-        if (const auto bytes = run->stage_bytes.find(stage_name); bytes != run->stage_bytes.end()) row.stage_bytes = bytes->second;
+        if (const auto bytes = run->stage_bytes.find(stage_name); bytes != run->stage_bytes.end())
+            row.stage_bytes = bytes->second;
         std::ranges::copy_if(run->counters, std::back_inserter(row.counters),
                              [&](const CounterRecord& counter) { return counter.technique == row.technique; });
         ++run;

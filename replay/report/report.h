@@ -17,7 +17,7 @@ struct Sweep {
 };
 
 struct ReportRequest {
-    Request base;                        ///< frame, other stages' choices
+    Request base;  ///< frame, other stages' choices
     Stage stage = Stage::transparency;
     std::vector<Sweep> sweeps;
     std::size_t repeats = 7;
@@ -25,22 +25,22 @@ struct ReportRequest {
 
 /// One row.
 struct Measurement {
-    std::string technique, settings;     ///< settings: "falloff=20 weight=w9", only what differs from the defaults
+    std::string technique, settings;  ///< settings: "falloff=20 weight=w9", only what differs from the defaults
     Accuracy accuracy;
     Spread stage_ms, frame_ms;
     std::uint64_t stage_bytes = 0;
-    std::vector<CounterRecord> counters; ///< of the technique
-    bool on_front = false;               ///< nothing is both more accurate and faster
+    std::vector<CounterRecord> counters;  ///< of the technique
+    bool on_front = false;                ///< nothing is both more accurate and faster
 };
 
 struct Report {
     Stage stage = Stage::transparency;
-    std::string capture_id, truth;       ///< truth: "exact, in double" or which technique stood in and how exact it is
+    std::string capture_id, truth;  ///< truth: "exact, in double" or which technique stood in and how exact it is
     std::size_t frame = 0, repeats = 0;
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
-    std::vector<Measurement> rows;       ///< most accurate first, then what is not supported
-    std::string skipped;                 ///< why the frame does not need the stage; then there are no rows
+    std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
+    std::string skipped;            ///< why the frame does not need the stage; then there are no rows
 };
 
 /// Called with what is being done and the share that is done, 0..1.

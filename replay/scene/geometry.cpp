@@ -71,7 +71,8 @@ void add_particle(const Frame& frame, const Particle& p, SceneRecords& scene) {
             .position = glm::vec3(center + glm::dvec3(turned * double(p.size), 0)),
             .normal = {0, 0, -1},
             .tangent = {1, 0, 0, 1},
-            .uv0 = glm::vec2(p.uv_frame.x + p.uv_frame.z * float(corner.x * .5 + .5), p.uv_frame.y + p.uv_frame.w * float(.5 - corner.y * .5)),
+            .uv0 = glm::vec2(p.uv_frame.x + p.uv_frame.z * float(corner.x * .5 + .5),
+                             p.uv_frame.y + p.uv_frame.w * float(.5 - corner.y * .5)),
             .uv1 = glm::vec2(0),
             .color = glm::vec4(p.color, p.alpha),
             .emissive = p.emissive,
@@ -94,7 +95,8 @@ DrawRecord draw_record(const Frame& frame, const Draw& draw, const Place& place)
     const glm::dvec3 center = to_view * glm::dvec4((place.low + place.high) * .5, 1);
     double radius = 0;
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? place.high.x : place.low.x, i & 2 ? place.high.y : place.low.y, i & 4 ? place.high.z : place.low.z);
+        const glm::dvec3 corner(i & 1 ? place.high.x : place.low.x, i & 2 ? place.high.y : place.low.y,
+                                i & 4 ? place.high.z : place.low.z);
         radius = std::max(radius, glm::length(glm::dvec3(to_view * glm::dvec4(corner, 1)) - center));
     }
     // A flattened object has no inverse; its normals then come from the matrix itself.

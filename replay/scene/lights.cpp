@@ -57,7 +57,8 @@ ViewRecord view_record(const Frame& frame) {
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
     if (frame.sun.irradiance != glm::vec3(0)) {
-        Light sun{.name = "sun", .type = LightType::directional, .direction = frame.sun.direction, .intensity = frame.sun.irradiance};
+        Light sun{
+            .name = "sun", .type = LightType::directional, .direction = frame.sun.direction, .intensity = frame.sun.irradiance};
         scene.lights.push_back(record(frame, sun));
     }
     for (const Light& light : frame.lights) scene.lights.push_back(record(frame, light));

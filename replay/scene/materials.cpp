@@ -99,8 +99,9 @@ void add_textures(const Frame& frame, std::uint64_t texel_bytes, SceneRecords& s
         scene.texels.resize(at + bytes_from(t, dropped[i]) / 4);
         std::memcpy(scene.texels.data() + at, t.texels.data() + skipped, (scene.texels.size() - at) * 4);
         if (dropped[i] > 0)
-            scene.notes.push_back(fmt::format("texture '{}' is used without its {} finest mips: the device binds {} MiB of texels",
-                                              t.name, dropped[i], texel_bytes >> 20));
+            scene.notes.push_back(
+                fmt::format("texture '{}' is used without its {} finest mips: the device binds {} MiB of texels", t.name,
+                            dropped[i], texel_bytes >> 20));
     }
 }
 

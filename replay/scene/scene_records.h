@@ -31,11 +31,11 @@ struct SceneRecords {
     std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter
     std::vector<TextureRecord> textures;
     std::vector<std::uint32_t> texels;
-    std::vector<LightRecord> lights;        ///< the sun first, then Frame::lights
+    std::vector<LightRecord> lights;  ///< the sun first, then Frame::lights
     std::vector<ShadowRecord> shadows;
     std::vector<DrawCommand> commands;
     CommandRange opaque, casters, transparent, back_to_front;
-    std::vector<std::string> notes;         ///< what had to be reduced to fit the device
+    std::vector<std::string> notes;  ///< what had to be reduced to fit the device
 };
 
 /// texel_bytes bounds the texel buffer: the finest mips of the largest textures are left out until it fits.
@@ -45,6 +45,6 @@ SceneRecords scene_records(const Frame&, std::uint64_t texel_bytes);
 void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
 void add_materials(const Frame&, SceneRecords&);  // materials.cpp
 void add_textures(const Frame&, std::uint64_t texel_bytes, SceneRecords&);
-void add_lights(const Frame&, SceneRecords&);     // lights.cpp: lights, shadows, view
+void add_lights(const Frame&, SceneRecords&);  // lights.cpp: lights, shadows, view
 
 }  // namespace strata

@@ -22,7 +22,8 @@ std::vector<Case> cases() {
     std::vector<Case> all;
     for (const Technique& technique : techniques())
         for (const std::string_view scenario : info(technique.stage).scenarios)
-            for (const std::uint32_t samples : {1u, 4u}) all.push_back({std::string(technique.name), std::string(scenario), samples});
+            for (const std::uint32_t samples : {1u, 4u})
+                all.push_back({std::string(technique.name), std::string(scenario), samples});
     return all;
 }
 
@@ -49,8 +50,8 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) {
     const std::string where = fmt::format(
         "worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}\n"
         "reproduce: strata record {} --samples {} && strata report {}.strata --stage {}",
-        w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario, c.samples, c.scenario,
-        name(technique.stage));
+        w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario, c.samples,
+        c.scenario, name(technique.stage));
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << where;
     EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << where;
 

@@ -27,7 +27,8 @@ TEST(Memo, AnotherTransparencyKeepsEveryStageBeforeIt) {
     must(session->run({.uses = {technique_of(Stage::transparency, 0)}}));
     const auto other = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
     for (const StepRecord& step : other.steps) {
-        EXPECT_EQ(step.scope.find("gbuffer: "), step.scope.starts_with("memo") ? step.scope.find("gbuffer: ") : std::string::npos) << step.scope;
+        EXPECT_EQ(step.scope.find("gbuffer: "), step.scope.starts_with("memo") ? step.scope.find("gbuffer: ") : std::string::npos)
+            << step.scope;
         EXPECT_FALSE(step.scope.starts_with("lighting: ")) << step.scope;
     }
     session->forget_memo();

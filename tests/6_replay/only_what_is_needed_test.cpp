@@ -31,7 +31,8 @@ TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
     for (const SkippedStage& skipped : run.skipped) {
         EXPECT_FALSE(skipped.reason.empty());
         EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);
-        for (const StepRecord& step : run.steps) EXPECT_EQ(step.scope.find(fmt::format(": {}/", name(skipped.stage))), std::string::npos);
+        for (const StepRecord& step : run.steps)
+            EXPECT_EQ(step.scope.find(fmt::format(": {}/", name(skipped.stage))), std::string::npos);
         for (const CounterRecord& counter : run.counters)
             EXPECT_NE(counter.technique.substr(0, counter.technique.find('/')), name(skipped.stage));
     }
@@ -43,7 +44,8 @@ TEST(OnlyWhatIsNeeded, AnEmptyFrameLeavesOutMostStages) {
     EXPECT_GE(run.skipped.size(), 8u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, EveryScenario, testing::ValuesIn(scenario_names()), [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(Scenarios, EveryScenario, testing::ValuesIn(scenario_names()),
+                         [](const auto& name) { return name.param; });
 
 }  // namespace
 }  // namespace strata

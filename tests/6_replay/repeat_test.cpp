@@ -16,7 +16,8 @@ TEST(Repeat, TwentyReplaysGiveEqualBits) {
             session->forget_memo();
             const auto again = must(session->run(request));
             for (const auto& [name, image] : first.images)
-                ASSERT_EQ(hash_of(image), hash_of(again.images.at(name))) << technique->name << " " << name << " repeat " << repeat;
+                ASSERT_EQ(hash_of(image), hash_of(again.images.at(name)))
+                    << technique->name << " " << name << " repeat " << repeat;
         }
     }
 }

@@ -22,7 +22,8 @@ std::string contents(const std::filesystem::path& path) {
 
 std::filesystem::path folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    const auto path = std::filesystem::path(testing::TempDir()) / "strata_tool" / (std::string(test->test_suite_name()) + "_" + test->name());
+    const auto path =
+        std::filesystem::path(testing::TempDir()) / "strata_tool" / (std::string(test->test_suite_name()) + "_" + test->name());
     static std::string made;
     if (made != path.string()) {
         std::filesystem::remove_all(path);
@@ -34,7 +35,8 @@ std::filesystem::path folder() {
 
 Finished strata(const std::string& arguments) {
     const std::string in = folder().string();
-    const int status = std::system(("cd " + in + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
+    const int status =
+        std::system(("cd " + in + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
     return {WEXITSTATUS(status), contents(folder() / "stdout.txt"), contents(folder() / "stderr.txt")};
 }
 

@@ -72,7 +72,8 @@ TEST(Validate, ATruncatedCaptureIsExitThreeAndReadableUpToTheCut) {
     ASSERT_EQ(strata("record three_panes --frames 4 -o panes.strata").code, 0);
     EXPECT_EQ(strata("validate panes.strata").code, 0);
     std::filesystem::resize_file(folder() / "panes.strata", std::filesystem::file_size(folder() / "panes.strata") * 3 / 4);
-    for (const char* verb : {"validate panes.strata", "info panes.strata", "replay panes.strata"}) EXPECT_EQ(strata(verb).code, 3) << verb;
+    for (const char* verb : {"validate panes.strata", "info panes.strata", "replay panes.strata"})
+        EXPECT_EQ(strata(verb).code, 3) << verb;
     EXPECT_EQ(strata("info panes.strata --allow-partial").code, 0);
 }
 
@@ -107,8 +108,8 @@ TEST(Replay, RepeatsAreBitIdentical) {
 
 TEST(Replay, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
-    for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures", "--until nowhere",
-                              "--force rainbows", "--samples 3", "--gpu NoSuchDevice"}) {
+    for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures",
+                              "--until nowhere", "--force rainbows", "--samples 3", "--gpu NoSuchDevice"}) {
         const Finished failed = strata(std::string("replay panes.strata ") + wrong);
         EXPECT_EQ(failed.code, 2) << wrong;
         EXPECT_FALSE(failed.err.empty()) << wrong;

@@ -1,6 +1,5 @@
 #include "tests/support/session.h"
 
-
 #include "captures/scenarios.h"
 
 namespace strata {
