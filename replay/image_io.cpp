@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <optional>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
@@ -89,6 +92,92 @@ Imf::Header header_of(const LayerPart& part, const Metadata& metadata) {
     return header;
 }
 
+// A file may claim any size; more than this is not read.
+constexpr std::uint32_t largest_edge = 1u << 16;
+constexpr std::uint64_t largest_part_bytes = std::uint64_t(1) << 30;
+
+struct ChannelRow {
+    std::string_view in_file;           ///< in the file's order, which is the alphabet's
+    std::vector<const char*> in_texel;  ///< channels the file lacks read as 1
+    Format half, real, whole;
+};
+
+/// The row of a part's channels, or null: what write_exr writes, and RGB.
+const ChannelRow* find_channels(const Imf::ChannelList& channels) {
+    static const ChannelRow table[] = {
+        {"Y", {"Y"}, Format::r16f, Format::r32f, Format::r32ui},
+        {"Z", {"Z"}, Format::r16f, Format::d32f, Format::r32ui},
+        {"GR", {"R", "G"}, Format::rg16f, Format::rg32f, Format::rg32ui},
+        {"BGR", {"R", "G", "B", "A"}, Format::rgba16f, Format::rgba32f, Format::rgba32ui},
+        {"ABGR", {"R", "G", "B", "A"}, Format::rgba16f, Format::rgba32f, Format::rgba32ui},
+    };
+    std::string names;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const Imf::Channel& first = channels.begin().channel();
+        if (channel.channel().type != first.type || channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+            return nullptr;
+        names += channel.name();
+    }
+    const auto found = std::ranges::find(table, names, &ChannelRow::in_file);
+    return found == std::end(table) ? nullptr : found;
+}
+
+Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index) {
+    const Imf::Header& header = file.header(index);
+    if (header.hasType() && Imf::isDeepData(header.type())) return fail(Fault::bad_input, "part {} is deep, not flat", index);
+    const ChannelRow* channels = find_channels(header.channels());
+    if (!channels) return fail(Fault::bad_input, "the channels of part {} are not Z, Y, RG, RGB or RGBA of one type", index);
+    const Imf::PixelType type = header.channels().begin().channel().type;
+    HostImage image{{.format = type == Imf::HALF ? channels->half : type == Imf::UINT ? channels->whole : channels->real}, {}};
+    const auto window = header.dataWindow();
+    const auto edge = [](int low, int high) { return static_cast<std::uint32_t>(std::int64_t{high} - low + 1); };
+    const Extent extent{edge(window.min.x, window.max.x), edge(window.min.y, window.max.y), 1};
+    image.shape.extent = extent;
+    if (std::max(extent.width, extent.height) > largest_edge || bytes(image.shape) > largest_part_bytes)
+        return fail(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
+    image.texels.resize(bytes(image.shape));
+
+    const std::size_t texel_bytes = row(image.shape.format).bytes, row_bytes = texel_bytes * image.shape.extent.width;
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < channels->in_texel.size(); ++c) {
+        char* first = reinterpret_cast<char*>(image.texels.data()) + c * texel_bytes / channels->in_texel.size();
+        buffer.insert(channels->in_texel[c], Imf::Slice::Make(type, first, window, texel_bytes, row_bytes, 1, 1, 1));
+    }
+    Imf::InputPart part(file, index);
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+    return image;
+}
+
+/// "color.layer2" is layer 2 of "color"; "color" is no layer.
+std::pair<std::string, std::optional<std::uint32_t>> split_layer(const std::string& part) {
+    constexpr std::string_view mark = ".layer";
+    const std::size_t at = part.rfind(mark);
+    if (at == std::string::npos) return {part, {}};
+    const std::string digits = part.substr(at + mark.size());
+    if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos) return {part, {}};
+    return {part.substr(0, at), static_cast<std::uint32_t>(std::stoul(digits))};
+}
+
+/// Appends the layer, or puts the whole image in its place.
+Result<void> add_part(std::map<std::string, HostImage>& images, const std::string& part, HostImage read) {
+    const auto& [name, layer] = split_layer(part);
+    const auto known = images.find(name);
+    const std::uint32_t expected = known == images.end() ? 0 : known->second.shape.layers;
+    if (layer.value_or(0) != expected)
+        return fail(Fault::bad_input, "part '{}' comes where layer {} of '{}' was expected", part, expected, name);
+    if (known == images.end()) {
+        images.emplace(name, std::move(read));
+        return {};
+    }
+    Shape& shape = known->second.shape;
+    if (read.shape.extent != shape.extent || read.shape.format != shape.format)
+        return fail(Fault::bad_input, "part '{}' has not the size and channels of the layers before it", part);
+    known->second.texels.insert(known->second.texels.end(), read.texels.begin(), read.texels.end());
+    ++shape.layers;
+    return {};
+}
+
 double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
 
 }  // namespace
@@ -117,6 +206,23 @@ Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPar
         return fail(Fault::bad_input, "cannot write {}: {}", path.string(), problem.what());
     }
     return {};
+}
+
+Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path& path) {
+    try {
+        Imf::MultiPartInputFile file(path.c_str());
+        std::map<std::string, HostImage> images;
+        for (int part = 0; part < file.parts(); ++part) {
+            auto image = read_part(file, part);
+            if (!image) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), image.error().sentence);
+            const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
+            if (const auto added = add_part(images, name, *std::move(image)); !added)
+                return fail(Fault::bad_input, "cannot read {}: {}", path.string(), added.error().sentence);
+        }
+        return images;
+    } catch (const std::exception& problem) {
+        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), problem.what());
+    }
 }
 
 Result<void> write_png(const std::filesystem::path& path, const HostImage& image) {

@@ -24,6 +24,10 @@ using Metadata = std::map<std::string, std::string>;
 /// ZIP; half, float or uint channels as the image has them, so pixels survive bit for bit.
 Result<void> write_exr(const std::filesystem::path&, std::span<const ExrPart>, const Metadata&);
 
+/// The images of a flat file by their parts' names; parts "name.layer0", "name.layer1", ... become the layers of one image.
+/// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image".
+Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path&);
+
 /// Display light (0..1 linear) as 8-bit sRGB; rounded to nearest, alpha dropped.
 Result<void> write_png(const std::filesystem::path&, const HostImage&);
 

@@ -210,8 +210,20 @@ private:
         return declare(request, {*loaded_, scene_, device(), memo}, keep);
     }
 
+    /// Whether the device can bind every buffer whole.
+    Result<void> check_buffers(const Plan& plan) const {
+        for (const BufferRecord& buffer : plan.buffers)
+            if (buffer.bytes > device().max_buffer_bytes)
+                return fail(Fault::device_lacks,
+                            "'{}' takes {} MiB and {} binds at most {} MiB at once; replay with a smaller extent or settings "
+                            "that take less",
+                            buffer.name, buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20);
+        return {};
+    }
+
     /// The one place where a device's collapse becomes an Error.
     Result<Execution> execute(const Declaration& d, const RunOptions& options) {
+        if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
         try {
             return executor_->run(d.plan, options);
         } catch (const DeviceFailure& failure) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/reference/decoded.h"
+
 namespace strata::combine {
 namespace {
 
@@ -12,17 +14,9 @@ glm::dvec4 texel(const StageInput& input, std::string_view name, const ComposedS
 }
 
 SurfacePoint surface(const StageInput& input, const ComposedSample& at) {
-    const glm::dvec4 normal = texel(input, "surface_normal", at, {}), color = texel(input, "surface_color", at, {});
-    const glm::dvec4 material = texel(input, "surface_material", at, {});
-    SurfacePoint p;
-    p.position = pixel_ray(input.frame, at.x + 0.5, at.y + 0.5) * normal.w;
-    p.normal = glm::dvec3(normal);
-    p.base_color = glm::dvec3(color);
-    p.roughness = color.w;
-    p.model = static_cast<LightingModel>(static_cast<std::uint32_t>(material.x));
-    p.metallic = material.y;
-    p.occlusion = material.z;
-    return p;
+    const DecodedTexels texels{texel(input, "surface_normal", at, {}), texel(input, "surface_color", at, {}),
+                               texel(input, "surface_material", at, {})};
+    return decoded_surface(input.frame, texels, at.x, at.y);
 }
 
 /// Diffuse light that comes from everywhere, after the material's and the screen's occlusion (deferred 8.3: both multiply).

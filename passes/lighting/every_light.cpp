@@ -1,5 +1,6 @@
 #include "passes/lighting/every_light.h"
 
+#include "passes/reference/decoded.h"
 #include "passes/shadows/shadow_views.h"
 
 namespace strata::lighting {
@@ -21,17 +22,7 @@ EveryLight::EveryLight(const StageInput& input)
 }
 
 SurfacePoint EveryLight::surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
-    const glm::dvec4 &normal = normal_->at(x, y, sample), &color = color_->at(x, y, sample),
-                     &material = material_->at(x, y, sample);
-    SurfacePoint p;
-    p.position = pixel_ray(*frame_, x + 0.5, y + 0.5) * normal.w;
-    p.normal = glm::dvec3(normal);
-    p.base_color = glm::dvec3(color);
-    p.roughness = color.w;
-    p.model = static_cast<LightingModel>(static_cast<std::uint32_t>(material.x));
-    p.metallic = material.y;
-    p.occlusion = material.z;
-    return p;
+    return decoded_surface(*frame_, {normal_->at(x, y, sample), color_->at(x, y, sample), material_->at(x, y, sample)}, x, y);
 }
 
 glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {

@@ -59,9 +59,11 @@ Fragment particle_event(AlphaMode mode, double particle_alpha, const SurfacePoin
     return result;
 }
 
+double brightest(const glm::dvec3& color) { return std::max({color.x, color.y, color.z}); }
+
 void fog(const Frame& frame, double z, Fragment& fragment) {
     const FogAt at = fog_at(frame, z);
-    fragment.color = fragment.color * at.remains + fragment.alpha * at.added;
+    fragment.color = fragment.color * at.remains + (1.0 - fragment.transmittance) * at.added;
     fragment.emission *= at.remains;
 }
 
@@ -88,8 +90,9 @@ std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, c
     fog(frame, z, fragment);
     fragment.color = finite(fragment.color);
     fragment.emission = finite(fragment.emission);
-    const double brightest = std::max({fragment.emission.x, fragment.emission.y, fragment.emission.z});
-    if (fragment.alpha < smallest_alpha && brightest < smallest_emission) return std::nullopt;
+    if (fragment.alpha < smallest_alpha && brightest(fragment.color) < smallest_alpha &&
+        brightest(fragment.emission) < smallest_emission)
+        return std::nullopt;
     fragment.depth = z - depth_offset;
     fragment.submission = triangle.ordinal;
     return fragment;

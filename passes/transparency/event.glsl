@@ -78,10 +78,11 @@ Event particle_event(MaterialPoint m) {
     return event;
 }
 
-// Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact (chapter 0.4).
+// Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact. Chapter 0.4 adds alpha s;
+// what an event hides of the fog in front of it is 1 - t per channel, which is the same for grey events only.
 void add_fog(inout Event event) {
-    const float remains = fog_remains(event.z);
-    event.p = event.p * remains + event.alpha * (1.0 - remains) * view.fog_color;
+    const float remains = fog_remains(position_here().z);
+    event.p = event.p * remains + (1.0 - event.t) * (1.0 - remains) * view.fog_color;
     event.e *= remains;
 }
 
@@ -95,7 +96,7 @@ Event transparent_event() {
     if (view.fog_density > 0.0) add_fog(event);
     event.p = finite_or_zero(event.p);
     event.e = finite_or_zero(event.e);
-    event.visible = is_finite(event.z) && !invisible(event.alpha, event.e);
+    event.visible = is_finite(event.z) && !invisible(event.alpha, event.p, event.e);
     event.z -= in_emissive.w * scale;
     return event;
 }

@@ -12,10 +12,12 @@ vec3 finite_or_zero(vec3 x) { return vec3(finite_or_zero(x.r), finite_or_zero(x.
 // Coverage in 0..1; 0 where it is no number.
 float valid_alpha(float alpha) { return clamp(finite_or_zero(alpha), 0.0, 1.0); }
 
-// An event that nobody could see. Not 1/255: 200 layers of .01 must survive.
-bool invisible(float alpha, vec3 emission) {
+// An event that nobody could see: it neither hides nor adds (premultiplied fire has no alpha and all its light in p). Not 1/255:
+// 200 layers of .01 must survive.
+bool invisible(float alpha, vec3 scattered, vec3 emission) {
     const float least_alpha = 1e-5, least_emission = 1e-6;
-    return alpha < least_alpha && max(emission.r, max(emission.g, emission.b)) < least_emission;
+    return alpha < least_alpha && max(scattered.r, max(scattered.g, scattered.b)) < least_alpha &&
+           max(emission.r, max(emission.g, emission.b)) < least_emission;
 }
 
 #endif

@@ -20,7 +20,7 @@ struct Options {
     ChoiceOptions choices;
     std::string frames, until;
     std::vector<std::string> outputs = {"color", "depth_layers", "display"};
-    std::size_t repeat = 1;
+    std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder = ".";
     bool json = false;
 };
@@ -93,6 +93,21 @@ Result<void> check_repeats(Session& session, const Request& request, const Run& 
     return {};
 }
 
+/// Milliseconds by step, with their spread.
+void print_times(const Run& run) {
+    for (const StepRecord& step : run.steps)
+        fmt::print("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, step.scope, step.name);
+    fmt::print("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
+}
+
+/// One run; or with --time as many as asked for after a warm-up, everything executed every time.
+Result<Run> run_once(Session& session, const Request& request, const Options& options) {
+    if (options.timed == 0) return session.run(request);
+    auto runs = session.time(std::span(&request, 1), options.timed);
+    if (!runs) return runs.error();
+    return std::move(runs->front());
+}
+
 void print_summary(const Request& request, const Run& run) {
     fmt::print("frame {}: {} steps, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, run.steps.size(),
                double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
@@ -117,13 +132,14 @@ Result<void> replay(const Options& options) {
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     for (const std::size_t frame : *frames) {
         request->frame = frame;
-        const auto run = (*session)->run(*request);
+        const auto run = run_once(**session, *request, options);
         if (!run) return run.error();
         for (const std::string& note : run->notes) fmt::print(stderr, "strata: {}\n", note);
         if (const auto done = check_repeats(**session, *request, *run, options.repeat); !done) return done;
         if (const auto done = write_frame(**session, *request, *run, options); !done) return done;
         if (options.json) all["frames"].push_back(json_of(**session, *request, *run));
         else print_summary(*request, *run);
+        if (options.timed > 0 && !options.json) print_times(*run);
     }
     if (options.json) std::cout << all.dump(2) << "\n";
     return {};
@@ -140,6 +156,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     app.add_option("--until", options->until, "stop after the last step whose name contains this");
     app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when any output differs")
         ->check(CLI::Range(1, 100000));
+    app.add_option("--time", options->timed, "time every step this many times after a warm-up: median and deviation")
+        ->check(CLI::Range(1, 10000));
     app.add_option("-o,--output", options->folder, "folder for the files, made when missing");
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return replay(*options); };

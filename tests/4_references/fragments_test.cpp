@@ -74,6 +74,31 @@ TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
     EXPECT_NEAR(composite(std::span(&event, 1), glm::dvec3(0.3)).x, 0.60, 1e-7);
 }
 
+TEST(TransparentFragments, ColoredGlassHidesOfTheFogWhatItAbsorbs) {
+    // By hand: f = .8, s = .1 at the pane; light 1 behind it arrives there as .625 * 1 + .25 = .875, so red (t = 1) gives
+    // .8 * .875 + .1 = .8 and green (t = .2) .8 * .2 * .875 + .1 = .24.
+    Frame frame = tiny::frame(8, 8);
+    frame.fog.density = static_cast<float>(-std::log(0.8) / 2);
+    frame.fog.color = glm::vec3(0.5f);
+    const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::blend);
+    tiny::material(frame, draw).base_color = {0, 0, 0, 1};
+    tiny::material(frame, draw).transmission = {1, 0.2f, 0.2f};
+    const Fragment event = middle(transparent_fragments(frame, tiny::no_depth(frame)))[0];
+    const glm::dvec3 seen = composite(std::span(&event, 1), glm::dvec3(0.5 * 1 + 0.3));
+    EXPECT_NEAR(seen.x, 0.8, 1e-7);
+    EXPECT_NEAR(seen.y, 0.24, 1e-7);
+}
+
+TEST(TransparentFragments, PremultipliedLightWithoutCoverageIsKept) {
+    Frame frame = tiny::frame(8, 8);
+    const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::premultiplied);
+    tiny::material(frame, draw).base_color = {2, 1, 0.5f, 0};
+    const auto events = middle(transparent_fragments(frame, tiny::no_depth(frame)));
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_NEAR(events[0].color.x, 2, 1e-6);
+    EXPECT_EQ(events[0].transmittance, glm::dvec3(1));
+}
+
 TEST(TransparentFragments, FogAddsToNothingThatCoversNothing) {
     Frame frame = tiny::frame(8, 8);
     frame.fog.density = static_cast<float>(-std::log(0.5) / 2);

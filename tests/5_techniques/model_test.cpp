@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "tests/support/session.h"
+#include "tests/support/truths.h"
 
 namespace strata {
 namespace {
@@ -39,12 +39,14 @@ class Matrix : public testing::TestWithParam<Case> {};
 TEST_P(Matrix, TheGpuAgreesWithTheModel) {
     const Case& c = GetParam();
     const Technique& technique = *must(find_technique(c.technique));
-    const auto session = scenario_session(c.scenario, c.samples);
-    const Request request{.uses = {c.technique}};
-    if (const auto reason = info(technique.stage).unwanted(frame_features(must(session->frame(0)))))
+    Session& session = session_of_scenarios();
+    Request request = on_scenario(c.scenario, c.samples);
+    if (const auto reason = unneeded(request, technique.stage))
         GTEST_SKIP() << c.scenario << " does not need the stage: " << *reason;
 
-    const Accuracy accuracy = must(session->judge(request, technique.stage));
+    const ImageSet& truth = truth_of(technique.stage, request);
+    request.uses = {c.technique};
+    const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model_and_truth, &truth));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << c.technique << " cannot do " << accuracy.not_supported;
     const WorstTexel& w = accuracy.worst;
     const std::string where = fmt::format(

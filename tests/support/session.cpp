@@ -16,4 +16,18 @@ std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32
     return must(Session::open(scenario_frames(scenario, samples, count), {.validation = true}));
 }
 
+Session& session_of_scenarios() {
+    static const std::unique_ptr<Session> session = [] {
+        std::vector<Frame> frames;
+        for (const Scenario& scenario : scenarios()) frames.push_back(scenario_frames(scenario.name).front());
+        return must(Session::open(std::move(frames), {.validation = true}));
+    }();
+    return *session;
+}
+
+Request on_scenario(std::string_view scenario, std::uint32_t samples) {
+    const auto index = must(find_scenario(scenario)) - scenarios().data();
+    return {.frame = static_cast<std::size_t>(index), .samples = samples};
+}
+
 }  // namespace strata

@@ -16,11 +16,19 @@ std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samp
 /// A session over a scenario. No device is a failure, not a skip.
 std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32_t samples = 1, std::uint32_t count = 1);
 
+/// One session that serves every scenario: the device and its pipelines are made once per program, which is most of what a small
+/// test costs. Frames and techniques are chosen by the request, on_scenario() makes one.
+Session& session_of_scenarios();
+Request on_scenario(std::string_view scenario, std::uint32_t samples = 1);
+
 /// The value, or a failed test and an abort of it.
 template <typename T>
 T must(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().sentence);
     return *std::move(result);
+}
+inline void must(const Result<void>& result) {
+    if (!result) throw std::runtime_error(result.error().sentence);
 }
 
 }  // namespace strata

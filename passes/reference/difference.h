@@ -1,0 +1,22 @@
+// How far one image is from another.
+#pragma once
+
+#include "passes/reference/image.h"
+
+namespace strata {
+
+/// Over the three color channels of every decided texel.
+struct Difference {
+    double rmse = 0;
+    double relative = 0;  ///< rmse over the root mean square of what was wanted; rmse where that is zero
+    double worst = 0;
+    double bias = 0;      ///< mean of got - wanted
+    std::size_t compared = 0;
+};
+
+Difference difference(const ReferenceImage& got, const ReferenceImage& wanted);
+
+/// Whether the texel may be compared in both images.
+bool decided(const ReferenceImage& got, const ReferenceImage& wanted, std::size_t texel);
+
+}  // namespace strata

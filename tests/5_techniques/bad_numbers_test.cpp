@@ -1,0 +1,124 @@
+// NaN and infinity of one particle reach nobody else's pixels (transparency chapter 0.2), and the check can fail: without the
+// sanitizing function of the shaders they do.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "replay/frame_plan.h"
+#include "replay/image_io.h"
+#include "replay/scene/device_scene.h"
+#include "tests/support/device.h"
+#include "tests/support/glsl.h"
+#include "tests/support/not_finite.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+Frame bad_frame() { return scenario_frames("nan_particles").front(); }
+
+void zero_unless_finite(float& value) { value = std::isfinite(value) ? value : 0; }
+
+/// What the chapter makes of bad numbers, made beforehand: no coverage where alpha is none, no light in a channel that is none.
+Frame without_bad_numbers() {
+    Frame frame = bad_frame();
+    for (Emitter& emitter : frame.emitters) {
+        std::erase_if(emitter.particles, [](const Particle& p) { return !std::isfinite(p.alpha) || p.alpha < 0; });
+        for (Particle& particle : emitter.particles)
+            for (int c = 0; c < 3; ++c) {
+                zero_unless_finite(particle.color[c]);
+                zero_unless_finite(particle.emissive[c]);
+            }
+    }
+    return frame;
+}
+
+/// Bad particles made good ones: a picture that sanitizing must not give.
+Frame with_good_numbers() {
+    Frame frame = bad_frame();
+    for (Emitter& emitter : frame.emitters)
+        for (Particle& particle : emitter.particles) {
+            particle.alpha = std::isfinite(particle.alpha) ? std::abs(particle.alpha) : .6f;
+            for (int c = 0; c < 3; ++c) {
+                if (!std::isfinite(particle.color[c])) particle.color[c] = .5f;
+                zero_unless_finite(particle.emissive[c]);
+            }
+        }
+    return frame;
+}
+
+TEST(BadNumbers, LeaveEveryPictureAsItIsWithoutThem) {
+    const auto session = must(Session::open({bad_frame(), without_bad_numbers(), with_good_numbers()}, {.validation = true}));
+    for (const Technique& technique : techniques()) {
+        const std::vector<std::string> uses{std::string(technique.name)};
+        const auto pictures = [&](std::size_t frame) {
+            return must(session->run({.frame = frame, .uses = uses, .outputs = {"color", "display"}})).images;
+        };
+        const auto bad = pictures(0), clean = pictures(1), good = pictures(2);
+        for (const auto& [name, image] : bad) {
+            EXPECT_EQ(texel_that_is_no_number(image), std::nullopt) << technique.name << " " << name;
+            EXPECT_EQ(hash_of(image), hash_of(clean.at(name))) << technique.name << " " << name;
+            EXPECT_NE(hash_of(image), hash_of(good.at(name))) << "the particles do not show; the comparison proves nothing";
+        }
+    }
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The source with its includes in place, and without its #version: glsl() writes one.
+std::string with_includes(const std::filesystem::path& path) {
+    std::istringstream source(text_of(path));
+    std::string text, line;
+    while (std::getline(source, line)) {
+        if (line.starts_with("#include \""))
+            line = with_includes(std::filesystem::path(STRATA_SOURCE_DIR) / line.substr(10, line.rfind('"') - 10));
+        if (!line.starts_with("#version")) text += line + '\n';
+    }
+    return text;
+}
+
+/// The built-in shaders; those of the technique that sanitize take every number for a finite one.
+ShaderLibrary without_sanitizing(const Technique& technique) {
+    constexpr std::string_view check = "return (floatBitsToUint(x) & 0x7fffffffu) < 0x7f800000u;", pass = "return true;";
+    ShaderLibrary library;
+    for (const std::string& name : ShaderLibrary::built_in().names()) {
+        std::string source = name.starts_with(technique.name) ? with_includes(STRATA_SOURCE_DIR "/passes/" + name) : "";
+        if (const std::size_t at = source.find(check); at != std::string::npos)
+            library.add(glsl(name, source.replace(at, check.size(), pass)));
+        else library.add(*ShaderLibrary::built_in().find(name));
+    }
+    return library;
+}
+
+HostImage color_of(const Frame& frame, const Technique& technique, const ShaderLibrary& library) {
+    DeviceScene scene(shared_executor());
+    scene.upload(scene_records(frame, shared_device().info().max_buffer_bytes));
+    const Features features = frame_features(frame);
+    Graph graph;
+    FrameImages images{.recorded = &frame, .features = &features, .extent = {frame.view.width, frame.view.height, 1}};
+    scene.import_into(graph, images);
+    const std::vector<std::string> uses{std::string(technique.name)};
+    const auto declared = must(declare_frame(graph, images, must(choose(frame, uses, {})), shared_device().info().capabilities));
+    EXPECT_FALSE(declared.acts.empty());
+    graph.keep(images.color);
+    return shared_executor().run(must(compile(graph, library)), {}).images.at(images.color.id);
+}
+
+TEST(BadNumbers, AreSeenWhereShadersDoNotSanitize) {
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        const auto color = [&](const ShaderLibrary& library) { return color_of(bad_frame(), *technique, library); };
+        EXPECT_EQ(texel_that_is_no_number(color(ShaderLibrary::built_in())), std::nullopt) << technique->name;
+        EXPECT_TRUE(texel_that_is_no_number(color(without_sanitizing(*technique)))) << technique->name;
+    }
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,146 @@
+// Every technique against its stage's truth, recorded in baseline.csv. An error here is a property of the method: it may be
+// large, but it may not grow unnoticed, and a better method deserves a better record.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "tests/support/accept.h"
+#include "tests/support/truths.h"
+
+namespace strata {
+namespace {
+
+// Figures move with the device's last float bits. With GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 (no FMA, no F16C; platform.md 2.5) none
+// moved by more than SLACK_MEASURED; a method that changes moves its figures by tenths.
+constexpr double relative_slack = 0.02, absolute_slack = 2e-5;
+
+struct Key {
+    std::string technique, scenario;
+    std::uint32_t samples = 1;
+    auto operator<=>(const Key&) const = default;
+};
+
+/// The judge's first two figures; 0 where it has one only.
+struct Figures {
+    double first = 0, second = 0;
+};
+using Baseline = std::map<Key, Figures>;
+
+constexpr std::string_view head = "technique,scenario,samples,first figure,second figure";
+const std::string path = STRATA_SOURCE_DIR "/tests/5_techniques/baseline.csv";
+
+Baseline read_baseline() {
+    Baseline rows;
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+        std::istringstream fields(line);
+        Key key;
+        Figures figures;
+        char comma = 0;
+        std::getline(fields, key.technique, ',');
+        std::getline(fields, key.scenario, ',');
+        fields >> key.samples >> comma >> figures.first >> comma >> figures.second;
+        EXPECT_TRUE(fields && rows.emplace(key, figures).second) << path << ": " << line;
+    }
+    return rows;
+}
+
+void write_baseline(const Baseline& rows) {
+    std::ofstream file(path);
+    file << head << '\n';
+    for (const auto& [key, figures] : rows)
+        file << fmt::format("{},{},{},{:.6g},{:.6g}\n", key.technique, key.scenario, key.samples, figures.first, figures.second);
+    ASSERT_TRUE(file.flush()) << path;
+}
+
+/// At 1 sample; at 4 where the stage has nothing to do at 1.
+std::uint32_t samples_for(Stage stage, std::string_view scenario) { return unneeded(on_scenario(scenario), stage) ? 4 : 1; }
+
+/// The techniques that a scenario is made for.
+std::vector<const Technique*> techniques_on(std::string_view scenario) {
+    std::vector<const Technique*> found;
+    for (const Technique& technique : techniques())
+        if (std::ranges::count(info(technique.stage).scenarios, scenario)) found.push_back(&technique);
+    return found;
+}
+
+/// Nothing where the technique cannot do the scenario.
+std::vector<Figure> judged(const Technique& technique, const Key& key) {
+    Request request = on_scenario(key.scenario, key.samples);
+    const ImageSet& truth = truth_of(technique.stage, request);
+    request.uses = {key.technique};
+    const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::truth, &truth));
+    return accuracy.not_supported.empty() ? accuracy.method : std::vector<Figure>{};
+}
+
+/// "rmse is .02, worse than the recorded .01", or nothing.
+std::string departure(const Figure& now, double recorded) {
+    if (std::abs(now.value - recorded) <= absolute_slack + relative_slack * recorded) return "";
+    return fmt::format("{} is {:.6g} {}, {} the recorded {:.6g}", now.name, now.value, now.unit,
+                       now.value < recorded ? "better than" : "worse than", recorded);
+}
+
+std::string departure(const std::vector<Figure>& now, const Figures& recorded) {
+    const std::string first = departure(now[0], recorded.first);
+    const std::string second = now.size() > 1 ? departure(now[1], recorded.second) : "";
+    return first + (first.empty() || second.empty() ? "" : "; ") + second;
+}
+
+class MethodAgainstTruth : public testing::TestWithParam<std::string> {};
+
+TEST_P(MethodAgainstTruth, IsAsWrongAsRecorded) {
+    Baseline baseline = read_baseline();
+    bool accepted = false;
+    for (const Technique* technique : techniques_on(GetParam())) {
+        const Key key{std::string(technique->name), GetParam(), samples_for(technique->stage, GetParam())};
+        const std::vector<Figure> now = judged(*technique, key);
+        const auto row = baseline.find(key);
+        std::string problem;
+        if (now.empty() && row != baseline.end()) problem = "it cannot do this scenario, and is recorded all the same";
+        if (!now.empty()) problem = row == baseline.end() ? "no row records it" : departure(now, row->second);
+        if (problem.empty()) continue;
+        ADD_FAILURE() << key.technique << " on " << key.scenario << " at " << key.samples << ": " << problem
+                      << (accepting() ? "; now recorded" : "; accept it with\n  " + command_that_accepts());
+        accepted = accepting();
+        if (now.empty()) baseline.erase(key);
+        else baseline[key] = {now[0].value, now.size() > 1 ? now[1].value : 0};
+    }
+    if (accepted) write_baseline(baseline);
+}
+
+std::vector<std::string> judged_scenarios() {
+    std::vector<std::string> names;
+    for (const Scenario& scenario : scenarios())
+        if (!techniques_on(scenario.name).empty()) names.emplace_back(scenario.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, MethodAgainstTruth, testing::ValuesIn(judged_scenarios()),
+                         [](const auto& name) { return name.param; });
+
+TEST(MethodBaseline, RecordsNothingThatIsGone) {
+    for (const auto& [key, figures] : read_baseline()) {
+        const auto technique = find_technique(key.technique);
+        const bool judged = technique && std::ranges::count(info((*technique)->stage).scenarios, key.scenario);
+        EXPECT_TRUE(judged) << key.technique << " on " << key.scenario << ": delete its row from " << path;
+    }
+}
+
+TEST(MethodBaseline, WorseAndBetterBothAskToBeRecorded) {
+    const Figure rmse{"rmse", "radiance", .1};
+    EXPECT_EQ(departure(rmse, .101), "");
+    EXPECT_EQ(departure(rmse, .05), "rmse is 0.1 radiance, worse than the recorded 0.05");
+    EXPECT_EQ(departure(rmse, .2), "rmse is 0.1 radiance, better than the recorded 0.2");
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,122 @@
+// A technique writes only the frame's images that its stage owns (StageInfo::outputs). Found from the declared steps; needs no
+// device.
+#include <algorithm>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "replay/frame_plan.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+/// A declared frame whose scene is nothing but names: enough to see who writes what.
+struct Sketch {
+    Frame recorded;
+    Features features;
+    Graph graph;
+    FrameImages images;
+    DeclaredFrame frame;
+};
+
+/// Commands and indices that no device ever sees.
+DrawList draws_of(Graph& graph, std::uint64_t key, std::size_t count) {
+    return {graph.import("commands", 20 * std::max<std::size_t>(count, 1), ImportId{key}),
+            graph.import("indices", 4, ImportId{1}), 0, static_cast<std::uint32_t>(count)};
+}
+
+void sketch(Sketch& s, const Technique& technique, std::string_view scenario, std::uint32_t samples) {
+    s.recorded = scenario_frames(scenario, samples).front();
+    for (const Feature feature : all_features()) s.features.set(feature, "every stage is wanted here");
+    s.images = {.recorded = &s.recorded,
+                .features = &s.features,
+                .extent = {s.recorded.view.width, s.recorded.view.height, 1},
+                .samples = samples};
+    s.images.all_opaque = s.images.opaque = draws_of(s.graph, 2, opaque_draws(s.recorded).size());
+    s.images.casters = draws_of(s.graph, 3, opaque_draws(s.recorded).size());
+    s.images.transparent = draws_of(s.graph, 4, transparent_draws(s.recorded).size());
+    s.images.back_to_front = draws_of(s.graph, 5, transparent_draws(s.recorded).size());
+    Choices choices = must(choose(s.recorded, {}, {}));
+    choices[technique.stage] = {&technique, Settings(technique.params)};
+    s.frame = must(declare_frame(s.graph, s.images, choices, technique.needs));
+}
+
+std::set<std::uint32_t> images_written(const Step& step) {
+    std::set<std::uint32_t> ids;
+    for (const Binding& binding : step.bindings)
+        if (writes(binding.access) && binding.image) ids.insert(binding.image.id);
+    for (const Attachment& attachment : step.attachments)
+        if (writes(attachment.access)) ids.insert(attachment.image.id);
+    if (const auto* copy = std::get_if<CopyWork>(&step.work); copy && copy->to) ids.insert(copy->to.id);
+    if (const auto* clear = std::get_if<ClearWork>(&step.work); clear && clear->image) ids.insert(clear->image.id);
+    return ids;
+}
+
+/// "depth in gbuffer/x/fill" for everything the technique's acts write or replace that its stage does not own.
+std::vector<std::string> trespasses(const Sketch& s, const Technique& technique) {
+    std::vector<std::string> found;
+    const std::vector<std::string_view>& owned = info(technique.stage).outputs;
+    for (std::size_t i = 0; i < s.frame.acts.size(); ++i) {
+        const DeclaredAct& act = s.frame.acts[i];
+        if (act.technique != &technique) continue;
+        const FrameImages& after = i + 1 < s.frame.acts.size() ? s.frame.acts[i + 1].before : s.images;
+        for (const FrameImageRow& row : frame_images()) {
+            if (std::ranges::count(owned, row.name)) continue;
+            const Image before = act.before.*row.member;
+            if ((after.*row.member).id != before.id) found.push_back(fmt::format("{} is replaced", row.name));
+            for (const Step& step : s.graph.steps())
+                if (step.scope == act.scope && before && images_written(step).contains(before.id))
+                    found.push_back(fmt::format("{} in {}", row.name, step.name));
+        }
+    }
+    return found;
+}
+
+bool acts(const Sketch& s, const Technique& technique) {
+    return std::ranges::count(s.frame.acts, &technique, &DeclaredAct::technique) > 0;
+}
+
+class Ownership : public testing::TestWithParam<Technique> {};
+
+TEST_P(Ownership, ATechniqueWritesOnlyWhatItsStageOwns) {
+    const Technique& technique = *must(find_technique(GetParam().name));
+    for (const std::string_view scenario : info(technique.stage).scenarios)
+        for (const std::uint32_t samples : {1u, 4u}) {
+            Sketch s;
+            sketch(s, technique, scenario, samples);
+            EXPECT_TRUE(acts(s, technique));
+            EXPECT_THAT(trespasses(s, technique), testing::IsEmpty()) << scenario << " at " << samples;
+        }
+}
+
+std::string test_name(const testing::TestParamInfo<Technique>& info) {
+    std::string text(info.param.name);
+    std::ranges::replace(text, '/', '_');
+    return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, Ownership, testing::ValuesIn(techniques().begin(), techniques().end()), test_name);
+
+TEST(Trespassing, IsSeenInStepsAndInHandles) {
+    const auto trespass = [](Graph& graph, FrameImages& frame, const Settings&) {
+        graph.clear(frame.light, {});
+        frame.depth_layers = graph.create("my own depth", {.extent = frame.extent, .format = Format::r32f});
+    };
+    const Technique technique{.stage = Stage::transparency, .name = "transparency/trespasser", .add = trespass};
+    Sketch s;
+    sketch(s, technique, "glass_and_smoke", 1);
+    EXPECT_THAT(trespasses(s, technique), testing::UnorderedElementsAre("light in clear light", "depth_layers is replaced"));
+}
+
+TEST(EveryFrameImage, IsOwnedByAStage) {
+    for (const FrameImageRow& row : frame_images()) {
+        const auto owns = [&](const StageInfo& stage) { return std::ranges::count(stage.outputs, row.name) > 0; };
+        EXPECT_TRUE(std::ranges::any_of(stages(), owns)) << row.name;
+    }
+}
+
+}  // namespace
+}  // namespace strata

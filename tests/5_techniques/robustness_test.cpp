@@ -1,0 +1,136 @@
+// Frames that no artist would send and every method must survive: tiny, odd, empty, opaque, 200 layers, behind the eye. Where
+// a frame must look like a simpler one, it must do so bit for bit.
+#include <algorithm>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "replay/image_io.h"
+#include "tests/support/not_finite.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+struct HardFrame {
+    std::string_view name;
+    Frame (*frame)();
+    Frame (*looks_like)() = nullptr;  ///< null: held against the models instead
+};
+
+void PrintTo(const HardFrame& hard, std::ostream* out) { *out << hard.name; }
+
+Frame scenario(std::string_view name, std::uint32_t width = 0, std::uint32_t height = 0, std::uint32_t samples = 1) {
+    const Scenario& found = *must(find_scenario(name));
+    return found.build(0, {.width = width ? width : found.width, .height = height ? height : found.height, .samples = samples});
+}
+
+/// Glass, smoke, lights and their shadows, and of all draws and emitters nothing.
+Frame nothing_in_sight() {
+    Frame frame = scenario("glass_and_smoke", 64, 36);
+    frame.draws.clear();
+    frame.emitters.clear();
+    return frame;
+}
+
+/// The same with one draw that the eye has its back to, of the first material with such an alpha mode.
+Frame behind_the_eye(AlphaMode mode) {
+    const Frame whole = scenario("glass_and_smoke", 64, 36);
+    Frame frame = nothing_in_sight();
+    for (const Draw& draw : whole.draws)
+        if (whole.materials[draw.material].alpha_mode == mode && frame.draws.empty()) frame.draws.push_back(draw);
+    if (frame.draws.empty()) throw std::runtime_error("the scenario has no such draw");
+    const glm::dvec3 forward = glm::transpose(glm::dmat3(frame.view.to_view)) * glm::dvec3(0, 0, 1);
+    frame.draws[0].to_world[3] = glm::dvec4(frame.view.origin - 100.0 * forward, 1);
+    frame.draws[0].previous_to_world = frame.draws[0].to_world;
+    return frame;
+}
+
+const HardFrame hard_frames[] = {
+    {"one_pixel", [] { return scenario("glass_and_smoke", 1, 1); }},
+    {"one_pixel_of_four_samples", [] { return scenario("glass_and_smoke", 1, 1, 4); }},
+    {"odd_size_at_four_samples", [] { return scenario("glass_and_smoke", 37, 23, 4); }},
+    {"two_hundred_layers", [] { return scenario("two_hundred_layers"); }},
+    {"empty", [] { return scenario("empty"); }, [] { return scenario("empty"); }},
+    {"all_opaque", [] { return scenario("opaque_only"); }, [] { return scenario("opaque_only"); }},
+    {"opaque_behind_the_eye", [] { return behind_the_eye(AlphaMode::opaque); }, nothing_in_sight},
+    {"transparent_behind_the_eye", [] { return behind_the_eye(AlphaMode::blend); }, nothing_in_sight},
+};
+
+/// Every hard frame, each followed by what it must look like, or by itself.
+Session& session_of_hard_frames() {
+    static const std::unique_ptr<Session> session = [] {
+        std::vector<Frame> frames;
+        for (const HardFrame& hard : hard_frames) {
+            frames.push_back(hard.frame());
+            frames.push_back(hard.looks_like ? hard.looks_like() : hard.frame());
+        }
+        return must(Session::open(std::move(frames), {.validation = true}));
+    }();
+    return *session;
+}
+
+class HardFrames : public testing::TestWithParam<HardFrame> {
+protected:
+    HardFrames() {
+        for (const HardFrame& hard : hard_frames)
+            if (hard.name == GetParam().name) hard_ = 2 * static_cast<std::size_t>(&hard - hard_frames);
+        twin_ = hard_ + 1;
+    }
+
+    /// Every stage runs, needed or not: the technique meets the frame even where the frame does not call for it.
+    Request forced(const Technique& technique) const {
+        Request request{.frame = hard_, .uses = {std::string(technique.name)}, .outputs = {"color", "display"}};
+        for (const std::string_view output : info(technique.stage).outputs)
+            if (output != "depth") request.outputs.emplace_back(output);  // multisampled; depth_layers is its copy
+        for (const Feature feature : all_features())
+            if (feature != Feature::multisampled || must(session_.frame(hard_)).view.samples > 1)
+                request.force.push_back(feature);
+        return request;
+    }
+
+    Session& session_ = session_of_hard_frames();
+    std::size_t hard_ = 0, twin_ = 0;
+};
+
+TEST_P(HardFrames, LeaveEveryTechniqueWithNumbers) {
+    for (const Technique& technique : techniques()) {
+        const auto run = session_.run(forced(technique));
+        ASSERT_TRUE(run) << technique.name << ": " << run.error().sentence;
+        EXPECT_TRUE(run->images.contains("display")) << technique.name;
+        for (const auto& [name, image] : run->images)
+            EXPECT_EQ(texel_that_is_no_number(image), std::nullopt) << technique.name << " " << name;
+    }
+}
+
+TEST_P(HardFrames, LookLikeTheirSimplerTwins) {
+    if (!GetParam().looks_like) GTEST_SKIP() << "nothing simpler looks like it";
+    for (const Technique& technique : techniques()) {
+        const auto hard = must(session_.run(forced(technique)));
+        const Request as_needed{.frame = twin_, .uses = {std::string(technique.name)}, .outputs = {"color", "display"}};
+        const auto plain = must(session_.run(as_needed));
+        for (const auto& [name, image] : plain.images)
+            EXPECT_EQ(hash_of(image), hash_of(hard.images.at(name))) << technique.name << " " << name;
+    }
+}
+
+TEST_P(HardFrames, AreWhatTheModelsSay) {
+    for (const Technique& technique : techniques()) {
+        const Frame frame = must(session_.frame(hard_));
+        if (info(technique.stage).unwanted(frame_features(frame))) continue;
+        const auto judged = session_.judge({.frame = hard_, .uses = {std::string(technique.name)}}, technique.stage);
+        ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
+        EXPECT_LE(judged->model_rmse, technique.tolerance.rmse) << technique.name;
+        EXPECT_LE(judged->model_worst, technique.tolerance.worst)
+            << technique.name << " " << judged->worst.image << " (" << judged->worst.x << ", " << judged->worst.y << ") layer "
+            << judged->worst.layer;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(hard_frames),
+                         [](const auto& hard) { return std::string(hard.param.name); });
+
+}  // namespace
+}  // namespace strata

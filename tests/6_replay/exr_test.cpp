@@ -1,0 +1,79 @@
+// OpenEXR files: what is written is read back bit for bit, and what cannot be read is refused with a sentence.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "replay/image_io.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+std::filesystem::path file_of_this_test() {
+    return std::filesystem::path(testing::TempDir()) /
+           fmt::format("strata_{}.exr", testing::UnitTest::GetInstance()->current_test_info()->name());
+}
+
+/// Every byte another one; no NaN among them whose bits a copy might change.
+HostImage numbered(Format format, std::uint32_t layers) {
+    HostImage image{{.extent = {5, 3}, .format = format, .layers = layers}, {}};
+    image.texels.resize(bytes(image.shape));
+    for (std::size_t i = 0; i < image.texels.size(); ++i) image.texels[i] = static_cast<std::byte>(i * 7 % 120);
+    return image;
+}
+
+TEST(Exr, WhatIsWrittenIsReadBitForBit) {
+    for (const Format format : {Format::r16f, Format::rg16f, Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f,
+                                Format::r32ui, Format::rg32ui, Format::rgba32ui, Format::d32f}) {
+        const HostImage one = numbered(format, 1), four = numbered(format, 4);
+        const ExrPart parts[] = {{"one", &one}, {"four", &four}};
+        must(write_exr(file_of_this_test(), parts, {}));
+        const auto read = must(read_exr(file_of_this_test()));
+        ASSERT_EQ(read.size(), 2u) << row(format).name;
+        EXPECT_EQ(hash_of(read.at("one")), hash_of(one)) << row(format).name;
+        EXPECT_EQ(hash_of(read.at("four")), hash_of(four)) << row(format).name;
+    }
+    std::filesystem::remove(file_of_this_test());
+}
+
+TEST(Exr, SmallFormatsComeBackWider) {
+    const HostImage bytes = numbered(Format::rgba8_unorm, 1);
+    const ExrPart parts[] = {{"bytes", &bytes}};
+    must(write_exr(file_of_this_test(), parts, {}));
+    const HostImage read = must(read_exr(file_of_this_test())).at("bytes");
+    EXPECT_EQ(read.shape.format, Format::rgba32f);
+    EXPECT_NEAR(texel(read, 4, 2).y, texel(bytes, 4, 2).y, 1e-7);
+    std::filesystem::remove(file_of_this_test());
+}
+
+TEST(Exr, AMissingFileIsAnError) {
+    EXPECT_THAT(read_exr("/nowhere/a.exr").error().sentence, testing::StartsWith("cannot read /nowhere/a.exr: "));
+}
+
+TEST(Exr, AFileCutShortIsAnErrorWhereverItIsCut) {
+    const HostImage image = numbered(Format::rgba16f, 2);
+    const ExrPart parts[] = {{"image", &image}};
+    must(write_exr(file_of_this_test(), parts, {}));
+    const auto whole = std::filesystem::file_size(file_of_this_test());
+    for (auto size = whole - 1; size > 0; size = size * 7 / 8) {
+        std::filesystem::resize_file(file_of_this_test(), size);
+        const auto read = read_exr(file_of_this_test());
+        ASSERT_FALSE(read) << size << " of " << whole;
+        EXPECT_THAT(read.error().sentence, testing::StartsWith("cannot read"));
+    }
+    std::filesystem::remove(file_of_this_test());
+}
+
+TEST(Exr, ALayerWithoutTheOnesBeforeItIsAnError) {
+    const HostImage image = numbered(Format::r32f, 1);
+    const ExrPart parts[] = {{"depth.layer1", &image}};
+    must(write_exr(file_of_this_test(), parts, {}));
+    EXPECT_THAT(read_exr(file_of_this_test()).error().sentence,
+                testing::EndsWith("part 'depth.layer1' comes where layer 0 of 'depth' was expected"));
+    std::filesystem::remove(file_of_this_test());
+}
+
+}  // namespace
+}  // namespace strata

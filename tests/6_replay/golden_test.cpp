@@ -1,0 +1,147 @@
+// Whole frames against golden images: what a change to any part of the chain changes. By tolerance and not by hash: another
+// class of CPU rounds the last bits differently (platform.md 2.5).
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/packing.hpp>
+
+#include "replay/image_io.h"
+#include "tests/support/accept.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+struct WholeFrame {
+    std::string scenario;
+    std::uint32_t samples = 1;
+};
+using Images = std::map<std::string, HostImage>;
+
+const WholeFrame whole_frames[] = {{"glass_and_smoke", 1}, {"glass_and_smoke", 4}, {"three_cards", 1}};
+
+std::string name_of(const WholeFrame& frame) { return fmt::format("{}_at_{}", frame.scenario, frame.samples); }
+
+void PrintTo(const WholeFrame& frame, std::ostream* out) { *out << name_of(frame); }
+
+/// Relative to max(|golden|, the golden's root mean square).
+struct Allowed {
+    std::string image;
+    double rmse = 0, worst = 0;
+    std::string because;
+};
+
+const Allowed allowed[] = {
+    {"color", 1e-4, 1e-3, "REASON"},
+    {"display", 1e-4, 1e-3, "REASON"},
+};
+
+/// Half floats halve the files; color is float on the device.
+HostImage in_halves(const HostImage& image) {
+    if (image.shape.format != Format::rgba32f) return image;
+    HostImage halves{image.shape, std::vector<std::byte>(image.texels.size() / 2)};
+    halves.shape.format = Format::rgba16f;
+    for (std::size_t i = 0; i < image.texels.size(); i += sizeof(glm::vec4)) {
+        glm::vec4 texel;
+        std::memcpy(&texel, image.texels.data() + i, sizeof texel);
+        const glm::uint64 packed = glm::packHalf4x16(texel);
+        std::memcpy(halves.texels.data() + i / 2, &packed, sizeof packed);
+    }
+    return halves;
+}
+
+Images replayed(const WholeFrame& frame) {
+    Request request = on_scenario(frame.scenario, frame.samples);
+    request.outputs = {"color", "display"};
+    Images images = must(session_of_scenarios().run(request)).images;
+    for (auto& [name, image] : images) image = in_halves(image);
+    return images;
+}
+
+struct Difference {
+    double rmse = 0, worst = 0;
+    std::string at;
+    std::size_t lit = 0;  ///< texels of the golden image that are not black
+};
+
+Difference difference(const ReferenceImage& got, const ReferenceImage& golden) {
+    double power = 0, squares = 0;
+    Difference d;
+    const auto texels = static_cast<double>(golden.texels.size());
+    for (const glm::dvec4& t : golden.texels) power += glm::dot(glm::dvec3(t), glm::dvec3(t)) / 3;
+    const double scale = std::max(std::sqrt(power / texels), 1e-9);
+    for (std::size_t i = 0; i < golden.texels.size(); ++i) {
+        const glm::dvec4 a = got.texels[i], b = golden.texels[i];
+        if (glm::length(glm::dvec3(b)) > 1e-3) ++d.lit;
+        for (int c = 0; c < 3; ++c) {
+            double error = std::abs(a[c] - b[c]) / std::max(std::abs(b[c]), scale);
+            if (!std::isfinite(error)) error = HUGE_VAL;
+            squares += error * error / 3;
+            if (error <= d.worst) continue;
+            d.worst = error;
+            d.at = fmt::format("pixel ({}, {}) layer {}: {:.5g} {:.5g} {:.5g}, golden {:.5g} {:.5g} {:.5g}", i % golden.width,
+                               i / golden.width % golden.height, i / golden.width / golden.height, a.x, a.y, a.z, b.x, b.y, b.z);
+        }
+    }
+    d.rmse = std::sqrt(squares / texels);
+    return d;
+}
+
+/// What is wrong, or nothing.
+std::string compare(const Images& got, const Images& golden, const Allowed& a) {
+    const auto wanted = golden.find(a.image);
+    if (wanted == golden.end() || wanted->second.shape != got.at(a.image).shape)
+        return a.image + " is missing or of another shape";
+    const Difference d = difference(in_double(got.at(a.image)), in_double(wanted->second));
+    const std::string seen = fmt::format("{}: rmse {:.3g}, worst {:.3g}, {}", a.image, d.rmse, d.worst, d.at);
+    if (d.lit < in_double(wanted->second).texels.size() / 2) return a.image + ": most of the golden image is black";
+    if (d.rmse <= a.rmse && d.worst <= a.worst) return "";
+    return fmt::format("{}\n  allowed are rmse {:.3g} and worst {:.3g}: {}", seen, a.rmse, a.worst, a.because);
+}
+
+void write(const std::filesystem::path& path, const Images& images) {
+    std::filesystem::create_directories(path.parent_path());
+    std::vector<ExrPart> parts;
+    for (const auto& [name, image] : images) parts.push_back({name, &image});
+    must(write_exr(path, parts, {}));
+}
+
+class Golden : public testing::TestWithParam<WholeFrame> {};
+
+TEST_P(Golden, TheWholeFrameIsAsAccepted) {
+    const WholeFrame& frame = GetParam();
+    const std::filesystem::path file = name_of(frame) + ".exr", path = STRATA_SOURCE_DIR "/tests/6_replay/golden" / file;
+    const Images got = replayed(frame);
+    std::string problem;
+    if (const auto golden = read_exr(path); !golden) problem = golden.error().sentence;
+    else
+        for (const Allowed& a : allowed)
+            if (const std::string differs = compare(got, *golden, a); !differs.empty()) problem += differs + "\n";
+    if (problem.empty()) return;
+    if (accepting()) {
+        write(path, got);
+        FAIL() << "wrote " << path << ", " << std::filesystem::file_size(path) << " bytes; before: " << problem;
+    }
+    const std::filesystem::path actual = STRATA_BINARY_DIR "/actual" / file;
+    write(actual, got);
+    must(write_png(std::filesystem::path(actual).replace_extension(".png"), got.at("display")));
+    FAIL() << problem << "\nlook at " << actual << " and the .png beside it; if that is right, accept it with\n  "
+           << command_that_accepts() << "\nreproduce: strata record " << frame.scenario << " --samples " << frame.samples
+           << " && strata replay " << frame.scenario << ".strata";
+}
+
+INSTANTIATE_TEST_SUITE_P(WholeFrames, Golden, testing::ValuesIn(whole_frames),
+                         [](const auto& frame) { return name_of(frame.param); });
+
+TEST(GoldenComparison, SeesOneWrongPixel) {
+    Images golden = replayed({"three_cards", 1}), wrong = golden;
+    EXPECT_EQ(compare(golden, golden, allowed[0]), "");
+    const std::uint16_t one_percent_more = 0x3c0a;  // 1.01 as a half; over a golden of 1 or less
+    std::memcpy(wrong.at("color").texels.data() + (45 * 160 + 80) * 8, &one_percent_more, 2);
+    EXPECT_NE(compare(wrong, golden, allowed[0]).find("pixel (80, 45) layer 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace strata
