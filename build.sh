@@ -15,7 +15,7 @@ packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
 
-say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
+say() { printf '== %s\n' "$*" >&2; }
 
 # Installs the named packages that are not there yet.
 install_missing() {
@@ -51,7 +51,7 @@ demo() {
         build/strata replay "$out/smoke.strata" --use "$technique" -o "$out/${technique#*/}"
     done
     build/strata report "$out/smoke.strata" --stage transparency
-    say "images:"
+    echo "images:"
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }
 

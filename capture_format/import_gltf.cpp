@@ -73,6 +73,7 @@ public:
         for (const std::string& warning : gltf::add_lights(frame_, model_, *nodes)) warn(warning);
         if (const auto seen = set_view(*nodes); !seen) return seen.error();
         finish_light();
+        set_exposure();
         if (!model_.animations.empty()) warn("animations are ignored; the scene is as the nodes place it");
         shorten_names();
         if (const auto checked = check_frame(frame_); !checked) return checked.error();
@@ -153,8 +154,9 @@ private:
             const Bounds& box = bounds_[mesh];
             const glm::dvec4 p((corner & 1) ? box.high.x : box.low.x, (corner & 2) ? box.high.y : box.low.y,
                                (corner & 4) ? box.high.z : box.low.z, 1);
-            scene_.low = glm::min(scene_.low, glm::dvec3(placed.to_world * p));
-            scene_.high = glm::max(scene_.high, glm::dvec3(placed.to_world * p));
+            corners_.emplace_back(placed.to_world * p);
+            scene_.low = glm::min(scene_.low, corners_.back());
+            scene_.high = glm::max(scene_.high, corners_.back());
         }
     }
 
@@ -164,7 +166,8 @@ private:
         }
         const double aspect = static_cast<double>(options_.width) / options_.height;
         const int wanted = options_.camera >= 0 ? options_.camera : 0;
-        frame_.view = gltf::framing_view(scene_, aspect);
+        if (corners_.empty()) corners_ = {glm::dvec3(-1), glm::dvec3(1)};
+        frame_.view = gltf::framing_view(corners_, scene_, options_);
         if (!model_.cameras.empty()) {
             const auto placed =
                 std::find_if(nodes.begin(), nodes.end(), [&](const PlacedNode& node) { return node.node->camera == wanted; });
@@ -209,6 +212,16 @@ private:
         frame_.sun.shadow_distance = static_cast<float>(glm::length(scene_.center() - frame_.view.origin) + radius);
     }
 
+    /// glTF lights are physical and its cameras have no exposure: a lamp of 180 candela a metre away makes paper 57 times as
+    /// bright as white. Where lights could make a white surface brighter than the film's white, that becomes its white.
+    void set_exposure() {
+        const double white = gltf::white_radiance(frame_, scene_), film = static_cast<double>(frame_.film.white);
+        if (white <= film) return;
+        frame_.view.exposure = static_cast<float>(film / white);
+        warn(fmt::format("the lights make a white surface as bright as {:.3g}; the exposure is {:.3g}", white,
+                         frame_.view.exposure));
+    }
+
     /// Names may be of any length in a glTF, a data URI of a megabyte for one. Cuts never split a UTF-8 character.
     void shorten_names() {
         const auto shorten = [](auto& list) {
@@ -230,13 +243,18 @@ private:
     Frame frame_;
     std::vector<std::string> warnings_;
     std::map<const tinygltf::Primitive*, std::uint32_t> meshes_;
-    std::vector<Bounds> bounds_;  ///< of each mesh, object space
+    std::vector<Bounds> bounds_;       ///< of each mesh, object space
+    std::vector<glm::dvec3> corners_;  ///< of every draw's box, world
     Bounds scene_;
 };
 
 }  // namespace
 
 Result<ImportedScene> import_gltf(const std::filesystem::path& path, const GltfOptions& options) {
+    if (!(std::abs(options.azimuth) <= 360 && std::abs(options.elevation) < 90)) {
+        return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
+                    options.azimuth, options.elevation);
+    }
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
         return fail(Fault::usage, "{} x {} pixels with {} samples cannot be rendered", options.width, options.height,
                     options.samples);

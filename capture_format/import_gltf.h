@@ -13,6 +13,8 @@ namespace strata {
 struct GltfOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
     std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
+    /// Degrees from the front (+z) towards the right (+x), and above the horizon: where the framing camera stands.
+    double azimuth = 22, elevation = 16;
 };
 
 struct ImportedScene {

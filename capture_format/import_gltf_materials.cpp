@@ -6,6 +6,9 @@
 namespace strata::gltf {
 namespace {
 
+/// ((n - 1) / (n + 1))^2 for n = 1.5, what glTF assumes without KHR_materials_ior.
+constexpr float head_on_reflectance = 0.04f;
+
 glm::vec3 rgb(const std::vector<double>& values, glm::vec3 fallback) {
     return values.size() < 3 ? fallback : glm::vec3(values[0], values[1], values[2]);
 }
@@ -105,7 +108,8 @@ private:
     }
 
     /// A share F of the diffuse light goes through instead of back (KHR_materials_transmission): the reflected color loses F,
-    /// and t = 1 - a (1 - k) with k = color F. Metal transmits nothing. Refraction and rough transmission have no place in a
+    /// and t = 1 - a (1 - k) with k = color F (1 - 0.04): glass of index 1.5 turns 4 % back even head-on, and without it clear
+    /// glass could not be seen at all. Metal transmits nothing. Refraction and rough transmission have no place in a
     /// transmittance.
     void set_transmission(Material& material, const tinygltf::Material& source) {
         double factor = number_in(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0);
@@ -124,7 +128,7 @@ private:
             warnings_.push_back(fmt::format("material '{}' transmits the mean of its base color texture", source.name));
         }
         const glm::vec3 color = glm::vec3(material.base_color) * glm::vec3(textures_.mean(material.base_color_texture.texture));
-        material.transmission = glm::clamp(color * share, 0.0f, 1.0f);
+        material.transmission = glm::clamp(color * (share * (1 - head_on_reflectance)), 0.0f, 1.0f);
         material.base_color = glm::vec4(glm::vec3(material.base_color) * (1 - share), material.base_color.w);
         material.alpha_mode = AlphaMode::blend;
     }

@@ -121,24 +121,71 @@ View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up) {
     return view;
 }
 
-View framing_view(const Bounds& bounds, double width_over_height) {
+namespace {
+
+/// A view that has been turned until what it sees lies in its middle, and what it then sees: x / z and y / z.
+struct Aim {
+    View view;
+    glm::dvec2 low{0}, high{0};
+    double nearest = 0;
+
+    bool fits(double slope, double width_over_height) const {
+        const glm::dvec2 widest = glm::max(-low, high);
+        return nearest > 0 && widest.x <= slope * width_over_height && widest.y <= slope;
+    }
+};
+
+Aim aimed_view(std::span<const glm::dvec3> points, glm::dvec3 eye, glm::dvec3 forward) {
+    Aim aim;
+    for (int turn = 0; turn < 4; ++turn) {  // the middle moves a little as the view turns; it has settled after two or three
+        aim = {look_along(eye, forward, {0, 1, 0}), glm::dvec2(1e300), glm::dvec2(-1e300), 1e300};
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 p = aim.view.to_view * (point - eye);
+            aim.nearest = std::min(aim.nearest, p.z);
+            aim.low = glm::min(aim.low, glm::dvec2(p) / p.z);
+            aim.high = glm::max(aim.high, glm::dvec2(p) / p.z);
+        }
+        if (!(aim.nearest > 0)) return aim;
+        const glm::dvec2 middle = (aim.low + aim.high) * 0.5;
+        if (turn < 3) forward = glm::transpose(aim.view.to_view) * glm::normalize(glm::dvec3(middle, 1));
+    }
+    return aim;
+}
+
+}  // namespace
+
+View framing_view(std::span<const glm::dvec3> points, const Bounds& bounds, const GltfOptions& options) {
     constexpr double vertical_fov = 0.7;  // radians, near that of a 35 mm lens on 35 mm film
     constexpr double margin = 1.05;
-    const double tangent = std::tan(vertical_fov / 2);
-    const glm::dvec3 towards_eye = glm::normalize(glm::dvec3(0.4, 0.3, 1));
-    const glm::dvec3 half = bounds.empty() ? glm::dvec3(1) : (bounds.high - bounds.low) * 0.5;
-    View view = look_along(bounds.center(), -towards_eye, {0, 1, 0});
-    double distance = 1e-6;  // from the center, so that every corner is inside the frustum
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 side((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
-        const glm::dvec3 p = view.to_view * (side * half);
-        distance = std::max({distance, std::abs(p.x) / (tangent * width_over_height) - p.z, std::abs(p.y) / tangent - p.z});
+    const double aspect = static_cast<double>(options.width) / options.height;
+    const double slope = std::tan(vertical_fov / 2) / margin;
+    const double azimuth = glm::radians(options.azimuth), elevation = glm::radians(options.elevation);
+    const glm::dvec3 towards_eye(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                                 std::cos(azimuth) * std::cos(elevation));
+    // From the far distance every point is inside a sphere that fits; then as near as all points still fit.
+    double near_end = 0, far_end = 1e-6 + bounds.radius() * (1 + 1 / std::min(slope, slope * aspect));
+    for (int halving = 0; halving < 20; ++halving) {
+        const double distance = (near_end + far_end) / 2;
+        const bool fits = aimed_view(points, bounds.center() + towards_eye * distance, -towards_eye).fits(slope, aspect);
+        (fits ? far_end : near_end) = distance;
     }
-    distance *= margin;
-    view.origin += towards_eye * distance;
-    view.near = static_cast<float>(std::min(0.1, distance * 0.01));
-    view.projection = perspective(vertical_fov, width_over_height, view.near);
+    const Aim aim = aimed_view(points, bounds.center() + towards_eye * far_end, -towards_eye);
+    View view = aim.view;
+    view.near = static_cast<float>(std::clamp(aim.nearest * 0.5, far_end * 1e-6, 0.1));
+    view.projection = perspective(vertical_fov, aspect, static_cast<double>(view.near));
     return view;
+}
+
+double white_radiance(const Frame& frame, const Bounds& scene) {
+    const auto brightest = [](glm::vec3 color) { return static_cast<double>(std::max({color.x, color.y, color.z})); };
+    double irradiance = brightest(frame.sun.irradiance);
+    for (const Light& light : frame.lights) {
+        const double distance = std::max(glm::length(light.position - scene.center()), scene.radius() * 0.5);
+        const bool reaches = light.type == LightType::directional || distance < static_cast<double>(light.range);
+        const double falloff = light.type == LightType::directional ? 1 : distance * distance;
+        if (reaches) irradiance += brightest(light.intensity) / falloff;
+    }
+    return irradiance / std::numbers::pi;
 }
 
 std::vector<std::string> add_lights(Frame& frame, const tinygltf::Model& model, const std::vector<PlacedNode>& nodes) {

@@ -1,6 +1,7 @@
 // The node hierarchy of a glTF scene, flattened: every node of the active scene with its object-to-world transform.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
+#include "capture_format/import_gltf.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -32,8 +34,13 @@ struct Bounds {
 /// A view with the eye's axes: glTF cameras look along -z of a right-handed space, views along +z of a left-handed one.
 View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up);
 
-/// A view from the front and a little from above and the right that shows the whole box. Sets no extent.
-View framing_view(const Bounds&, double width_over_height);
+/// A view of all these points, which lie in these bounds, as near as it may be from the side that the options name. Sets no
+/// extent.
+View framing_view(std::span<const glm::dvec3> points, const Bounds&, const GltfOptions&);
+
+/// The radiance of a white surface in the middle of the scene that faces every light at once. Lights nearer than half the
+/// scene's radius count as if they stood there: a bulb in its lampshade does not light the room as it lights the shade.
+double white_radiance(const Frame&, const Bounds&);
 
 /// Punctual lights of KHR_lights_punctual into the frame: the first directional one is the sun.
 std::vector<std::string> add_lights(Frame&, const tinygltf::Model&, const std::vector<PlacedNode>&);

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "capture_format/nearest_name.h"
+#include "replay/counted.h"
 #include "replay/declaration.h"
 #include "replay/gpu/executor.h"
 #include "replay/judgement.h"
@@ -34,23 +35,22 @@ std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& 
     return records;
 }
 
-/// Device bytes by the stage whose step touches them first.
+/// Bytes of the images and buffers that a stage's steps are the first to touch, whether or not their memory is shared.
 std::map<std::string, std::uint64_t> bytes_by_stage(const Plan& plan) {
     std::map<std::string, std::uint64_t> by_stage;
-    std::vector<bool> image_seen(plan.slots.size()), buffer_seen(plan.buffers.size());
+    std::vector<bool> image_seen(plan.images.size()), buffer_seen(plan.buffers.size());
     for (const PlannedStep& planned : plan.steps) {
         std::uint64_t& sum = by_stage[std::string(name(static_cast<Stage>(plan.scopes[planned.step.scope].stage)))];
-        const auto add = [&](Image image, Buffer buffer) {
-            if (image && plan.slot_of_image[image.id] != no_index && !image_seen[plan.slot_of_image[image.id]]) {
-                image_seen[plan.slot_of_image[image.id]] = true;
-                sum += plan.slots[plan.slot_of_image[image.id]].bytes;
+        for (const Barrier& barrier : planned.barriers) {
+            if (barrier.image && !image_seen[barrier.image.id]) {
+                image_seen[barrier.image.id] = true;
+                if (!plan.images[barrier.image.id].import) sum += bytes(plan.images[barrier.image.id].shape);
             }
-            if (buffer && !plan.buffers[buffer.id].import && !buffer_seen[buffer.id]) {
-                buffer_seen[buffer.id] = true;
-                sum += plan.buffers[buffer.id].bytes;
+            if (barrier.buffer && !buffer_seen[barrier.buffer.id]) {
+                buffer_seen[barrier.buffer.id] = true;
+                if (!plan.buffers[barrier.buffer.id].import) sum += plan.buffers[barrier.buffer.id].bytes;
             }
-        };
-        for (const Barrier& barrier : planned.barriers) add(barrier.image, barrier.buffer);
+        }
     }
     return by_stage;
 }
@@ -107,7 +107,7 @@ public:
     Result<Frame> frame(std::size_t index) override {
         const std::size_t count = frame_count();
         if (index >= count)
-            return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, index);
+            return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"), index);
         if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
         return std::get<std::vector<Frame>>(source_)[index];
     }

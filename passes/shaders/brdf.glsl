@@ -20,7 +20,9 @@ vec3 ggx_specular(MaterialPoint m, vec3 l, vec3 v, vec3 h) {
     const float n_l = max(dot(m.normal, l), smallest_cosine), n_v = max(dot(m.normal, v), smallest_cosine);
     const float n_h = clamp(dot(m.normal, h), 0.0, 1.0);
     const vec3 off = cross(m.normal, h);
-    const float spread = a2 * n_h * n_h + dot(off, off);
+    // A normal that leans away from both, of a map or extrapolated beyond an edge, is as far off the lobe as can be: without
+    // the condition n x h would vanish again behind the surface and light it as in the mirror's direction.
+    const float spread = n_h > 0.0 ? a2 * n_h * n_h + dot(off, off) : 1.0;
     const float distribution = a2 / (pi * spread * spread);
     const float visibility = 0.5 / (n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2));
     const vec3 f0 = mix(vec3(0.04), m.base_color, m.metallic);

@@ -6,6 +6,7 @@
 #include "capture_format/import_gltf.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/verb_options.h"
+#include "replay/counted.h"
 
 namespace strata {
 namespace {
@@ -35,8 +36,10 @@ Result<void> import(const Options& options) {
     if (const auto done = add_thumbnail(*recorder, scene->frame, options.device); !done) return done;
     if (const auto done = recorder->record(scene->frame); !done) return done;
     if (const auto done = recorder->finish(); !done) return done;
-    fmt::print(stderr, "imported {} draws, {} materials, {} textures, {} lights into {}\n", scene->frame.draws.size(),
-               scene->frame.materials.size(), scene->frame.textures.size(), scene->frame.lights.size(), output.string());
+    const Frame& frame = scene->frame;
+    fmt::print(stderr, "imported {}, {}, {}, {} into {}\n", counted(frame.draws.size(), "draw"),
+               counted(frame.materials.size(), "material"), counted(frame.textures.size(), "texture"),
+               counted(frame.lights.size(), "light"), output.string());
     return {};
 }
 
@@ -50,6 +53,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
     app.add_option("--camera", options->gltf.camera,
                    "index of the scene's camera; default its first, or one that frames the scene");
+    app.add_option("--azimuth", options->gltf.azimuth, "degrees from the front towards the right of a framing camera, default 22");
+    app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return import(*options); };
 }

@@ -7,6 +7,7 @@
 
 #include "capture_format/frame_features.h"
 #include "replay/cli/verb_options.h"
+#include "replay/counted.h"
 
 namespace strata {
 namespace {
@@ -20,7 +21,7 @@ struct Options {
 };
 
 struct Count {
-    const char* name;
+    const char *name, *one;
     std::size_t value;
 };
 
@@ -28,17 +29,17 @@ std::vector<Count> counts(const Frame& frame) {
     std::size_t triangles = 0, particles = 0;
     for (const Draw& draw : frame.draws) triangles += frame.meshes[draw.mesh].indices.size() / 3;
     for (const Emitter& emitter : frame.emitters) particles += emitter.particles.size();
-    return {{"draws", frame.draws.size()},
-            {"triangles", triangles},
-            {"meshes", frame.meshes.size()},
-            {"materials", frame.materials.size()},
-            {"textures", frame.textures.size()},
-            {"emitters", frame.emitters.size()},
-            {"particles", particles},
-            {"lights", frame.lights.size()},
-            {"blockers", frame.blockers.size()},
-            {"portals", frame.portals.size()},
-            {"light_volumes", frame.light_volumes.size()}};
+    return {{"draws", "draw", frame.draws.size()},
+            {"triangles", "triangle", triangles},
+            {"meshes", "mesh", frame.meshes.size()},
+            {"materials", "material", frame.materials.size()},
+            {"textures", "texture", frame.textures.size()},
+            {"emitters", "emitter", frame.emitters.size()},
+            {"particles", "particle", particles},
+            {"lights", "light", frame.lights.size()},
+            {"blockers", "blocker", frame.blockers.size()},
+            {"portals", "portal", frame.portals.size()},
+            {"light_volumes", "light volume", frame.light_volumes.size()}};
 }
 
 ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t index) {
@@ -66,14 +67,15 @@ ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t ind
 
 void print(const Capture& capture, const Frame& frame, std::size_t index) {
     const CaptureSummary& summary = capture.summary();
-    fmt::print("capture {}, format {}, {} frame{}, {} bytes{}\n", capture.id(), summary.format_version, summary.frames,
-               summary.frames == 1 ? "" : "s", summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
+    fmt::print("capture {}, format {}, {}, {} bytes{}\n", capture.id(), summary.format_version, counted(summary.frames, "frame"),
+               summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
     if (!summary.notes.empty()) fmt::print("notes: {}\n", summary.notes);
-    fmt::print("{} blobs, {} bytes stored for {}\n", summary.blobs, summary.blob_bytes_stored, summary.blob_bytes_raw);
-    fmt::print("\nframe {}: {} x {}, {} sample{} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
-               frame.view.samples, frame.view.samples == 1 ? "" : "s", frame.time);
+    fmt::print("{} of meshes, textures and particles: {} bytes, {} unpacked\n", counted(summary.blobs, "blob"),
+               summary.blob_bytes_stored, summary.blob_bytes_raw);
+    fmt::print("\nframe {}: {} x {}, {} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
+               counted(frame.view.samples, "sample"), frame.time);
     for (const Count& count : counts(frame))
-        if (count.value) fmt::print("  {:>8} {}\n", count.value, count.name);
+        if (count.value) fmt::print("  {:>8} {}\n", count.value, count.value == 1 ? count.one : count.name);
     fmt::print("it calls for\n");
     const Features features = frame_features(frame);
     for (const Feature feature : all_features())
@@ -86,7 +88,8 @@ Result<void> info(const Options& options) {
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
-        return fail(Fault::usage, "the capture has {} frames; there is no frame {}", count, options.frame);
+        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"),
+                    options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
     if (options.json) std::cout << json_of(*capture, *frame, options.frame).dump(2) << "\n";
@@ -100,8 +103,8 @@ Result<void> validate(const Options& options) {
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
         if (const auto frame = capture->frame(i); !frame)
             return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
-    fmt::print("{}: {} frames, every section and every index is sound\n", options.capture.filename().string(),
-               capture->frame_count());
+    fmt::print("{}: {}, every section and every index is sound\n", options.capture.filename().string(),
+               counted(capture->frame_count(), "frame"));
     return {};
 }
 

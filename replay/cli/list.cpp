@@ -1,4 +1,5 @@
 // strata list: stages with their techniques and parameters, scenarios, features.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -57,9 +58,11 @@ ordered_json json_of(const Technique& technique) {
 }
 
 Result<void> list_scenarios(const Options& options) {
+    std::size_t width = 0;
+    for (const Scenario& scenario : scenarios()) width = std::max(width, scenario.name.size());
     for (const Scenario& scenario : scenarios())
         if (options.names) fmt::print("{}\n", scenario.name);
-        else fmt::print("  {:<22}{}\n", scenario.name, scenario.question);
+        else fmt::print("  {:<{}}  {}\n", scenario.name, width, scenario.question);
     return {};
 }
 
@@ -82,7 +85,10 @@ Result<void> list(const Options& options) {
         if (whole_stage && !options.what.empty()) found = true;
     }
     if (!found) {
-        if (const auto technique = find_technique(options.what); !technique) return technique.error();
+        std::vector<std::string_view> known;
+        for (const StageInfo& stage : stages()) known.push_back(stage.name);
+        for (const Technique& technique : techniques()) known.push_back(technique.name);
+        return fail(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
     }
     if (options.json) std::cout << json.dump(2) << "\n";
     return {};

@@ -60,7 +60,9 @@ int run(std::vector<std::string> arguments) {
         done = list_gpus();
     } else if (help->parsed() && !help_about.empty()) {
         return run({help_about, "--help"});
-    } else if (help->parsed() || app.get_subcommands().empty()) {
+    } else if (help->parsed()) {
+        return run({"--help"});
+    } else if (app.get_subcommands().empty()) {
         fmt::print("{}", app.help());
     } else {
         for (const auto& [sub, verb] : runs)

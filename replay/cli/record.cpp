@@ -6,6 +6,7 @@
 #include "capture_format/recorder.h"
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
+#include "replay/counted.h"
 
 namespace strata {
 namespace {
@@ -40,8 +41,8 @@ Result<void> record(const Options& options) {
         if (const auto done = recorder->record(frame); !done) return done;
     }
     if (const auto done = recorder->finish(); !done) return done;
-    fmt::print(stderr, "recorded {} frame{} of {} at {} x {} into {}\n", wanted.frames, wanted.frames == 1 ? "" : "s",
-               options.scenario, wanted.width, wanted.height, output.string());
+    fmt::print(stderr, "recorded {} of {} at {} x {} into {}\n", counted(wanted.frames, "frame"), options.scenario, wanted.width,
+               wanted.height, output.string());
     return {};
 }
 

@@ -8,6 +8,7 @@
 
 #include "replay/cli/revision.h"
 #include "replay/cli/verb_options.h"
+#include "replay/counted.h"
 #include "replay/image_io.h"
 
 namespace strata {
@@ -75,6 +76,7 @@ Result<void> write_frame(const Session& session, const Request& request, const R
     std::ofstream file(base + ".json");
     file << json_of(session, request, run).dump(2) << "\n";
     if (!file.flush()) return fail(Fault::bad_input, "cannot write {}.json", base);
+    fmt::print(stderr, "wrote {}.json\n", base);
     return {};
 }
 
@@ -108,12 +110,28 @@ Result<Run> run_once(Session& session, const Request& request, const Options& op
     return std::move(runs->front());
 }
 
+/// "811229 fragments, 187 deepest": what the technique of a choice line counted.
+std::string counters_of(const Run& run, std::string_view choice) {
+    std::string text;
+    for (const CounterRecord& counter : run.counters)
+        if (choice.substr(0, choice.find(' ')) == counter.technique)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.value, counter.name);
+    return text;
+}
+
+/// A line per stage, in the order of a frame, and what its technique counted below it.
 void print_summary(const Request& request, const Run& run) {
-    fmt::print("frame {}: {} steps, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, run.steps.size(),
+    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, counted(run.steps.size(), "step"),
                double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
-    for (const auto& [stage, choice] : run.choices) fmt::print("  {:<14} {}\n", stage, choice);
-    for (const SkippedStage& skipped : run.skipped) fmt::print("  {:<14} left out: {}\n", name(skipped.stage), skipped.reason);
-    for (const CounterRecord& counter : run.counters) fmt::print("  {}: {} {}\n", counter.technique, counter.value, counter.name);
+    for (const StageInfo& stage : stages()) {
+        for (const SkippedStage& skipped : run.skipped)
+            if (skipped.stage == stage.stage) fmt::print("  {:<14} left out: {}\n", stage.name, skipped.reason);
+        const auto choice = run.choices.find(std::string(stage.name));
+        if (choice == run.choices.end()) continue;
+        fmt::print("  {:<14} {}\n", stage.name, choice->second);
+        if (const std::string counters = counters_of(run, choice->second); !counters.empty())
+            fmt::print("  {:<14}   {}\n", "", counters);
+    }
 }
 
 Result<void> replay(const Options& options) {

@@ -8,6 +8,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "capture_format/recorder.h"
+#include "replay/counted.h"
 
 namespace strata {
 namespace {
@@ -89,7 +90,7 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
             parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
         if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
         if (last >= count)
-            return fail(Fault::usage, "the capture has {} frames, 0 to {}; there is no frame {}", count, count - 1, last);
+            return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"), last);
         for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
         begin = end + 1;
     }
@@ -107,8 +108,11 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
 }
 
 Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceChoice& device) {
+    // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
+    const std::uint32_t divisor = (frame.view.width + thumbnail_width - 1) / thumbnail_width;
+    const Request small{.extent_divisor = std::clamp(divisor, 1u, std::max(1u, frame.view.height)), .samples = 1};
     auto session = Session::open(std::vector<Frame>{frame}, device);
-    const auto run = session ? (*session)->run({}) : Result<Run>(session.error());
+    const auto run = session ? (*session)->run(small) : Result<Run>(session.error());
     if (!run) {
         fmt::print(stderr, "strata: no thumbnail: {}\n", run.error().sentence);
         return {};

@@ -1,6 +1,7 @@
 // A report as a table for a terminal.
 #include <algorithm>
 
+#include "replay/counted.h"
 #include "replay/report/report.h"
 
 namespace strata {
@@ -20,11 +21,10 @@ std::string counters_text(const Measurement& row) {
 }  // namespace
 
 std::string as_text(const Report& report) {
-    std::string text =
-        fmt::format("{} of frame {}, {} x {}, {} sample{} per pixel, capture {}\n", name(report.stage), report.frame,
-                    report.width, report.height, report.samples, report.samples > 1 ? "s" : "", report.capture_id);
-    text += fmt::format("device {} ({}), {} timed runs each, interleaved\n", report.device.name, report.device.driver,
-                        report.repeats);
+    std::string text = fmt::format("{} of frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.frame,
+                                   report.width, report.height, counted(report.samples, "sample"), report.capture_id);
+    text += fmt::format("device {} ({}), {} each, interleaved\n", report.device.name, report.device.driver,
+                        counted(report.repeats, "timed run"));
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
     text += fmt::format("truth: {}\n\n", report.truth);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
-#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@
 namespace strata {
 namespace {
 
-// Figures move with the device's last float bits. With GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 (no FMA, no F16C; platform.md 2.5) none
-// moved by more than SLACK_MEASURED; a method that changes moves its figures by tenths.
+// Figures move with the device's last float bits and not else. Exact methods stand at 1e-8 to 2e-7 of rounding, which is below
+// the absolute slack wherever it falls; of errors that mean something 2 % is far less than any change of a method makes.
 constexpr double relative_slack = 0.02, absolute_slack = 2e-5;
 
 struct Key {
@@ -62,8 +62,12 @@ void write_baseline(const Baseline& rows) {
     ASSERT_TRUE(file.flush()) << path;
 }
 
-/// At 1 sample; at 4 where the stage has nothing to do at 1.
-std::uint32_t samples_for(Stage stage, std::string_view scenario) { return unneeded(on_scenario(scenario), stage) ? 4 : 1; }
+/// 1, or 4 where the stage has nothing to do at 1; nothing where it has nothing to do at all.
+std::optional<std::uint32_t> samples_for(Stage stage, std::string_view scenario) {
+    for (const std::uint32_t samples : {1u, 4u})
+        if (!unneeded(on_scenario(scenario, samples), stage)) return samples;
+    return {};
+}
 
 /// The techniques that a scenario is made for.
 std::vector<const Technique*> techniques_on(std::string_view scenario) {
@@ -101,7 +105,9 @@ TEST_P(MethodAgainstTruth, IsAsWrongAsRecorded) {
     Baseline baseline = read_baseline();
     bool accepted = false;
     for (const Technique* technique : techniques_on(GetParam())) {
-        const Key key{std::string(technique->name), GetParam(), samples_for(technique->stage, GetParam())};
+        const auto samples = samples_for(technique->stage, GetParam());
+        if (!samples) continue;
+        const Key key{std::string(technique->name), GetParam(), *samples};
         const std::vector<Figure> now = judged(*technique, key);
         const auto row = baseline.find(key);
         std::string problem;

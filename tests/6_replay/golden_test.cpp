@@ -33,9 +33,11 @@ struct Allowed {
     std::string because;
 };
 
+// On CPUs with AVX the frames are equal bit for bit, with AVX2 or without (measured with GALLIUM_OVERRIDE_CPU_CAPS=avx). Below
+// that lavapipe 22.3.6 corrupts its heap on these frames (LP_NATIVE_VECTOR_WIDTH=128), so nothing could be measured.
 const Allowed allowed[] = {
-    {"color", 1e-4, 1e-3, "REASON"},
-    {"display", 1e-4, 1e-3, "REASON"},
+    {"color", 5e-4, 1e-2, "last bits of floats step a half by 2^-10, and where a shadow's fraction is cut the light by 1/256"},
+    {"display", 5e-4, 1e-2, "as for color, which it is made of; the tone curve enlarges no relative error"},
 };
 
 /// Half floats halve the files; color is float on the device.

@@ -124,6 +124,16 @@ TEST(Graph, PrintsThePlanAndWhyStagesAreLeftOut) {
     EXPECT_THAT(strata("graph panes.strata --dot").out, HasSubstr("digraph"));
 }
 
+TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
+    ASSERT_EQ(strata("record three_panes -o large.strata --size 641x360").code, 0);
+    const Finished made = strata("report large.strata --repeats 1 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("stands in"));
+    EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("1/2 extent"));
+    for (const json& row : report["rows"]) EXPECT_TRUE(row.contains("method_error") || row.contains("not_supported")) << row;
+}
+
 TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     record_panes();
     const Finished made = strata("report panes.strata --repeats 2 --json");

@@ -41,7 +41,8 @@ TEST(Folders, EveryReadmeSaysHowTheMethodFails) {
     for (const SourceFile& file : source_files()) {
         const std::filesystem::path readme = passes.parent_path() / file.path.parent_path() / "README.md";
         if (file.path.filename() != "model.cpp") continue;
-        EXPECT_TRUE(std::filesystem::exists(readme) && std::filesystem::file_size(readme) > 500) << readme;
+        EXPECT_TRUE(std::filesystem::exists(readme) && std::filesystem::file_size(readme) > 500)
+            << readme << " is missing or has less than 500 characters";
     }
 }
 

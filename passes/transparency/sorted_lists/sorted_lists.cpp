@@ -136,13 +136,15 @@ Technique sorted_lists() {
                    .low = 0,
                    .high = 32,
                    .add = sorted_lists_layers_view}},
+        .stands_in_for_truth = true,
         .add = add,
         .model = sorted_lists_model,
         .tolerance =
             {.rmse = 1e-5,
-             .worst = 1e-4,
+             .worst = 2e-3,
              .because =
-                 "lit, filtered and composited in float: 4e-7 and 1.4e-5 measured on lavapipe; the rest is for highlights"},
+                 "lit, filtered and composited in float: 4e-7 and 1.4e-5 measured on lavapipe; a highlight of alpha 0.002, clear "
+                 "glass, turns the 3e-7 of a float normal into 6e-4 (GlassVaseFlowers: 5.2e-4)"},
     };
 }
 

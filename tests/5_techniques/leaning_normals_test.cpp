@@ -1,0 +1,48 @@
+// Normals that lean away from the eye: mapped ones, and those extrapolated beyond an edge at 4 samples. GGX is defined there too.
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "tests/support/cards.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+/// A card facing the eye whose normals point behind it and to the left; the sun shines from behind, almost at the eye. The half
+/// vector then is opposite to the normal, where |n x h| is as small as inside a highlight.
+Frame leaning_card() {
+    Frame frame = frame_of_cards(std::vector<Card>{{.center = {0, 0, 5}, .half = 4}}, 16);
+    Material& material = frame.materials[0];
+    material.lighting_model = LightingModel::ggx;
+    material.alpha_mode = AlphaMode::opaque;
+    material.double_sided = false;
+    material.base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1);
+    material.roughness = 0.3f;
+    for (glm::vec3& normal : frame.meshes[0].normals) normal = glm::normalize(glm::vec3(-0.95f, 0, 0.31f));
+    frame.sun.direction = glm::normalize(glm::vec3(-0.1f, 0, -1));
+    frame.sun.irradiance = glm::vec3(3);
+    return frame;
+}
+
+class LeaningNormals : public testing::TestWithParam<const Technique*> {};
+
+TEST_P(LeaningNormals, AreLitAsTheModelSays) {
+    const Technique& technique = *GetParam();
+    const auto session = must(Session::open(std::vector<Frame>{leaning_card()}, {.validation = true}));
+    const Accuracy accuracy = must(session->judge({.uses = {std::string(technique.name)}}, Stage::lighting));
+    EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
+    EXPECT_LE(accuracy.model_worst, technique.tolerance.worst)
+        << "got " << accuracy.worst.got.x << ", the model says " << accuracy.worst.wanted.x;
+    EXPECT_LT(accuracy.trivial, accuracy.compared) << "the card must be in the picture";
+    EXPECT_GT(accuracy.worst.wanted.x, 0) << "and lit";
+}
+
+INSTANTIATE_TEST_SUITE_P(Lighting, LeaningNormals, testing::ValuesIn(techniques_of(Stage::lighting)), [](const auto& info) {
+    std::string name(info.param->name);
+    for (char& c : name)
+        if (c == '/') c = '_';
+    return name;
+});
+
+}  // namespace
+}  // namespace strata
