@@ -12,6 +12,7 @@ namespace {
 /// vector then is opposite to the normal, where |n x h| is as small as inside a highlight.
 Frame leaning_card() {
     Frame frame = frame_of_cards(std::vector<Card>{{.center = {0, 0, 5}, .half = 4}}, 16);
+    frame.meshes[0].indices = {0, 2, 1, 0, 3, 2};  // cards show their backs, which opaque draws would not
     Material& material = frame.materials[0];
     material.lighting_model = LightingModel::ggx;
     material.alpha_mode = AlphaMode::opaque;
