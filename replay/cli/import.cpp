@@ -53,7 +53,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
     app.add_option("--camera", options->gltf.camera,
                    "index of the scene's camera; default its first, or one that frames the scene");
-    app.add_option("--azimuth", options->gltf.azimuth, "degrees from the front towards the right of a framing camera, default 22");
+    app.add_option("--azimuth", options->gltf.azimuth,
+                   "degrees from the front towards the right of a framing camera, default 22");
     app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return import(*options); };

@@ -1,4 +1,6 @@
 // Normals that lean away from the eye: mapped ones, and those extrapolated beyond an edge at 4 samples. GGX is defined there too.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
@@ -38,11 +40,10 @@ TEST_P(LeaningNormals, AreLitAsTheModelSays) {
     EXPECT_GT(accuracy.worst.wanted.x, 0) << "and lit";
 }
 
-INSTANTIATE_TEST_SUITE_P(Lighting, LeaningNormals, testing::ValuesIn(techniques_of(Stage::lighting)), [](const auto& info) {
-    std::string name(info.param->name);
-    for (char& c : name)
-        if (c == '/') c = '_';
-    return name;
+INSTANTIATE_TEST_SUITE_P(Lighting, LeaningNormals, testing::ValuesIn(techniques_of(Stage::lighting)), [](const auto& tested) {
+    std::string label(tested.param->name);
+    std::ranges::replace(label, '/', '_');
+    return label;
 });
 
 }  // namespace

@@ -49,11 +49,12 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) {
     const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model_and_truth, &truth));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << c.technique << " cannot do " << accuracy.not_supported;
     const WorstTexel& w = accuracy.worst;
+    const View view = must(session.frame(request.frame)).view;
     const std::string where = fmt::format(
         "worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}\n"
-        "reproduce: strata record {} --samples {} && strata report {}.strata --stage {}",
-        w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario, c.samples,
-        c.scenario, name(technique.stage));
+        "reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {}",
+        w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario,
+        view.width / request.extent_divisor, view.height / request.extent_divisor, c.samples, c.scenario, name(technique.stage));
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << where;
     EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << where;
 

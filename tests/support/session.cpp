@@ -3,6 +3,12 @@
 #include "captures/scenarios.h"
 
 namespace strata {
+namespace {
+
+// Truths and models in double take a minute for the largest scenario at its natural extent and four samples.
+constexpr std::uint32_t largest_width = 160;
+
+}  // namespace
 
 std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samples, std::uint32_t count) {
     const Scenario& found = *must(find_scenario(scenario));
@@ -25,9 +31,11 @@ Session& session_of_scenarios() {
     return *session;
 }
 
-Request on_scenario(std::string_view scenario, std::uint32_t samples) {
-    const auto index = must(find_scenario(scenario)) - scenarios().data();
-    return {.frame = static_cast<std::size_t>(index), .samples = samples};
+Request on_scenario(std::string_view name, std::uint32_t samples) {
+    const Scenario* scenario = must(find_scenario(name));
+    const auto index = static_cast<std::size_t>(scenario - scenarios().data());
+    const std::uint32_t divisor = (scenario->width + largest_width - 1) / largest_width;
+    return {.frame = index, .extent_divisor = divisor, .samples = samples};
 }
 
 }  // namespace strata

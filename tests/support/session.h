@@ -17,7 +17,7 @@ std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samp
 std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32_t samples = 1, std::uint32_t count = 1);
 
 /// One session that serves every scenario: the device and its pipelines are made once per program, which is most of what a small
-/// test costs. Frames and techniques are chosen by the request, on_scenario() makes one.
+/// test costs. Frames and techniques are chosen by the request; on_scenario() makes one, at 160 pixels across or less.
 Session& session_of_scenarios();
 Request on_scenario(std::string_view scenario, std::uint32_t samples = 1);
 

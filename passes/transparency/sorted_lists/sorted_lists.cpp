@@ -141,10 +141,10 @@ Technique sorted_lists() {
         .model = sorted_lists_model,
         .tolerance =
             {.rmse = 1e-5,
-             .worst = 2e-3,
+             .worst = 5e-3,
              .because =
                  "lit, filtered and composited in float: 4e-7 and 1.4e-5 measured on lavapipe; a highlight of alpha 0.002, clear "
-                 "glass, turns the 3e-7 of a float normal into 6e-4 (GlassVaseFlowers: 5.2e-4)"},
+                 "glass, turns the 1e-6 of an interpolated normal into 2e-3 (GlassVaseFlowers at 640 x 360: 2.2e-3)"},
     };
 }
 
