@@ -82,7 +82,9 @@ void append(std::vector<std::byte>& texels, const Level& level, Encoding encodin
     }
 }
 
-[[maybe_unused]] bool is_rgba8(TextureFormat format) { return format == TextureFormat::rgba8_unorm || format == TextureFormat::rgba8_srgb; }
+[[maybe_unused]] bool is_rgba8(TextureFormat format) {
+    return format == TextureFormat::rgba8_unorm || format == TextureFormat::rgba8_srgb;
+}
 
 }  // namespace
 

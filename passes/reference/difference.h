@@ -10,7 +10,7 @@ struct Difference {
     double rmse = 0;
     double relative = 0;  ///< rmse over the root mean square of what was wanted; rmse where that is zero
     double worst = 0;
-    double bias = 0;      ///< mean of got - wanted
+    double bias = 0;  ///< mean of got - wanted
     std::size_t compared = 0;
 };
 

@@ -36,7 +36,8 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 
-/// Makes a capture's thumbnail by replaying its first frame at about that size. Without a usable device there is none, and a line says so.
+/// Makes a capture's thumbnail by replaying its first frame at about that size. Without a usable device there is none, and a line
+/// says so.
 Result<void> add_thumbnail(class Recorder&, const Frame&, const DeviceChoice&);
 
 }  // namespace strata
