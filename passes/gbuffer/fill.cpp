@@ -2,6 +2,7 @@
 
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
+#include "passes/texture_uses.h"
 
 namespace strata::gbuffer {
 namespace {
@@ -22,12 +23,10 @@ void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     Image emission = target(graph, frame, "emission", Format::rgba16f);
     frame.depth = graph.create("depth", {.extent = frame.extent, .format = Format::d32f, .samples = frame.samples});
     graph.clear(frame.depth, {});
-    if (frame.opaque.count > 0)
-        graph.draw(std::string(technique) + "/fill", frame.opaque)
-            .covers(gbuffer0)
-            .covers(gbuffer1)
-            .covers(emission)
-            .writes_depth(frame.depth);
+    if (frame.opaque.count > 0) {
+        DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
+        fix_textures(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
+    }
     frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
     frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");
     frame.emission = spread(graph, emission, "emission");

@@ -6,23 +6,37 @@
 #include "passes/shaders/scene.glsl"
 #include "passes/shaders/srgb.glsl"
 
+// What the frame's materials use (passes/texture_uses.h); the rest is compiled away.
+layout(constant_id = 20) const uint texture_kinds = 0xffffffffu;
+layout(constant_id = 21) const uint texture_formats = 0xffffffffu;
+const uint base_color_kind = 1u;
+const uint surface_kind = 2u;
+const uint normal_kind = 4u;
+const uint emissive_kind = 8u;
+const uint occlusion_kind = 16u;
+
 // TextureFormat and AddressMode of capture_format/frame.h.
 const uint texture_rgba8_unorm = 0u;
 const uint texture_rgba8_srgb = 1u;
 const uint texture_rgba16f = 2u;
+const uint texture_rgba32f = 3u;
 const uint address_repeat = 0u;
 const uint address_clamp = 1u;
+
+bool has_format(uint format) { return (texture_formats & (1u << format)) != 0u; }
 
 uint words_per_texel(uint format) { return format <= texture_rgba8_srgb ? 1u : format == texture_rgba16f ? 2u : 4u; }
 
 vec4 texel(TextureRecord t, uint index) {
     const uint at = t.first + index * words_per_texel(t.format);
-    if (t.format == texture_rgba8_unorm) return unpackUnorm4x8(texels[at]);
-    if (t.format == texture_rgba8_srgb) {
+    if (has_format(texture_rgba8_unorm) && t.format == texture_rgba8_unorm) return unpackUnorm4x8(texels[at]);
+    if (has_format(texture_rgba8_srgb) && t.format == texture_rgba8_srgb) {
         const vec4 coded = unpackUnorm4x8(texels[at]);
         return vec4(srgb_to_linear(coded.rgb), coded.a);
     }
-    if (t.format == texture_rgba16f) return vec4(unpackHalf2x16(texels[at]), unpackHalf2x16(texels[at + 1u]));
+    if (has_format(texture_rgba16f) && t.format == texture_rgba16f)
+        return vec4(unpackHalf2x16(texels[at]), unpackHalf2x16(texels[at + 1u]));
+    if (!has_format(texture_rgba32f)) return vec4(0.0);
     return uintBitsToFloat(uvec4(texels[at], texels[at + 1u], texels[at + 2u], texels[at + 3u]));
 }
 
@@ -81,8 +95,8 @@ vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
 }
 
 // The texture of a use at (uv0, uv1), its transform applied; white where there is none.
-vec4 texture_at(TextureUseRecord use, Footprint f) {
-    if (use.texture == no_index) return vec4(1.0);
+vec4 texture_at(uint kind, TextureUseRecord use, Footprint f) {
+    if ((texture_kinds & kind) == 0u || use.texture == no_index) return vec4(1.0);
     const bool first = use.uv_set == 0u;
     const vec3 uv = vec3(first ? f.uv.xy : f.uv.zw, 1.0);
     const vec2 dx = first ? f.dx.xy : f.dx.zw, dy = first ? f.dy.xy : f.dy.zw;
@@ -100,8 +114,8 @@ vec3 face_normal(vec3 position, bool front_facing) {
 // The bitangent is made in the right-handed object space (glTF 2.0, 3.7.2.1: cross(normal, tangent) * w) and carried to view
 // space, where a cross product has the sign of the transform's determinant. The tangent is made perpendicular first.
 vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, Footprint uv) {
-    if (material.normal_texture.texture == no_index) return n;
-    vec3 local = texture_at(material.normal_texture, uv).xyz * 2.0 - 1.0;
+    if ((texture_kinds & normal_kind) == 0u || material.normal_texture.texture == no_index) return n;
+    vec3 local = texture_at(normal_kind, material.normal_texture, uv).xyz * 2.0 - 1.0;
     local.xy *= material.normal_scale;
     const vec3 across = tangent.xyz - n * dot(n, tangent.xyz);
     if (dot(across, across) < 1e-20) return n;
@@ -114,8 +128,8 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, Foo
 MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 varying_uv, vec4 color, bool front_facing) {
     const Footprint uv = footprint(varying_uv);
     const MaterialRecord material = materials[draws[draw].material];
-    const vec4 base = material.base_color * color * texture_at(material.base_color_texture, uv);
-    const vec4 surface = texture_at(material.metallic_roughness_texture, uv);
+    const vec4 base = material.base_color * color * texture_at(base_color_kind, material.base_color_texture, uv);
+    const vec4 surface = texture_at(surface_kind, material.metallic_roughness_texture, uv);
     const vec3 outward = dot(normal, normal) > 0.0 ? normalize(normal) : face_normal(position, front_facing);
     const vec3 facing = mapped_normal(draw, material, outward, tangent, uv);
     MaterialPoint m;
@@ -125,8 +139,8 @@ MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent
     m.alpha = base.a;
     m.metallic = material.metallic * surface.b;
     m.roughness = material.roughness * surface.g;
-    m.occlusion = 1.0 + material.occlusion_strength * (texture_at(material.occlusion_texture, uv).r - 1.0);
-    m.emissive = material.emissive * texture_at(material.emissive_texture, uv).rgb;
+    m.occlusion = 1.0 + material.occlusion_strength * (texture_at(occlusion_kind, material.occlusion_texture, uv).r - 1.0);
+    m.emissive = material.emissive * texture_at(emissive_kind, material.emissive_texture, uv).rgb;
     m.transmission = material.transmission;
     m.lighting_model = material.lighting_model;
     m.alpha_mode = material.alpha_mode;

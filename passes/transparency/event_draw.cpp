@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "passes/texture_uses.h"
+
 namespace strata {
 
 DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, const FrameImages& images) {
@@ -12,7 +14,7 @@ DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, con
         .fixes("soft_fade", soft ? 1u : 0u)
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("first_emitter", static_cast<std::uint32_t>(images.recorded->draws.size()));
-    return pass;
+    return fix_textures(pass, images, Surfaces::transparent);
 }
 
 }  // namespace strata

@@ -5,6 +5,7 @@
 #include "passes/shadows/pcf/pcf.shared.h"
 #include "passes/shadows/shadow_views.h"
 #include "passes/technique.h"
+#include "passes/texture_uses.h"
 
 namespace strata::shadows {
 
@@ -25,7 +26,8 @@ void draw_maps(Graph& graph, FrameImages& frame, const Settings&) {
                      {.extent = {largest, largest}, .format = Format::d32f, .layers = static_cast<std::uint32_t>(views.size())});
     graph.clear(frame.shadow_maps, {});
     for (std::uint32_t slot = 0; slot < views.size(); ++slot) {
-        graph.draw("shadows/pcf/cast", frame.casters)
+        DrawPass cast = graph.draw("shadows/pcf/cast", frame.casters);
+        fix_textures(cast, frame, Surfaces::opaque)
             .writes_depth(frame.shadow_maps, {.layer = slot})
             .within({views[slot].size, views[slot].size})
             .push(PcfSlot{slot});

@@ -1,0 +1,23 @@
+// What of passes/shaders/material.glsl a frame calls for: the kinds and formats of textures that its materials really use.
+// The rest is compiled away; a CPU driver executes every branch of a shader, taken or not.
+#pragma once
+
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+
+namespace strata {
+
+enum class Surfaces { opaque, transparent };
+
+/// Bits as in material.glsl: kinds 1 base color, 2 metallic-roughness, 4 normal, 8 emissive, 16 occlusion; formats 1 <<
+/// TextureFormat.
+struct TextureUses {
+    std::uint32_t kinds = 0, formats = 0;
+};
+
+TextureUses texture_uses(const Frame&, Surfaces);
+
+/// Fixes the constants of material.glsl in a step whose fragment shader includes it.
+DrawPass& fix_textures(DrawPass&, const FrameImages&, Surfaces);
+
+}  // namespace strata
