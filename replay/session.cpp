@@ -9,6 +9,7 @@
 #include "replay/declaration.h"
 #include "replay/gpu/executor.h"
 #include "replay/judgement.h"
+#include "replay/scene/fit_textures.h"
 
 namespace strata {
 namespace {
@@ -203,9 +204,8 @@ private:
             auto loaded = load_frame(*std::move(recorded), variant);
             if (!loaded) return loaded.error();
             loaded_ = std::make_unique<LoadedFrame>(*std::move(loaded));
-            const SceneRecords records = scene_records(loaded_->frame, device().max_buffer_bytes);
-            loaded_->notes = records.notes;
-            scene_.upload(records);
+            loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
+            scene_.upload(scene_records(loaded_->frame));
         }
         return declare(request, {*loaded_, scene_, device(), memo}, keep);
     }

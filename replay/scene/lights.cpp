@@ -87,11 +87,11 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
     scene.view.draw_count = static_cast<uint>(scene.draws.size());
 }
 
-SceneRecords scene_records(const Frame& frame, std::uint64_t texel_bytes) {
+SceneRecords scene_records(const Frame& frame) {
     SceneRecords scene;
     add_geometry(frame, scene);
     add_materials(frame, scene);
-    add_textures(frame, texel_bytes, scene);
+    add_textures(frame, scene);
     add_lights(frame, scene);
     return scene;
 }

@@ -1,8 +1,5 @@
 // Materials and textures as records: texels of every texture in one buffer of uints, mips finest first.
-#include <algorithm>
 #include <cstring>
-
-#include <fmt/core.h>
 
 #include "replay/scene/scene_records.h"
 
@@ -36,40 +33,6 @@ MaterialRecord record(const Material& m) {
     };
 }
 
-std::uint64_t texel_bytes_of(TextureFormat format) {
-    return format == TextureFormat::rgba32f ? 16 : format == TextureFormat::rgba16f ? 8 : 4;
-}
-
-std::uint64_t mip_bytes(const Texture& t, std::uint32_t mip) {
-    return std::uint64_t(std::max(1u, t.width >> mip)) * std::max(1u, t.height >> mip) * texel_bytes_of(t.format);
-}
-
-std::uint64_t bytes_from(const Texture& t, std::uint32_t first_mip) {
-    std::uint64_t sum = 0;
-    for (std::uint32_t mip = first_mip; mip < t.mips; ++mip) sum += mip_bytes(t, mip);
-    return sum;
-}
-
-/// How many of the finest mips each texture leaves out so that all fit.
-std::vector<std::uint32_t> mips_to_drop(const Frame& frame, std::uint64_t budget) {
-    std::vector<std::uint32_t> dropped(frame.textures.size(), 0);
-    std::uint64_t total = 0;
-    for (const Texture& t : frame.textures) total += bytes_from(t, 0);
-    while (total > budget) {
-        std::size_t largest = dropped.size();
-        std::uint64_t largest_bytes = 0;
-        for (std::size_t i = 0; i < dropped.size(); ++i) {
-            if (dropped[i] + 1 >= frame.textures[i].mips) continue;
-            const std::uint64_t finest = mip_bytes(frame.textures[i], dropped[i]);
-            if (finest > largest_bytes) largest = i, largest_bytes = finest;
-        }
-        if (largest == dropped.size()) break;
-        total -= largest_bytes;
-        ++dropped[largest];
-    }
-    return dropped;
-}
-
 }  // namespace
 
 void add_materials(const Frame& frame, SceneRecords& scene) {
@@ -82,26 +45,19 @@ void add_materials(const Frame& frame, SceneRecords& scene) {
     }
 }
 
-void add_textures(const Frame& frame, std::uint64_t texel_bytes, SceneRecords& scene) {
-    const std::vector<std::uint32_t> dropped = mips_to_drop(frame, texel_bytes);
-    for (std::size_t i = 0; i < frame.textures.size(); ++i) {
-        const Texture& t = frame.textures[i];
-        const std::uint64_t skipped = bytes_from(t, 0) - bytes_from(t, dropped[i]);
+void add_textures(const Frame& frame, SceneRecords& scene) {
+    for (const Texture& t : frame.textures) {
+        const std::size_t first = scene.texels.size();
         scene.textures.push_back({
-            .first = static_cast<uint>(scene.texels.size()),
+            .first = static_cast<uint>(first),
             .format = static_cast<uint>(t.format),
-            .width = std::max(1u, t.width >> dropped[i]),
-            .height = std::max(1u, t.height >> dropped[i]),
-            .mips = t.mips - dropped[i],
+            .width = t.width,
+            .height = t.height,
+            .mips = t.mips,
             .address = static_cast<uint>(t.address),
         });
-        const std::size_t at = scene.texels.size();
-        scene.texels.resize(at + bytes_from(t, dropped[i]) / 4);
-        std::memcpy(scene.texels.data() + at, t.texels.data() + skipped, (scene.texels.size() - at) * 4);
-        if (dropped[i] > 0)
-            scene.notes.push_back(
-                fmt::format("texture '{}' is used without its {} finest mips: the device binds {} MiB of texels", t.name,
-                            dropped[i], texel_bytes >> 20));
+        scene.texels.resize(first + t.texels.size() / 4);
+        std::memcpy(scene.texels.data() + first, t.texels.data(), t.texels.size());
     }
 }
 

@@ -2,7 +2,6 @@
 // camera-relative in double and rounded once. Knows no graphics API; Session uploads the bytes.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -35,16 +34,14 @@ struct SceneRecords {
     std::vector<ShadowRecord> shadows;
     std::vector<DrawCommand> commands;
     CommandRange opaque, casters, transparent, back_to_front;
-    std::vector<std::string> notes;  ///< what had to be reduced to fit the device
 };
 
-/// texel_bytes bounds the texel buffer: the finest mips of the largest textures are left out until it fits.
-SceneRecords scene_records(const Frame&, std::uint64_t texel_bytes);
+SceneRecords scene_records(const Frame&);
 
 // The parts, each in its own file.
 void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
 void add_materials(const Frame&, SceneRecords&);  // materials.cpp
-void add_textures(const Frame&, std::uint64_t texel_bytes, SceneRecords&);
+void add_textures(const Frame&, SceneRecords&);
 void add_lights(const Frame&, SceneRecords&);  // lights.cpp: lights, shadows, view
 
 }  // namespace strata

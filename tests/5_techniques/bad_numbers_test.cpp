@@ -100,7 +100,7 @@ ShaderLibrary without_sanitizing(const Technique& technique) {
 
 HostImage color_of(const Frame& frame, const Technique& technique, const ShaderLibrary& library) {
     DeviceScene scene(shared_executor());
-    scene.upload(scene_records(frame, shared_device().info().max_buffer_bytes));
+    scene.upload(scene_records(frame));
     const Features features = frame_features(frame);
     Graph graph;
     FrameImages images{.recorded = &frame, .features = &features, .extent = {frame.view.width, frame.view.height, 1}};

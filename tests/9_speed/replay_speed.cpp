@@ -13,7 +13,7 @@ constexpr std::string_view small_frame = "three_panes";      // one that every t
 
 void make_scene_records(benchmark::State& state) {
     const Frame frame = scenario_frames("smoke_grenade").front();
-    for (auto _ : state) benchmark::DoNotOptimize(scene_records(frame, std::uint64_t(1) << 30));
+    for (auto _ : state) benchmark::DoNotOptimize(scene_records(frame));
 }
 BENCHMARK(make_scene_records)->Unit(benchmark::kMillisecond);
 
@@ -24,7 +24,7 @@ struct Loaded {
     DeviceScene scene{*executor};
     LoadedFrame frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
 
-    Loaded() { scene.upload(scene_records(frame.frame, device->info().max_buffer_bytes)); }
+    Loaded() { scene.upload(scene_records(frame.frame)); }
     Sources sources() const { return {frame, scene, device->info()}; }
 };
 
