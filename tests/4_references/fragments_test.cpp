@@ -93,7 +93,8 @@ TEST(TransparentFragments, PremultipliedLightWithoutCoverageIsKept) {
     Frame frame = tiny::frame(8, 8);
     const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::premultiplied);
     tiny::material(frame, draw).base_color = {2, 1, 0.5f, 0};
-    const auto events = middle(transparent_fragments(frame, tiny::no_depth(frame)));
+    const FragmentLists lists = transparent_fragments(frame, tiny::no_depth(frame));
+    const auto events = middle(lists);
     ASSERT_EQ(events.size(), 1u);
     EXPECT_NEAR(events[0].color.x, 2, 1e-6);
     EXPECT_EQ(events[0].transmittance, glm::dvec3(1));
