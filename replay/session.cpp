@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <set>
 
 #include "capture_format/nearest_name.h"
 #include "replay/counted.h"
@@ -82,6 +83,12 @@ std::optional<std::size_t> last_write(const Plan& plan, Image image, std::size_t
         for (const Barrier& barrier : plan.steps[i].barriers)
             if (barrier.image.id == image.id && barrier.image && writes(barrier.after)) return i;
     return {};
+}
+
+/// Scopes are in the order of the steps.
+std::size_t first_step_after(const Plan& plan, std::uint32_t scope) {
+    const auto at = std::ranges::find_if(plan.steps, [&](const PlannedStep& s) { return s.step.scope > scope; });
+    return static_cast<std::size_t>(at - plan.steps.begin());
 }
 
 class DeviceSession final : public Session {
@@ -184,6 +191,8 @@ public:
         return std::move(execution->peeked.front());
     }
 
+    Result<std::vector<ActImages>> act_images(const Request&) override;
+    Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
 
@@ -291,10 +300,6 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     if (last == acts.rend()) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
 
     const Plan& plan = declared->plan;
-    const auto begin_of = [&](std::uint32_t scope) {
-        const auto at = std::ranges::find_if(plan.steps, [&](const PlannedStep& s) { return s.step.scope >= scope; });
-        return static_cast<std::size_t>(at - plan.steps.begin());
-    };
     RunOptions options;
     std::vector<std::pair<std::string_view, bool>> names;  // and whether it is a result
     const auto want = [&](std::string_view image_name, Image image, std::size_t end, bool result) {
@@ -304,9 +309,10 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
             names.emplace_back(image_name, result);
         }
     };
-    for (const FrameImageRow& row : frame_images()) want(row.name, last->before.*row.member, begin_of(last->scope), false);
+    for (const FrameImageRow& row : frame_images())
+        want(row.name, last->before.*row.member, first_step_after(plan, last->scope - 1), false);
     for (const std::string_view output : info(stage).outputs)
-        want(output, declared->images.*find_frame_image(output)->member, begin_of(last->scope + 1), true);
+        want(output, declared->images.*find_frame_image(output)->member, first_step_after(plan, last->scope), true);
 
     const auto execution = execute(*declared, options);
     if (!execution) return execution.error();
@@ -315,6 +321,63 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
         (names[i].second ? inspected.result : inspected.before)
             .insert_or_assign(std::string(names[i].first), in_double(execution->peeked[i]));
     return inspected;
+}
+
+Result<std::vector<ActImages>> DeviceSession::act_images(const Request& request) {
+    auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    std::vector<ActImages> acts;
+    RunOptions options;
+    std::vector<std::pair<std::size_t, std::string_view>> places;  // of each peek: act and image
+    for (const DeclaredAct& act : declared->frame.acts) {
+        const Stage stage = act.technique->stage;
+        for (const std::string_view output : info(stage).outputs) {
+            const Image image = declared->images.*find_frame_image(output)->member;
+            if (!image || declared->graph.shape(image).samples > 1) continue;
+            const auto step = last_write(plan, image, first_step_after(plan, act.scope));
+            if (!step || plan.steps[*step].step.scope != act.scope) continue;
+            options.peeks.push_back({*step, image});
+            places.emplace_back(acts.size(), output);
+        }
+        std::string label(name(stage));
+        if (act.at != stage) label += fmt::format(" at {}", name(act.at));
+        acts.push_back({stage, act.at, std::move(label), choice_line(declared->choices.at(stage)), {}});
+    }
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        acts[places[i].first].images.emplace(places[i].second, std::move(execution->peeked[i]));
+    return acts;
+}
+
+Result<std::vector<StepImages>> DeviceSession::step_images(const Request& request, Stage stage) {
+    const auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    std::set<std::uint32_t> scopes;
+    for (const DeclaredAct& act : declared->frame.acts)
+        if (act.technique->stage == stage) scopes.insert(act.scope);
+    std::vector<StepImages> steps;
+    RunOptions options;
+    std::vector<std::size_t> places;  // of each peek, in steps
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        const Step& step = plan.steps[i].step;
+        if (!scopes.contains(step.scope)) continue;
+        std::set<std::uint32_t> written;
+        for (const Barrier& barrier : plan.steps[i].barriers) {
+            if (!barrier.image || !writes(barrier.after) || declared->graph.shape(barrier.image).samples > 1) continue;
+            if (!written.insert(barrier.image.id).second) continue;  // one barrier per mip and layer
+            options.peeks.push_back({i, barrier.image});
+            places.push_back(steps.size());
+        }
+        steps.push_back({i, plan.scopes[step.scope].name, step.name, {}});
+    }
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        steps[places[i]].images.emplace(plan.images[options.peeks[i].image.id].name, std::move(execution->peeked[i]));
+    return steps;
 }
 
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {

@@ -51,6 +51,21 @@ struct Run {
     std::vector<std::string> notes;     ///< what had to be reduced to fit the device
 };
 
+/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
+struct ActImages {
+    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
+    std::string label;   ///< "transparency", or "combine at film"
+    std::string choice;  ///< "technique key=value ..."
+    std::map<std::string, HostImage> images;
+};
+
+/// What a step of the plan wrote, read back right after it.
+struct StepImages {
+    std::size_t step = 0;                     ///< in Plan::steps
+    std::string scope, name;                  ///< as in StepRecord
+    std::map<std::string, HostImage> images;  ///< by their names in the graph
+};
+
 /// A texel where result and model differ most, relative as in Tolerance.
 struct WorstTexel {
     std::string image;
@@ -95,6 +110,10 @@ public:
     virtual Result<PlannedFrame> plan(const Request&) = 0;
     /// Any image after any step: step by index in the plan, image by its name in the graph.
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
+    /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
+    virtual Result<std::vector<ActImages>> act_images(const Request&) = 0;
+    /// What every step of a stage's acts wrote, in order.
+    virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
     virtual Result<ImageSet> truth(const Request&, Stage) = 0;
     /// Runs the request's technique of a stage and compares with its model and with the stage's truth (computed unless given).

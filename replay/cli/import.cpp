@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture_format/import_gltf.h"
+#include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"

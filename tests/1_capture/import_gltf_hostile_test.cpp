@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/import_gltf.h"
+#include "capture_format/import/gltf.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "capture_format/import_gltf.h"
+#include "capture_format/import/gltf.h"
 
 namespace strata {
 

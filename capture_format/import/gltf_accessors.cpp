@@ -1,4 +1,4 @@
-#include "capture_format/import_gltf_accessors.h"
+#include "capture_format/import/gltf_accessors.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "capture_format/import_gltf_scene.h"
+#include "capture_format/import/gltf_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "capture_format/import_gltf_materials.h"
+#include "capture_format/import/gltf_materials.h"
 
 namespace strata::gltf {
 namespace {

@@ -1,4 +1,4 @@
-#include "capture_format/import_gltf_materials.h"
+#include "capture_format/import/gltf_materials.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "capture_format/import_gltf_textures.h"
+#include "capture_format/import/gltf_textures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,7 +6,7 @@
 
 #include <stb_image.h>
 
-#include "capture_format/import_gltf_accessors.h"
+#include "capture_format/import/gltf_accessors.h"
 #include "capture_format/inspection.h"
 #include "capture_format/texture_mips.h"
 

@@ -8,7 +8,7 @@
 #include <tiny_gltf.h>
 
 #include "capture_format/frame.h"
-#include "capture_format/import_gltf_textures.h"
+#include "capture_format/import/gltf_textures.h"
 
 namespace strata::gltf {
 

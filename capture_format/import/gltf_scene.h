@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
-#include "capture_format/import_gltf.h"
+#include "capture_format/import/gltf.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {

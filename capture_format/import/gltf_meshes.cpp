@@ -1,10 +1,10 @@
-#include "capture_format/import_gltf_meshes.h"
+#include "capture_format/import/gltf_meshes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "capture_format/import_gltf_accessors.h"
+#include "capture_format/import/gltf_accessors.h"
 
 namespace strata::gltf {
 namespace {

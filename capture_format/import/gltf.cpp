@@ -1,4 +1,4 @@
-#include "capture_format/import_gltf.h"
+#include "capture_format/import/gltf.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 
 #include <tiny_gltf.h>
 
-#include "capture_format/import_gltf_materials.h"
-#include "capture_format/import_gltf_meshes.h"
-#include "capture_format/import_gltf_scene.h"
+#include "capture_format/import/gltf_materials.h"
+#include "capture_format/import/gltf_meshes.h"
+#include "capture_format/import/gltf_scene.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
 
