@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
+#include "capture_format/picture.h"
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
 #include "replay/image_io.h"
@@ -13,8 +14,7 @@
 namespace strata {
 namespace {
 
-// Texels of a thumbnail, at the most.
-constexpr std::uint32_t thumbnail_width = 160, thumbnail_height = 1024;
+constexpr std::uint32_t thumbnail_width = 160;  // at the most
 
 template <typename Number>
 bool parse(std::string_view text, Number& number) {
@@ -38,8 +38,8 @@ Texture thumbnail_of(const HostImage& display) {
 /// The frame at an extent that fits a thumbnail; an edge shorter than the divisor stays one pixel.
 Frame small(Frame frame) {
     View& view = frame.view;
-    const std::uint32_t divisor = std::max(
-        {1u, (view.width + thumbnail_width - 1) / thumbnail_width, (view.height + thumbnail_height - 1) / thumbnail_height});
+    const std::uint32_t divisor = std::max({1u, (view.width + thumbnail_width - 1) / thumbnail_width,
+                                            (view.height + largest_picture_edge - 1) / largest_picture_edge});
     view.width = std::max(1u, view.width / divisor);
     view.height = std::max(1u, view.height / divisor);
     return frame;

@@ -1,6 +1,5 @@
 // Meshes and particles as vertices, indices, draws and indirect commands. Meshes are stored once however many draws use them;
 // particles become camera-facing quads in view space, in the corner order of passes/reference/fragments.h.
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
