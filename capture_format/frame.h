@@ -41,6 +41,8 @@ struct Mesh {
 
 enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx };
 enum class AlphaMode : std::uint32_t { opaque, mask, blend, premultiplied, additive };
+/// Whether something behind it may be seen through a covered sample.
+inline bool is_transparent(AlphaMode mode) { return mode != AlphaMode::opaque && mode != AlphaMode::mask; }
 
 /// A texture with its uv set and affine uv transform: uv' = transform * (u, v, 1), row by row.
 struct TextureUse {
