@@ -117,8 +117,13 @@ Result<void> Capture::Contents::read() {
     return {};
 }
 
-Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) {
-    Result<Container> container = Container::open(path);
+Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) { return read(Container::open(path), partial); }
+
+Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name, Partial partial) {
+    return read(Container::open(bytes, std::move(name)), partial);
+}
+
+Result<Capture> Capture::read(Result<Container> container, Partial partial) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
         return fail(Fault::bad_input, "{}; what is whole before it can be read if partial captures are allowed",

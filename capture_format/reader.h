@@ -1,8 +1,10 @@
 // Opens a capture: verify, check every index, present as Frame. After check_frame() the rest of the program indexes freely.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 #include "capture_format/result.h"
 
 namespace strata {
+
+class Container;
 
 /// Whether a file that was cut short may be read up to the cut.
 enum class Partial { refused, allowed };
@@ -26,6 +30,8 @@ struct CaptureSummary {
 class Capture {
 public:
     static Result<Capture> open(const std::filesystem::path&, Partial = Partial::refused);
+    /// A capture in memory, copied; `name` stands for the path in sentences.
+    static Result<Capture> open(std::span<const std::byte>, std::string name, Partial = Partial::refused);
     Capture(Capture&&) noexcept;
     Capture& operator=(Capture&&) noexcept;
     ~Capture();
@@ -45,6 +51,7 @@ public:
 private:
     struct Contents;
     explicit Capture(std::unique_ptr<Contents>);
+    static Result<Capture> read(Result<Container>, Partial);
     std::unique_ptr<Contents> contents_;
 };
 

@@ -195,6 +195,19 @@ TEST(Recorder, EqualCapturesHaveEqualIdsWhereverTheyLie) {
     EXPECT_NE(Capture::open(other.path())->id(), id);
 }
 
+TEST(Recorder, ACaptureInMemoryIsTheCaptureInItsFile) {
+    const TemporaryFile file;
+    const Frame frame = rich_frame();
+    record(file.path(), std::span(&frame, 1));
+    std::vector<std::byte> bytes = read_file(file.path());
+    const auto capture = Capture::open(bytes, "memory");
+    bytes.assign(bytes.size(), std::byte{0});  // it keeps its own
+    ASSERT_TRUE(capture) << capture.error().sentence;
+    EXPECT_EQ(capture->id(), Capture::open(file.path())->id());
+    EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(frame));
+    EXPECT_EQ(Capture::open(bytes, "memory").error().sentence, "memory is not a capture: it does not begin like one");
+}
+
 TEST(Recorder, NotesAndThumbnailTravelAlong) {
     const TemporaryFile file;
     const Texture picture{.name = "any",
