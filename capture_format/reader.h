@@ -37,7 +37,9 @@ public:
     ~Capture();
 
     std::size_t frame_count() const;
-    /// Decodes and checks one frame. Blobs that the frame shares with the one asked for before are not decompressed again.
+    /// Decodes and checks one frame. Cheapest in order: blobs shared with the frame asked for before are not decompressed again,
+    /// and a frame is told by what changed since the ones before it, up to 63 of which are unpacked first when it is asked for
+    /// out of order.
     Result<Frame> frame(std::size_t index) const;
     /// 32 hex digits over the frames and their blobs: equal files have equal ids wherever they lie, and notes, thumbnail and
     /// expectations do not change it.
