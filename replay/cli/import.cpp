@@ -5,6 +5,7 @@
 
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
+#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 
@@ -25,11 +26,17 @@ void print_imported(const Frame& frame, std::uint32_t frames, const std::filesys
                counted(frame.lights.size(), "light"), output.string());
 }
 
+std::filesystem::path output_of(const Options& options) {
+    return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
+}
+
 /// Frame after frame, so that an animation of a large scene never lies in memory as a whole.
-Result<void> record_frames(GltfScene& scene, const Options& options, const std::filesystem::path& output) {
+Result<void> record_frames(GltfScene& scene, const Options& options) {
     auto frame = scene.frame(0);
     if (!frame) return frame.error();
-    auto recorder = Recorder::create(output, "imported from " + options.scene.filename().string());
+    auto file = WholeFile::begin(output_of(options));
+    if (!file) return file.error();
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done;
     for (std::uint32_t index = 0; index < options.frames; ++index) {
@@ -38,7 +45,8 @@ Result<void> record_frames(GltfScene& scene, const Options& options, const std::
         if (const auto done = recorder->record(*frame); !done) return done;
     }
     if (const auto done = recorder->finish(); !done) return done;
-    print_imported(*frame, options.frames, output);
+    if (const auto done = file->commit(); !done) return done;
+    print_imported(*frame, options.frames, output_of(options));
     return {};
 }
 
@@ -50,8 +58,7 @@ Result<void> import(const Options& options) {
     if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
-    const auto recorded = record_frames(
-        *scene, options, options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output);
+    const auto recorded = record_frames(*scene, options);
     for (const std::string& warning : scene->warnings()) fmt::print(stderr, "strata: warning: {}\n", warning);
     return recorded;
 }
