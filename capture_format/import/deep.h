@@ -18,7 +18,7 @@ namespace strata {
 struct DeepOptions {
     /// Which part of the file, by name or by number from 0; empty: its first deep one.
     std::string part;
-    /// Samples that are read at most, and points that splitting volumes may make of them: a sample takes 96 bytes of capture.
+    /// Samples that are read at most; each takes 96 bytes of capture.
     std::uint64_t most_samples = std::uint64_t{1} << 24;
 };
 
@@ -31,6 +31,7 @@ struct DeepCensus {
     std::uint64_t ties = 0;                 ///< at the depth of the one before: the earlier in the file counts as nearer
     std::uint64_t volumes = 0;              ///< ZBack beyond Z
     std::uint64_t split_pixels = 0;         ///< where volumes overlapped something and were cut
+    std::uint64_t cuts = 0;                 ///< at most, that this took
     std::uint64_t depth_not_a_number = 0, depth_not_in_front = 0;  ///< left out
     std::uint64_t depth_infinite = 0;                              ///< put behind all others
     std::uint64_t bad_color = 0;                                   ///< a color or alpha that is no number became 0
