@@ -13,10 +13,11 @@
 namespace strata {
 namespace {
 
-/// Corners of a sample's triangle in pixels from the pixel's upper left corner. It holds the pixel's center and Vulkan's four
-/// standard sample positions, and none of its neighbours': all of these stay 8.8 steps of 1/256 pixel off its sides, so that
-/// no rounding of a vertex or of the rasterizer decides what is covered.
-constexpr std::array<glm::dvec2, 3> corners = {{{-.377, -.065}, {.401, 1.102}, {1.421, .2985}}};
+/// Corners of a sample's triangle in pixels from the pixel's upper left corner. It holds Vulkan's four standard sample positions,
+/// the center, and the lower right corner, which is the center of a pixel at half extent (thumbnails, quick truths); and none of
+/// these points of any other pixel. All of them stay 8.8 steps of 1/256 pixel off its sides, the most that a search found, so
+/// that no rounding of a vertex or of the rasterizer decides what is covered.
+constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
 
 /// Events below both are dropped by every technique (transparency chapter 0.2).
 constexpr double least_alpha = 1e-5;
