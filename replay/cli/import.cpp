@@ -6,6 +6,7 @@
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
+#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 
@@ -27,11 +28,14 @@ std::filesystem::path output_of(const Options& options) {
 
 Result<void> record_frame(const Options& options, const Frame& frame) {
     if (const auto good = check_frame(frame); !good) return good;
-    auto recorder = Recorder::create(output_of(options), "imported from " + options.scene.filename().string());
+    auto file = WholeFile::begin(output_of(options));
+    if (!file) return file.error();
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, frame, options.device); !done) return done;
     if (const auto done = recorder->record(frame); !done) return done;
-    return recorder->finish();
+    if (const auto done = recorder->finish(); !done) return done;
+    return file->commit();
 }
 
 Result<void> import_deep_image(const Options& options) {
