@@ -1,5 +1,4 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/whole_file.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
@@ -51,9 +51,7 @@ Result<void> write_frame(const Session& session, const Request& request, const R
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         fmt::print(stderr, "wrote {}.png\n", base);
     }
-    std::ofstream file(base + ".json");
-    file << replayed.json.dump(2) << "\n";
-    if (!file.flush()) return fail(Fault::bad_input, "cannot write {}.json", base);
+    if (const auto done = write_whole_file(base + ".json", replayed.json.dump(2) + "\n"); !done) return done;
     fmt::print(stderr, "wrote {}.json\n", base);
     return {};
 }
@@ -176,7 +174,7 @@ Result<void> replay(const Options& options) {
     if (!frames) return frames.error();
     std::error_code problem;
     std::filesystem::create_directories(options.folder, problem);
-    if (problem) return fail(Fault::bad_input, "cannot make the folder {}: {}", options.folder.string(), problem.message());
+    if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
 
     const bool acts = options.repeat > 1 || options.json || expects(**session, options);
     request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
