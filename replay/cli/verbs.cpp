@@ -5,6 +5,7 @@ namespace strata {
 std::function<Result<void>()> declare_list(CLI::App&);
 std::function<Result<void>()> declare_record(CLI::App&);
 std::function<Result<void>()> declare_import(CLI::App&);
+std::function<Result<void>()> declare_export(CLI::App&);
 std::function<Result<void>()> declare_info(CLI::App&);
 std::function<Result<void>()> declare_validate(CLI::App&);
 std::function<Result<void>()> declare_replay(CLI::App&);
@@ -17,6 +18,7 @@ std::span<const Verb> verbs() {
         {"list", "stages, techniques with their parameters, scenarios", declare_list},
         {"record", "run a scenario and record its frames", declare_record},
         {"import", "make a capture of a glTF scene", declare_import},
+        {"export", "one thing of a frame for other programs: deep image, images, JSON", declare_export},
         {"info", "what is in a capture, and what its frames call for", declare_info},
         {"validate", "check every byte and every index of a capture", declare_validate},
         {"replay", "run every pass again; write EXR, PNG and JSON", declare_replay},
