@@ -17,6 +17,7 @@ struct Kind {
 constexpr Kind kinds[] = {
     {"--deep", [](const ExportOptions& options) { return options.deep; }, export_deep},
     {"--image", [](const ExportOptions& options) { return !options.images.empty(); }, export_images},
+    {"--gltf", [](const ExportOptions& options) { return options.gltf; }, export_scene},
     {"--json", [](const ExportOptions& options) { return options.json; }, export_json},
 };
 
@@ -45,6 +46,7 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     app.add_flag("--deep", options->deep, "every transparent fragment, sorted, as a deep OpenEXR image");
     app.add_option("--image", options->images, "frame images or stage/technique:view, as .exr or (one of them) .png")
         ->delimiter(',');
+    app.add_flag("--gltf", options->gltf, "meshes, materials, lights and camera as a .glb");
     app.add_flag("--json", options->json, "the frame as JSON with the schema's names; bulk data by its hashes");
     app.add_option("--frame", options->frame, "which frame, default 0");
     app.add_option("--sample", options->sample, "--deep: which sample of a pixel, where there are several");

@@ -9,9 +9,9 @@ struct ExportOptions {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0;
-    std::vector<std::string> images;  ///< --image
-    bool deep = false, json = false;  ///< --deep, --json
-    std::uint32_t sample = no_index;  ///< --sample; no_index: not said
+    std::vector<std::string> images;                ///< --image
+    bool deep = false, gltf = false, json = false;  ///<
+    std::uint32_t sample = no_index;                ///< --sample; no_index: not said
     std::string transmittance = "refused";
     std::filesystem::path output;
 };
@@ -20,6 +20,8 @@ struct ExportOptions {
 Result<void> export_deep(const ExportOptions&);
 /// Frame images or debug views: all of them as parts of an .exr, or one as a .png.
 Result<void> export_images(const ExportOptions&);
+/// The scene as a self-contained .glb; what glTF cannot say is printed.
+Result<void> export_scene(const ExportOptions&);
 /// The frame as JSON, with the field names of the schema; bulk data by its hashes.
 Result<void> export_json(const ExportOptions&);
 

@@ -17,8 +17,8 @@ std::span<const Verb> verbs() {
     static constexpr Verb table[] = {
         {"list", "stages, techniques with their parameters, scenarios", declare_list},
         {"record", "run a scenario and record its frames", declare_record},
-        {"import", "make a capture of a glTF scene", declare_import},
-        {"export", "one thing of a frame for other programs: deep image, images, JSON", declare_export},
+        {"import", "make a capture of a glTF scene or a deep image", declare_import},
+        {"export", "one thing of a frame for other programs: deep image, images, glTF, JSON", declare_export},
         {"info", "what is in a capture, and what its frames call for", declare_info},
         {"validate", "check every byte and every index of a capture", declare_validate},
         {"replay", "run every pass again; write EXR, PNG and JSON", declare_replay},
