@@ -18,6 +18,8 @@
 #include <stb/stb_image_write.h>
 #include <xxhash.h>
 
+#include "capture_format/srgb.h"
+
 namespace strata {
 namespace {
 
@@ -178,8 +180,6 @@ Result<void> add_part(std::map<std::string, HostImage>& images, const std::strin
     return {};
 }
 
-double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
-
 }  // namespace
 
 Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPart> images, const Metadata& metadata) {
@@ -225,17 +225,16 @@ Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path& p
     }
 }
 
+std::byte display_byte(double light) { return unorm8(encode_srgb(std::isfinite(light) ? std::clamp(light, 0.0, 1.0) : 0.0)); }
+
 Result<void> write_png(const std::filesystem::path& path, const HostImage& image) {
     const auto width = image.shape.extent.width, height = image.shape.extent.height;
-    std::vector<std::uint8_t> rgb;
+    std::vector<std::byte> rgb;
     rgb.reserve(std::size_t(width) * height * 3);
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) {
             const glm::dvec4 color = texel(image, x, y);
-            for (int c = 0; c < 3; ++c) {
-                const double channel = std::isfinite(color[c]) ? std::clamp(color[c], 0.0, 1.0) : 0;
-                rgb.push_back(static_cast<std::uint8_t>(std::lround(srgb(channel) * 255)));
-            }
+            for (int c = 0; c < 3; ++c) rgb.push_back(display_byte(color[c]));
         }
     if (!stbi_write_png(path.c_str(), static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
                         static_cast<int>(width) * 3))

@@ -2,6 +2,7 @@
 // files, wherever and whenever they ran.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -28,7 +29,9 @@ Result<void> write_exr(const std::filesystem::path&, std::span<const ExrPart>, c
 /// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image".
 Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path&);
 
-/// Display light (0..1 linear) as 8-bit sRGB; rounded to nearest, alpha dropped.
+/// Display light (0..1 linear) as 8-bit sRGB, rounded to nearest; what is not finite is black.
+std::byte display_byte(double light);
+/// Every texel's display_byte()s; alpha dropped.
 Result<void> write_png(const std::filesystem::path&, const HostImage&);
 
 /// 32 hex digits over shape and texels.
