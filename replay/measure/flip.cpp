@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "capture_format/srgb.h"
 #include "replay/measure/observer.h"
 
 namespace strata {
@@ -88,22 +89,25 @@ Flip empty_flip(const ColorPlanes& reference, [[maybe_unused]] const ColorPlanes
 
 ColorPlanes color_planes(const HostImage& image) {
     const Extent& extent = image.shape.extent;
+    const FormatRow& format = row(image.shape.format);
     ColorPlanes planes{extent.width, extent.height, {}, {}};
     const std::size_t count = std::size_t(extent.width) * extent.height;
-    const bool grey = row(image.shape.format).channels == 1;
+    const bool bytes = format.bytes == format.channels;
     for (std::vector<float>& plane : planes.rgb) plane.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
+        const auto x = static_cast<std::uint32_t>(i % extent.width), y = static_cast<std::uint32_t>(i / extent.width);
         glm::dvec3 sum(0);
-        for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer)
-            sum += glm::dvec3(texel(image, static_cast<std::uint32_t>(i % extent.width), static_cast<std::uint32_t>(i / extent.width), layer));
-        if (grey) sum = glm::dvec3(sum.x);
-        if (!std::isfinite(sum.x) || !std::isfinite(sum.y) || !std::isfinite(sum.z)) {
+        for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer) sum += glm::dvec3(texel(image, x, y, layer));
+        if (format.channels == 1) sum = glm::dvec3(sum.x);
+        if (!std::isfinite(sum.x + sum.y + sum.z)) {
             if (planes.broken.empty()) planes.broken.resize(count);
             planes.broken[i] = true;
             continue;
         }
-        for (glm::length_t c = 0; c < 3; ++c)
-            planes.rgb[static_cast<std::size_t>(c)][i] = static_cast<float>(sum[c] / image.shape.layers);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double light = sum[static_cast<glm::length_t>(c)] / image.shape.layers;
+            planes.rgb[c][i] = static_cast<float>(bytes ? decode_srgb(light) : light);
+        }
     }
     return planes;
 }
@@ -129,7 +133,8 @@ Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, double
     Observer observer(flip.width, flip.height, pixels_per_degree);
     for (std::uint32_t i = 0; i < flip.exposures.count; ++i) {
         const auto& [start, stop, count] = flip.exposures;
-        const std::span<const float> map = observer.compare(reference, test, start + (stop - start) * i / std::max(1u, count - 1));
+        const std::span<const float> map =
+            observer.compare(reference, test, start + (stop - start) * i / std::max(1u, count - 1));
         for (std::size_t p = 0; p < map.size(); ++p) {
             if (map[p] <= flip.map[p]) continue;
             flip.map[p] = map[p];

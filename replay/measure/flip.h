@@ -19,7 +19,7 @@ struct ColorPlanes {
     std::vector<bool> broken;  ///< empty, or one per pixel: a sample of it is NaN or infinite (it reads as black)
 };
 
-/// The first three channels; layers are samples and are averaged. A single channel is grey.
+/// The first three channels; layers are samples and are averaged. A single channel is grey. Bytes are sRGB, as in a PNG.
 ColorPlanes color_planes(const HostImage&);
 
 /// Seen from 0.7 m on a monitor 0.7 m wide of 3840 pixels: 67.02.
@@ -45,8 +45,7 @@ struct Flip {
 Flip display_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
 
 /// Of radiance: the worst over the exposures that show the reference, see exposures_of().
-Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test,
-                   double pixels_per_degree = pixels_per_degree_of_a_desk);
+Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
 
 /// From where the brightest pixel reaches 85 % of white to where the median one does, through the ACES curve (2021, section 3).
 /// Where more than half is black: the median of what is not. Of a black reference: the test's own, so that it is judged, too.

@@ -24,9 +24,11 @@ using Symmetry = FlipKernel::Symmetry;
 constexpr std::size_t lanes = 16;
 
 // XYZ of BT.709 red, green and blue at white D65 (0.3127, 0.3290), each divided by white's: rows x, y, z add up to 1.
-constexpr float xyz[3][3] = {{.43389539f, .37624237f, .18986224f}, {.21263682f, .71518298f, .07218020f}, {.01775242f, .10946563f, .87278195f}};
+constexpr float xyz[3][3] = {
+    {.43389539f, .37624237f, .18986224f}, {.21263682f, .71518298f, .07218020f}, {.01775242f, .10946563f, .87278195f}};
 // Its inverse.
-constexpr float rgb[3][3] = {{3.08034199f, -1.53739897f, -.54294302f}, {-.92117840f, 1.87592998f, .04524841f}, {.05288129f, -.20401121f, 1.15112991f}};
+constexpr float rgb[3][3] = {
+    {3.08034199f, -1.53739897f, -.54294302f}, {-.92117840f, 1.87592998f, .04524841f}, {.05288129f, -.20401121f, 1.15112991f}};
 
 // std::bit_cast is a call where a caller is compiled for several processors.
 [[gnu::always_inline]] inline std::int32_t bits_of(float value) { return __builtin_bit_cast(std::int32_t, value); }
@@ -48,14 +50,14 @@ template <Symmetry symmetry, typename Ahead, typename Behind>
     for (std::size_t i = 0; i < lanes; ++i) sum.at[i] = weights[0] * center[i];
     for (std::size_t k = 1; k < weights.size(); ++k) {
         const float weight = weights[k], *a = ahead(k), *b = behind(k);
-        for (std::size_t i = 0; i < lanes; ++i)
-            sum.at[i] += weight * (symmetry == Symmetry::even ? a[i] + b[i] : a[i] - b[i]);
+        for (std::size_t i = 0; i < lanes; ++i) sum.at[i] += weight * (symmetry == Symmetry::even ? a[i] + b[i] : a[i] - b[i]);
     }
     return sum;
 }
 
 template <Symmetry symmetry>
-[[gnu::always_inline]] inline void filter_across(const std::vector<float>& weights, const float* in, float* out, std::size_t count) {
+[[gnu::always_inline]] inline void filter_across(const std::vector<float>& weights, const float* in, float* out,
+                                                 std::size_t count) {
     for (std::size_t x = 0; x < count; x += lanes) {
         const float* center = in + x;
         const Lanes sum = filtered<symmetry>(
@@ -71,7 +73,8 @@ STRATA_VECTOR_CODE void across(const FlipKernel& kernel, const float* in, float*
 
 /// rows[radius] is the row itself, rows[radius + k] the one k below it. Adds to out.
 template <Symmetry symmetry>
-[[gnu::always_inline]] inline void filter_down(const std::vector<float>& weights, const float* const* rows, float* out, std::size_t count) {
+[[gnu::always_inline]] inline void filter_down(const std::vector<float>& weights, const float* const* rows, float* out,
+                                               std::size_t count) {
     const float* const* middle = rows + weights.size() - 1;
     for (std::size_t x = 0; x < count; x += lanes) {
         const Lanes sum = filtered<symmetry>(
@@ -109,9 +112,10 @@ struct Opponent {
 
 /// `in` and `out` are three rows each.
 template <typename Shown>
-[[gnu::always_inline]] inline void opponent_row(const float* const* in, float* const* out, std::size_t count, const Shown& shown) {
+[[gnu::always_inline]] inline void opponent_row(const float* const* in, float* const* out, std::size_t count,
+                                                const Shown& shown) {
     const float *red = in[0], *green = in[1], *blue = in[2];
-    float *__restrict luminance = out[0], *__restrict red_green = out[1], *__restrict blue_yellow = out[2];
+    float* __restrict luminance = out[0], * __restrict red_green = out[1], * __restrict blue_yellow = out[2];
     for (std::size_t i = 0; i < count; ++i) {
         const Opponent o = opponent(shown(red[i]), shown(green[i]), shown(blue[i]));
         luminance[i] = o.luminance;
@@ -147,11 +151,14 @@ STRATA_VECTOR_CODE void exposed_row(const float* const* in, float* const* out, s
 /// -126 < t < 126. Taylor's polynomial around the nearest integer: error below 2e-7.
 [[gnu::always_inline]] inline float exp2_of(float t) {
     const float whole = static_cast<float>(static_cast<std::int32_t>(t + (t < 0 ? -.5f : .5f))), f = t - whole;
-    const float p = 1 + f * (.69314718f + f * (.24022651f + f * (.055504109f + f * (.0096181291f + f * (.0013333558f + f * .00015403530f)))));
+    const float p =
+        1 + f * (.69314718f + f * (.24022651f + f * (.055504109f + f * (.0096181291f + f * (.0013333558f + f * .00015403530f)))));
     return p * float_of((static_cast<std::int32_t>(whole) + 127) << 23);
 }
 
-[[gnu::always_inline]] inline float power(float base, float exponent) { return exp2_of(exponent * log2_of(larger(base, 1e-18f))); }
+[[gnu::always_inline]] inline float power(float base, float exponent) {
+    return exp2_of(exponent * log2_of(larger(base, 1e-18f)));
+}
 
 [[gnu::always_inline]] inline float lab_curve(float t) {
     const float root = cube_root(larger(t, .008f));
@@ -285,7 +292,8 @@ void Observer::filter_rows(const ColorPlanes& picture, std::optional<double> exp
                 std::fill(row - reach, row, row[0]);
                 std::fill(row + width_, row + stride_ + reach, row[width_ - 1]);
             }
-            for (std::size_t p = 0; p < plane_count; ++p) across(across_[p], out[channel[p]], planes[p].data() + y * stride_, stride_);
+            for (std::size_t p = 0; p < plane_count; ++p)
+                across(across_[p], out[channel[p]], planes[p].data() + y * stride_, stride_);
         }
     });
 }
