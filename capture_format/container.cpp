@@ -90,21 +90,35 @@ std::string_view name(SectionType type) {
 Result<Container> Container::open(const std::filesystem::path& path) {
     Result<MappedFile> file = MappedFile::open(path);
     if (!file) return file.error();
-    Container container(*std::move(file));
+    const std::span<const std::byte> bytes = file->bytes();
+    std::string name = file->path();
+    return read(Container(*std::move(file), bytes, std::move(name)));
+}
+
+Result<Container> Container::open(std::span<const std::byte> bytes, std::string name) {
+    std::vector<std::byte> copy(bytes.begin(), bytes.end());
+    const std::span<const std::byte> view = copy;
+    return read(Container(std::move(copy), view, std::move(name)));
+}
+
+Container::Container(Source source, std::span<const std::byte> bytes, std::string name)
+    : source_(std::move(source)), bytes_(bytes), name_(std::move(name)) {}
+
+Result<Container> Container::read(Container container) {
     if (const Result<void> header = container.read_header(); !header) return header.error();
     if (!container.read_directory()) container.scan();
     return container;
 }
 
 Result<void> Container::read_header() {
-    const std::span<const std::byte> bytes = file_.bytes();
+    const std::span<const std::byte> bytes = bytes_;
     if (bytes.size() < sizeof(Header) || read_at<Header>(bytes, 0).magic != magic) {
-        return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", file_.path());
+        return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
     }
     const auto header = read_at<Header>(bytes, 0);
     if (header.version != container_version || header.flags != 0) {
         return fail(Fault::bad_input, "{} has container version {} and flags {:#x}; this program reads version {} without flags",
-                    file_.path(), header.version, header.flags, container_version);
+                    name_, header.version, header.flags, container_version);
     }
     version_ = header.version;
     return {};
@@ -112,7 +126,7 @@ Result<void> Container::read_header() {
 
 /// False when there is no directory at the end, or none that can be trusted.
 bool Container::read_directory() {
-    const std::span<const std::byte> bytes = file_.bytes();
+    const std::span<const std::byte> bytes = bytes_;
     if (bytes.size() < sizeof(Header) + sizeof(Prefix) + sizeof(Trailer)) return false;
     const auto trailer = read_at<Trailer>(bytes, bytes.size() - sizeof(Trailer));
     if (trailer.end_magic != end_magic || trailer.offset > bytes.size() - sizeof(Prefix)) return false;
@@ -147,11 +161,11 @@ bool Container::read_directory() {
 
 /// Finds the whole sections one after the other. What is only half there ends the file.
 void Container::scan() {
-    const std::span<const std::byte> bytes = file_.bytes();
+    const std::span<const std::byte> bytes = bytes_;
     std::uint64_t at = sizeof(Header);
     const auto stop = [&](std::string_view why) {
         damage_ = fail(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
-                       file_.path(), sections_.size(), at, why, bytes.size());
+                       name_, sections_.size(), at, why, bytes.size());
     };
     while (at != bytes.size()) {
         if (bytes.size() - at < sizeof(Prefix)) return stop("ends within its header");
@@ -169,12 +183,12 @@ void Container::scan() {
         at = end_of(section);
     }
     damage_ = fail(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
-                   file_.path(), sections_.size(), at);
+                   name_, sections_.size(), at);
 }
 
 Result<std::span<const std::byte>> Container::stored(std::size_t index) const {
     const Section& section = sections_[index];
-    const std::span<const std::byte> bytes = file_.bytes().subspan(section.offset + sizeof(Prefix), section.stored_bytes);
+    const std::span<const std::byte> bytes = bytes_.subspan(section.offset + sizeof(Prefix), section.stored_bytes);
     if (xxh3(bytes) != section.checksum) {
         return fail(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
     }
@@ -182,8 +196,7 @@ Result<std::span<const std::byte>> Container::stored(std::size_t index) const {
 }
 
 std::string Container::whereabouts(std::size_t index) const {
-    return fmt::format("{}: section {} ({}) at offset {}", file_.path(), index, name(sections_[index].type),
-                       sections_[index].offset);
+    return fmt::format("{}: section {} ({}) at offset {}", name_, index, name(sections_[index].type), sections_[index].offset);
 }
 
 Result<ContainerWriter> ContainerWriter::create(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "capture_format/file.h"
@@ -38,6 +39,8 @@ class Container {
 public:
     /// Fails when it is no capture or a newer one. A file that is cut short opens: see damage().
     static Result<Container> open(const std::filesystem::path&);
+    /// The same for a copy of bytes in memory; `name` stands for the path in sentences.
+    static Result<Container> open(std::span<const std::byte>, std::string name);
 
     /// All whole sections in file order, directories among them.
     std::span<const Section> sections() const { return sections_; }
@@ -47,16 +50,20 @@ public:
     Result<std::span<const std::byte>> stored(std::size_t section) const;
     /// "smoke.strata: section 2 (blobs) at offset 4096", for errors.
     std::string whereabouts(std::size_t section) const;
-    std::uint64_t file_bytes() const { return file_.bytes().size(); }
+    std::uint64_t file_bytes() const { return bytes_.size(); }
     std::uint32_t version() const { return version_; }
 
 private:
-    explicit Container(MappedFile file) : file_(std::move(file)) {}
+    using Source = std::variant<MappedFile, std::vector<std::byte>>;
+    Container(Source, std::span<const std::byte>, std::string name);
+    static Result<Container> read(Container);
     Result<void> read_header();
     bool read_directory();
     void scan();
 
-    MappedFile file_;
+    Source source_;                     ///< keeps the bytes
+    std::span<const std::byte> bytes_;  ///< the whole file; neither a mapping nor a vector's bytes move with their owner
+    std::string name_;
     std::uint32_t version_ = 0;
     std::vector<Section> sections_;
     std::optional<Error> damage_;

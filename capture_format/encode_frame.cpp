@@ -358,4 +358,12 @@ std::vector<std::byte> Encoder::encode(const Frame& frame) {
 
 std::vector<std::byte> encode_frame(const Frame& frame, BlobCollector& blobs) { return Encoder(blobs).encode(frame); }
 
+std::int64_t echo_of(std::span<const std::byte> section) {
+    const auto& draws = *schema::GetFrame(section.data())->draws();
+    if (draws.size() == 0) return 0;
+    const auto* now = reinterpret_cast<const std::byte*>(draws.Get(0)->to_world());
+    const auto* before = reinterpret_cast<const std::byte*>(draws.Get(0)->previous_to_world());
+    return (before - now) / std::ptrdiff_t{8};
+}
+
 }  // namespace strata

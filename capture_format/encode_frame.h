@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "capture_format/blob_store.h"
@@ -9,7 +11,11 @@
 
 namespace strata {
 
-/// The section's bytes. Every field is written, so that -0 and NaN survive bit for bit. The frame must pass check_frame().
+/// The flatbuffer of a frame section, whole words of 8 bytes. Every field is written, so that -0 and NaN survive bit for bit. The
+/// frame must pass check_frame().
 std::vector<std::byte> encode_frame(const Frame&, BlobCollector&);
+
+/// From a draw's to_world to its previous_to_world, which repeats it a frame later, in words of 8 bytes; 0 without draws.
+std::int64_t echo_of(std::span<const std::byte> section);
 
 }  // namespace strata

@@ -10,6 +10,7 @@
 #include "capture_format/blob_store.h"
 #include "capture_format/container.h"
 #include "capture_format/decode_frame.h"
+#include "capture_format/frame_delta.h"
 #include "capture_format/picture.h"
 #include "capture_format/upgrade.h"
 
@@ -17,9 +18,11 @@ namespace strata {
 
 struct Capture::Contents {
     Container container;
-    std::optional<BlobStore> blobs;   ///< refers to the container, so it opens when that has its place
-    std::mutex decoding;              ///< frame() fills and empties the blob store
-    std::vector<std::size_t> frames;  ///< section numbers
+    std::optional<BlobStore> blobs;  ///< refers to the container, so it opens when that has its place
+    std::mutex decoding;             ///< frame() fills and empties what follows and the blob store
+    FrameChain chain;
+    std::optional<std::size_t> unpacked;  ///< the frame the chain ends with
+    std::vector<std::size_t> frames;      ///< section numbers
     std::string id;
     CaptureSummary summary;
     Texture thumbnail;
@@ -30,6 +33,8 @@ struct Capture::Contents {
     void summarize();
     Result<void> take(std::size_t section);
     Result<void> take_frame(std::size_t section);
+    Result<std::span<const std::byte>> flatbuffer(std::size_t frame);
+    Result<void> unpack(std::size_t frame);
     Result<std::string> text(std::size_t section, std::size_t longest) const;
 };
 
@@ -94,6 +99,41 @@ Result<void> Capture::Contents::take(std::size_t number) {
     return {};
 }
 
+/// Adds the next frame to the chain.
+Result<void> Capture::Contents::unpack(std::size_t frame) {
+    const std::size_t number = frames[frame];
+    const Section& section = container.sections()[number];
+    unpacked.reset();
+    const auto stored = container.stored(number);
+    if (!stored) return stored.error();
+    if (section.version == 1) return fail(Fault::bad_input, "{} cannot be built on", container.whereabouts(number));
+    const auto raw = chain.unpack(*stored, section.raw_bytes);
+    if (!raw) return at(container, number, raw.error());
+    unpacked = frame;
+    return {};
+}
+
+/// The flatbuffer of a frame, and to that end those of the frames it builds on.
+Result<std::span<const std::byte>> Capture::Contents::flatbuffer(std::size_t frame) {
+    const std::size_t number = frames[frame];
+    const auto stored = container.stored(number);
+    if (!stored || container.sections()[number].version == 1) return stored;
+    const Result<std::uint32_t> reach = FrameChain::reach(*stored);
+    if (!reach) return at(container, number, reach.error());
+    if (*reach > frame) {
+        return fail(Fault::bad_input, "{}: it builds on {} frames before it; the file has {}", container.whereabouts(number),
+                    *reach, frame);
+    }
+    std::size_t next = frame - *reach;
+    if (unpacked && *unpacked >= next && *unpacked <= frame) next = *unpacked + 1;
+    for (; next <= frame; ++next) {
+        const Result<void> done = unpack(next);
+        if (!done && next < frame) return fail(done.error().fault, "{}; frame {} builds on it", done.error().sentence, frame);
+        if (!done) return done.error();
+    }
+    return chain.newest();
+}
+
 void Capture::Contents::summarize() {
     summary.container_version = container.version();
     if (frames.empty()) summary.format_version = format_version;
@@ -117,8 +157,13 @@ Result<void> Capture::Contents::read() {
     return {};
 }
 
-Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) {
-    Result<Container> container = Container::open(path);
+Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) { return read(Container::open(path), partial); }
+
+Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name, Partial partial) {
+    return read(Container::open(bytes, std::move(name)), partial);
+}
+
+Result<Capture> Capture::read(Result<Container> container, Partial partial) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
         return fail(Fault::bad_input, "{}; what is whole before it can be read if partial captures are allowed",
@@ -146,10 +191,10 @@ Result<Frame> Capture::frame(std::size_t index) const {
         return fail(Fault::usage, "there is no frame {}: the capture has {}, counted from 0", index, contents.frames.size());
     }
     const std::size_t number = contents.frames[index];
-    const auto stored = contents.container.stored(number);
-    if (!stored) return stored.error();
     const std::lock_guard lock(contents.decoding);
-    Result<Frame> decoded = decode_frame(*stored, *contents.blobs);
+    const auto flatbuffer = contents.flatbuffer(index);
+    if (!flatbuffer) return flatbuffer.error();
+    Result<Frame> decoded = decode_frame(*flatbuffer, *contents.blobs);
     contents.blobs->keep_only_used();
     if (!decoded) return at(contents.container, number, decoded.error());
     Frame frame = upgrade(*std::move(decoded), contents.container.sections()[number].version);

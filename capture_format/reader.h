@@ -1,8 +1,10 @@
 // Opens a capture: verify, check every index, present as Frame. After check_frame() the rest of the program indexes freely.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 #include "capture_format/result.h"
 
 namespace strata {
+
+class Container;
 
 /// Whether a file that was cut short may be read up to the cut.
 enum class Partial { refused, allowed };
@@ -26,12 +30,16 @@ struct CaptureSummary {
 class Capture {
 public:
     static Result<Capture> open(const std::filesystem::path&, Partial = Partial::refused);
+    /// A capture in memory, copied; `name` stands for the path in sentences.
+    static Result<Capture> open(std::span<const std::byte>, std::string name, Partial = Partial::refused);
     Capture(Capture&&) noexcept;
     Capture& operator=(Capture&&) noexcept;
     ~Capture();
 
     std::size_t frame_count() const;
-    /// Decodes and checks one frame. Blobs that the frame shares with the one asked for before are not decompressed again.
+    /// Decodes and checks one frame. Cheapest in order: blobs shared with the frame asked for before are not decompressed again,
+    /// and a frame is told by what changed since the ones before it, up to 63 of which are unpacked first when it is asked for
+    /// out of order.
     Result<Frame> frame(std::size_t index) const;
     /// 32 hex digits over the frames and their blobs: equal files have equal ids wherever they lie, and notes, thumbnail and
     /// expectations do not change it.
@@ -45,6 +53,7 @@ public:
 private:
     struct Contents;
     explicit Capture(std::unique_ptr<Contents>);
+    static Result<Capture> read(Result<Container>, Partial);
     std::unique_ptr<Contents> contents_;
 };
 

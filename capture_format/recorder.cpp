@@ -8,6 +8,7 @@
 #include "capture_format/container.h"
 #include "capture_format/decode_frame.h"
 #include "capture_format/encode_frame.h"
+#include "capture_format/frame_delta.h"
 #include "capture_format/picture.h"
 #include "capture_format/reader.h"
 #include "capture_format/upgrade.h"
@@ -17,6 +18,7 @@ namespace strata {
 struct Recorder::Writer {
     ContainerWriter file;
     BlobCollector blobs = {};
+    FrameChain chain = {};
     Frame frame = {};
     bool in_frame = false, finished = false;
     std::uint64_t frames = 0;
@@ -56,7 +58,7 @@ Result<void> Recorder::Writer::write(const Frame& complete) {
         if (const Result<void> added = add(payload); !added) return added;
     }
     ++frames;
-    return add({SectionType::frame, format_version, section, section.size()});
+    return add({SectionType::frame, format_version, chain.pack(section, echo_of(section)), section.size()});
 }
 
 Result<Recorder> Recorder::create(const std::filesystem::path& path, std::string notes) {

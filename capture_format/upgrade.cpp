@@ -1,7 +1,8 @@
 // The changelog of the frame format. A step changes meaning; a field that was only added needs none but the function that
 // does nothing, and its line here. Add the function, its row, and raise format_version.
 //
-//   1    the first
+//   1    the first: a section is a flatbuffer
+//   2    a section is what changed since the frames before it (frame_delta.cpp)
 #include "capture_format/upgrade.h"
 
 #include <array>
@@ -9,7 +10,10 @@
 namespace strata {
 namespace {
 
-constexpr std::array<UpgradeStep, format_version - 1> steps = {};
+constexpr std::array<UpgradeStep, format_version - 1> steps = {{
+    {"a frame's section tells what changed since the frames before it; the frame means what it meant",
+     [](Frame frame) { return frame; }},
+}};
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace strata {
 
 /// The version of frame sections this program writes.
-inline constexpr std::uint32_t format_version = 1;
+inline constexpr std::uint32_t format_version = 2;
 
 /// From version n to n + 1, where n is the step's place in the table plus 1.
 struct UpgradeStep {

@@ -14,11 +14,13 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <stb/stb_image_write.h>
 #include <xxhash.h>
 
 #include "capture_format/srgb.h"
+#include "capture_format/whole_file.h"
 
 namespace strata {
 namespace {
@@ -188,8 +190,9 @@ Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPar
         for (std::uint32_t layer = 0; layer < image.image->shape.layers; ++layer) parts.push_back(layer_part(image, layer));
     std::vector<Imf::Header> headers;
     for (const LayerPart& part : parts) headers.push_back(header_of(part, metadata));
+    Imf::StdOSStream stream;
     try {
-        Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
+        Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
         for (std::size_t i = 0; i < parts.size(); ++i) {
             LayerPart& part = parts[i];
             const std::size_t x_stride = part.channels.size() * part.channel_bytes;
@@ -203,9 +206,9 @@ Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPar
             output.writePixels(static_cast<int>(part.height));
         }
     } catch (const std::exception& problem) {
-        return fail(Fault::bad_input, "cannot write {}: {}", path.string(), problem.what());
+        return fail(Fault::usage, "cannot write {}: {}", path.string(), problem.what());
     }
-    return {};
+    return write_whole_file(path, stream.str());
 }
 
 Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path& path) {
@@ -236,10 +239,14 @@ Result<void> write_png(const std::filesystem::path& path, const HostImage& image
             const glm::dvec4 color = texel(image, x, y);
             for (int c = 0; c < 3; ++c) rgb.push_back(display_byte(color[c]));
         }
-    if (!stbi_write_png(path.c_str(), static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
-                        static_cast<int>(width) * 3))
-        return fail(Fault::bad_input, "cannot write {}", path.string());
-    return {};
+    std::string png;
+    const auto append = [](void* to, void* bytes, int count) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    };
+    if (!stbi_write_png_to_func(append, &png, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
+                                static_cast<int>(width) * 3))
+        return fail(Fault::usage, "cannot make a picture of {} x {} for {}", width, height, path.string());
+    return write_whole_file(path, png);
 }
 
 std::string hash_of(const HostImage& image) {

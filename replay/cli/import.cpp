@@ -5,6 +5,7 @@
 
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
+#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 
@@ -31,11 +32,14 @@ Result<void> import(const Options& options) {
 
     const std::filesystem::path output =
         options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
-    auto recorder = Recorder::create(output, "imported from " + options.scene.filename().string());
+    auto file = WholeFile::begin(output);
+    if (!file) return file.error();
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, scene->frame, options.device); !done) return done;
     if (const auto done = recorder->record(scene->frame); !done) return done;
     if (const auto done = recorder->finish(); !done) return done;
+    if (const auto done = file->commit(); !done) return done;
     const Frame& frame = scene->frame;
     fmt::print(stderr, "imported {}, {}, {}, {} into {}\n", counted(frame.draws.size(), "draw"),
                counted(frame.materials.size(), "material"), counted(frame.textures.size(), "texture"),

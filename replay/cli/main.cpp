@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/whole_file.h"
 #include "replay/cli/revision.h"
 #include "replay/cli/verb.h"
 #include "replay/gpu/device.h"
@@ -12,8 +13,8 @@ namespace strata {
 namespace {
 
 constexpr const char* exit_codes =
-    "exit codes: 0 ok, 1 over tolerance, 2 usage, 3 bad or truncated input, 4 the device lacks what is needed,\n"
-    "5 device failure, 6 expectation missing, 7 not repeatable";
+    "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
+    "4 the device lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 130 interrupted";
 
 int report_error(const Error& error) {
     fmt::print(stderr, "strata: {}\n", error.sentence);
@@ -74,4 +75,7 @@ int run(std::vector<std::string> arguments) {
 }  // namespace
 }  // namespace strata
 
-int main(int count, char** arguments) { return strata::run({arguments + 1, arguments + count}); }
+int main(int count, char** arguments) {
+    strata::leave_nothing_half_written_when_stopped();
+    return strata::run({arguments + 1, arguments + count});
+}

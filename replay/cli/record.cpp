@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/recorder.h"
+#include "capture_format/whole_file.h"
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
@@ -32,7 +33,9 @@ Result<void> record(const Options& options) {
     }
     const std::filesystem::path output =
         options.output.empty() ? std::filesystem::path(options.scenario + ".strata") : options.output;
-    auto recorder = Recorder::create(output, fmt::format("scenario {} seed {}", options.scenario, wanted.seed));
+    auto file = WholeFile::begin(output);
+    if (!file) return file.error();
+    auto recorder = Recorder::create(file->temporary(), fmt::format("scenario {} seed {}", options.scenario, wanted.seed));
     if (!recorder) return recorder.error();
     for (std::uint32_t index = 0; index < wanted.frames; ++index) {
         const Frame frame = (*scenario)->build(index, wanted);
@@ -41,6 +44,7 @@ Result<void> record(const Options& options) {
         if (const auto done = recorder->record(frame); !done) return done;
     }
     if (const auto done = recorder->finish(); !done) return done;
+    if (const auto done = file->commit(); !done) return done;
     fmt::print(stderr, "recorded {} of {} at {} x {} into {}\n", counted(wanted.frames, "frame"), options.scenario, wanted.width,
                wanted.height, output.string());
     return {};

@@ -1,11 +1,11 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
-#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/whole_file.h"
 #include "replay/cli/revision.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
@@ -73,9 +73,8 @@ Result<void> write_frame(const Session& session, const Request& request, const R
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         fmt::print(stderr, "wrote {}.png\n", base);
     }
-    std::ofstream file(base + ".json");
-    file << json_of(session, request, run).dump(2) << "\n";
-    if (!file.flush()) return fail(Fault::bad_input, "cannot write {}.json", base);
+    const std::string json = json_of(session, request, run).dump(2) + "\n";
+    if (const auto done = write_whole_file(base + ".json", json); !done) return done;
     fmt::print(stderr, "wrote {}.json\n", base);
     return {};
 }
@@ -145,7 +144,7 @@ Result<void> replay(const Options& options) {
     if (!frames) return frames.error();
     std::error_code problem;
     std::filesystem::create_directories(options.folder, problem);
-    if (problem) return fail(Fault::bad_input, "cannot make the folder {}: {}", options.folder.string(), problem.message());
+    if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
 
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     for (const std::size_t frame : *frames) {

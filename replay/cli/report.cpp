@@ -1,12 +1,12 @@
 // strata report: error against time for every technique of a stage.
 #include <unistd.h>
 
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
+#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/report/report.h"
 
@@ -51,9 +51,7 @@ Result<void> write_report(const Options& options, const Report& made) {
         fmt::print("{}", text);
         return {};
     }
-    std::ofstream file(options.output);
-    file << text;
-    return file.flush() ? Result<void>() : fail(Fault::bad_input, "cannot write {}", options.output.string());
+    return write_whole_file(options.output, text);
 }
 
 Result<void> report(const Options& options) {

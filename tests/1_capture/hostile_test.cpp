@@ -10,6 +10,7 @@
 #include "capture_format/encode_frame.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
+#include "capture_format/upgrade.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
 
@@ -146,7 +147,7 @@ TEST(HostileInput, AFrameSectionThatIsNoFlatbufferIsNamed) {
 TEST(HostileInput, AFrameOfANewerVersionIsRefusedWhenTheFileIsOpened) {
     const TemporaryFile file;
     auto writer = ContainerWriter::create(file.path());
-    ASSERT_TRUE(writer->add({SectionType::frame, 2, bytes_of("anything"), 8}) && writer->finish());
+    ASSERT_TRUE(writer->add({SectionType::frame, format_version + 1, bytes_of("anything"), 8}) && writer->finish());
     EXPECT_THAT(Capture::open(file.path()).error().sentence, HasSubstr("open it with a newer strata"));
 }
 

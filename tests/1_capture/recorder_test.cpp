@@ -3,7 +3,9 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <csignal>
+#include <random>
 
 #include <gmock/gmock.h>
 
@@ -96,6 +98,49 @@ TEST(Recorder, EqualResourcesAcrossFramesAreStoredOnce) {
     EXPECT_EQ(all->summary().blobs, first->summary().blobs);
     EXPECT_EQ(all->summary().blob_bytes_raw, first->summary().blob_bytes_raw);
     EXPECT_EQ(bits_of(*all->frame(9)), bits_of(frames[9]));
+}
+
+/// Frames that differ from each other, also in length.
+std::vector<Frame> many_frames(std::size_t count) {
+    std::vector<Frame> frames(count, rich_frame());
+    for (std::size_t i = 0; i < count; ++i) {
+        frames[i].index = i;
+        frames[i].draws[1].to_world[3].x = std::sqrt(static_cast<double>(i));
+        if (i % 7 == 3) frames[i].draws.push_back(frames[i].draws[0]);
+    }
+    return frames;
+}
+
+TEST(Recorder, FramesAreReadInAnyOrder) {
+    const TemporaryFile file;
+    const std::vector<Frame> frames = many_frames(100);
+    record(file.path(), frames);
+    const auto capture = Capture::open(file.path());
+    std::mt19937 random(1);
+    for (int i = 0; i < 60; ++i) {
+        const std::size_t index = random() % frames.size();
+        const auto frame = capture->frame(index);
+        ASSERT_TRUE(frame) << frame.error().sentence;
+        EXPECT_EQ(bits_of(*frame), bits_of(frames[index])) << index;
+    }
+}
+
+TEST(Recorder, AFrameThatBuildsOnADamagedOneSaysSoAndTheNextKeyIsFine) {
+    const TemporaryFile file;
+    record(file.path(), many_frames(100));
+    std::vector<std::size_t> sections;
+    const auto container = Container::open(file.path());
+    for (std::size_t i = 0; i < container->sections().size(); ++i)
+        if (container->sections()[i].type == SectionType::frame) sections.push_back(i);
+    std::vector<std::byte> bytes = read_file(file.path());
+    bytes[container->sections()[sections[10]].offset + 48 + 30] ^= std::byte{1};
+    const auto capture = Capture::open(bytes, "memory");
+    EXPECT_TRUE(capture->frame(9));
+    EXPECT_THAT(
+        capture->frame(12).error().sentence,
+        testing::AllOf(HasSubstr(fmt::format("memory: section {} (frame)", sections[10])), HasSubstr("frame 12 builds on it")));
+    EXPECT_TRUE(capture->frame(8)) << "what failed is forgotten";
+    EXPECT_TRUE(capture->frame(64));
 }
 
 TEST(Recorder, AFileCopiedBeforeFinishIsReadableToItsLastFrame) {
@@ -193,6 +238,19 @@ TEST(Recorder, EqualCapturesHaveEqualIdsWhereverTheyLie) {
     EXPECT_THAT(id, testing::MatchesRegex("[0-9a-f]{32}"));
     EXPECT_EQ(Capture::open(there.path())->id(), id);
     EXPECT_NE(Capture::open(other.path())->id(), id);
+}
+
+TEST(Recorder, ACaptureInMemoryIsTheCaptureInItsFile) {
+    const TemporaryFile file;
+    const Frame frame = rich_frame();
+    record(file.path(), std::span(&frame, 1));
+    std::vector<std::byte> bytes = read_file(file.path());
+    const auto capture = Capture::open(bytes, "memory");
+    bytes.assign(bytes.size(), std::byte{0});  // it keeps its own
+    ASSERT_TRUE(capture) << capture.error().sentence;
+    EXPECT_EQ(capture->id(), Capture::open(file.path())->id());
+    EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(frame));
+    EXPECT_EQ(Capture::open(bytes, "memory").error().sentence, "memory is not a capture: it does not begin like one");
 }
 
 TEST(Recorder, NotesAndThumbnailTravelAlong) {

@@ -1,0 +1,47 @@
+// Files written whole or not at all: the bytes go to a temporary beside the target, which a rename then replaces. Whoever
+// reads the target sees the old file or the new one, never a part.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "capture_format/result.h"
+
+namespace strata {
+
+/// A file being written. Until commit() the target is as it was; without commit() the temporary is removed.
+class WholeFile {
+public:
+    /// Makes the temporary, empty, in the target's folder. A link is followed, an existing file's mode kept. What is no file
+    /// (a pipe, /dev/stdout) cannot be replaced: there temporary() is the target itself. Fails (usage) for a directory, a
+    /// folder or a file that cannot be written.
+    static Result<WholeFile> begin(const std::filesystem::path& target);
+    WholeFile(WholeFile&&) noexcept;
+    WholeFile& operator=(WholeFile&&) noexcept;
+    ~WholeFile();
+
+    /// Where to write. The file exists: open it without creating it, so that nothing is left when a signal just removed it.
+    const std::filesystem::path& temporary() const;
+    /// Puts what was written in the target's place. Call it when every writer is done; once.
+    Result<void> commit();
+
+private:
+    friend void leave_nothing_half_written_when_stopped();
+    struct Pending;
+    explicit WholeFile(std::unique_ptr<Pending>);
+    std::unique_ptr<Pending> pending_;
+};
+
+/// The whole file at once. Errors (usage) carry the path and the system's words.
+Result<void> write_whole_file(const std::filesystem::path&, std::span<const std::byte>);
+Result<void> write_whole_file(const std::filesystem::path&, std::string_view text);
+
+/// For programs of our own, to be called before any thread starts: SIGINT, SIGTERM and SIGHUP remove the temporaries and
+/// end the process with 128 + signal (130 for SIGINT), unless whoever started us ignores them; a file beyond the size limit
+/// is a failed write and no signal.
+void leave_nothing_half_written_when_stopped();
+
+}  // namespace strata

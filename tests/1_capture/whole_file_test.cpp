@@ -1,0 +1,90 @@
+// Files that are written whole or not at all. What a signal does to them is shown with the program itself, in tests/7_tool.
+#include "capture_format/whole_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+
+#include "tests/1_capture/temporary_file.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+/// An empty folder of the running test's own.
+std::filesystem::path empty_folder() {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const auto path = std::filesystem::path(testing::TempDir()) / ("strata_whole_file_" + test);
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+    return path;
+}
+
+std::ptrdiff_t files_in(const std::filesystem::path& folder) {
+    return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    const auto bytes = read_file(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(WholeFile, TakesTheTargetsPlaceOnlyWhenCommitted) {
+    const auto folder = empty_folder();
+    ASSERT_TRUE(write_whole_file(folder / "a", "old"));
+    auto file = WholeFile::begin(folder / "a");
+    ASSERT_TRUE(file);
+    write_file(file->temporary(), bytes_of("new"));
+    EXPECT_EQ(text_of(folder / "a"), "old");
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(text_of(folder / "a"), "new");
+    EXPECT_EQ(files_in(folder), 1);
+}
+
+TEST(WholeFile, GivenUpLeavesNothing) {
+    const auto folder = empty_folder();
+    {
+        auto one = WholeFile::begin(folder / "a"), other = WholeFile::begin(folder / "a");
+        ASSERT_TRUE(one && other);
+        EXPECT_NE(one->temporary(), other->temporary());
+        EXPECT_EQ(files_in(folder), 2);
+        *one = *std::move(other);
+        EXPECT_EQ(files_in(folder), 1);
+    }
+    EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WholeFile, FollowsALinkAndKeepsTheMode) {
+    const auto folder = empty_folder();
+    ASSERT_TRUE(write_whole_file(folder / "a", "old"));
+    ::chmod((folder / "a").c_str(), 0640);
+    std::filesystem::create_symlink("a", folder / "link");
+    ASSERT_TRUE(write_whole_file(folder / "link", "new"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(text_of(folder / "a"), "new");
+    EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), std::filesystem::perms(0640));
+}
+
+TEST(WholeFile, SaysWhatTheSystemSaysAndIsAUsageError) {
+    const auto folder = empty_folder();
+    const auto expect = [](const std::filesystem::path& path, const char* words) {
+        const auto written = write_whole_file(path, "text");
+        ASSERT_FALSE(written) << path;
+        EXPECT_EQ(written.error().fault, Fault::usage);
+        EXPECT_THAT(written.error().sentence, testing::AllOf(HasSubstr(path.string()), HasSubstr(words)));
+    };
+    expect(folder, "Is a directory");
+    expect(folder / "missing" / "a", "No such file or directory");
+    expect("/dev/full", "No space left on device");
+    EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WholeFile, ADeviceIsWrittenAndNotReplaced) {
+    ASSERT_TRUE(write_whole_file("/dev/null", "text"));
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+}  // namespace
+}  // namespace strata
