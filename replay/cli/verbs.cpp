@@ -10,6 +10,7 @@ std::function<Result<void>()> declare_validate(CLI::App&);
 std::function<Result<void>()> declare_replay(CLI::App&);
 std::function<Result<void>()> declare_graph(CLI::App&);
 std::function<Result<void>()> declare_report(CLI::App&);
+std::function<Result<void>()> declare_diff(CLI::App&);
 
 std::span<const Verb> verbs() {
     static constexpr Verb table[] = {
@@ -21,6 +22,7 @@ std::span<const Verb> verbs() {
         {"replay", "run every pass again; write EXR, PNG and JSON", declare_replay},
         {"graph", "the plan of a frame: steps, barriers, memory, what is left out and why", declare_graph},
         {"report", "every technique of a stage: error against time", declare_report},
+        {"diff", "two captures, settings, devices or images: what differs, where, by how much", declare_diff},
     };
     return table;
 }

@@ -16,14 +16,17 @@ ordered_json number(double value) {
 }
 
 ordered_json json_of(const Flip& flip) {
-    ordered_json json{{"mean", flip.mean},
-                      {"weighted",
-                       {{"first_quartile", flip.first_quartile}, {"median", flip.median}, {"third_quartile", flip.third_quartile}}},
-                      {"low", flip.low},
-                      {"high", flip.high},
-                      {"pixels_per_degree", pixels_per_degree_of_a_desk}};
+    ordered_json json{
+        {"mean", flip.mean},
+        {"weighted", {{"first_quartile", flip.first_quartile}, {"median", flip.median}, {"third_quartile", flip.third_quartile}}},
+        {"low", flip.low},
+        {"high", flip.high},
+        {"pixels_per_degree", pixels_per_degree_of_a_desk}};
     if (flip.exposures.count > 0)
-        json["exposures"] = {{"start", flip.exposures.start}, {"stop", flip.exposures.stop}, {"count", flip.exposures.count}, {"tone_mapper", "aces"}};
+        json["exposures"] = {{"start", flip.exposures.start},
+                             {"stop", flip.exposures.stop},
+                             {"count", flip.exposures.count},
+                             {"tone_mapper", "aces"}};
     return json;
 }
 
@@ -34,7 +37,12 @@ ordered_json json_of(const ImageError& error) {
             {"worst", number(error.worst)},
             {"worst_unit", error.kind == ImageError::Kind::depth ? "ulps" : "value"},
             {"worst_pixel",
-             {{"x", worst.x}, {"y", worst.y}, {"layer", worst.layer}, {"channel", worst.channel}, {"a", number(worst.a)}, {"b", number(worst.b)}}},
+             {{"x", worst.x},
+              {"y", worst.y},
+              {"layer", worst.layer},
+              {"channel", worst.channel},
+              {"a", number(worst.a)},
+              {"b", number(worst.b)}}},
             {"pixels", error.pixels},
             {"pixels_over_limit", error.over_limit},
             {"pixels_over_warn_limit", error.over_warn_limit},
@@ -47,7 +55,8 @@ ordered_json json_of(const ImageComparison& image) {
     ordered_json json{{"image", image.image}, {"verdict", name(image.verdict)}, {"identical", image.error.identical}};
     if (!image.reason.empty()) json["reason"] = image.reason;
     for (const Judged& judged : image.judged)
-        json["comparisons"].push_back({{"metric", judged.metric}, {"value", number(judged.value)}, {"threshold", number(judged.threshold)}});
+        json["comparisons"].push_back(
+            {{"metric", judged.metric}, {"value", number(judged.value)}, {"threshold", number(judged.threshold)}});
     if (image.error.pixels > 0) json["error"] = json_of(image.error);
     if (image.flip) json["flip"] = json_of(*image.flip);
     return json;
@@ -62,7 +71,8 @@ ordered_json json_of(const FrameComparison& frame) {
         json["acts"].push_back(row);
     }
     if (!frame.divergence.act.empty())
-        json["first_difference"] = {{"act", frame.divergence.act}, {"image", frame.divergence.image}, {"step", frame.divergence.step}};
+        json["first_difference"] = {
+            {"act", frame.divergence.act}, {"image", frame.divergence.image}, {"step", frame.divergence.step}};
     return json;
 }
 

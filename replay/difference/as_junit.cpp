@@ -29,7 +29,8 @@ std::string case_xml(const ActComparison& act, const ImageComparison& image, con
     return xml + "    </testcase>\n";
 }
 
-std::string suite_xml(const Comparison& comparison, const FrameComparison& frame, const std::map<std::string, std::string>& artefacts) {
+std::string suite_xml(const Comparison& comparison, const FrameComparison& frame,
+                      const std::map<std::string, std::string>& artefacts) {
     std::string cases;
     std::size_t tests = 0, failures = 0, skipped = 0;
     for (const ActComparison& act : frame.acts)

@@ -30,13 +30,15 @@ std::size_t name_width(const FrameComparison& frame) {
 std::string figures(const ImageComparison& image) {
     const ImageError& error = image.error;
     const std::string unit = error.kind == ImageError::Kind::depth ? " ULPs" : "";
-    std::string line = fmt::format("  {:>10.3e}  {:>10.3e}  {:>10}  {:>7.3f}  {:>7}  {}: {:.6g} | {:.6g}", error.rmse, error.relative_rmse,
-                                   fmt::format("{:.3g}{}", error.worst, unit),
+    std::string line = fmt::format("  {:>10.3e}  {:>10.3e}  {:>10}  {:>7.3f}  {:>7}  {}: {:.6g} | {:.6g}", error.rmse,
+                                   error.relative_rmse, fmt::format("{:.3g}{}", error.worst, unit),
                                    100 * double(error.over_limit) / double(std::max<std::uint64_t>(1, error.pixels)),
                                    image.flip ? fmt::format("{:.4f}", image.flip->mean) : "-", place_text(error.worst_pixel),
                                    error.worst_pixel.a, error.worst_pixel.b);
-    if (const auto bad = error.in_a.nan + error.in_b.nan; bad > 0) line += fmt::format("  NaN: {} | {}", error.in_a.nan, error.in_b.nan);
-    if (const auto bad = error.in_a.inf + error.in_b.inf; bad > 0) line += fmt::format("  Inf: {} | {}", error.in_a.inf, error.in_b.inf);
+    if (const auto bad = error.in_a.nan + error.in_b.nan; bad > 0)
+        line += fmt::format("  NaN: {} | {}", error.in_a.nan, error.in_b.nan);
+    if (const auto bad = error.in_a.inf + error.in_b.inf; bad > 0)
+        line += fmt::format("  Inf: {} | {}", error.in_a.inf, error.in_b.inf);
     return line;
 }
 
@@ -57,16 +59,19 @@ std::string side_text(std::string_view letter, const Side& side) {
 
 std::string frame_text(const FrameComparison& frame) {
     const std::size_t width = name_width(frame);
-    std::string text = fmt::format("\nframe {}\n  {:<12}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>7}  {:>7}  {}\n", frame.frame, "verdict", "act: image",
-                                   width, "rmse", "relative", "worst", "over %", "FLIP", "worst pixel: A | B");
+    std::string text =
+        fmt::format("\nframe {}\n  {:<12}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>7}  {:>7}  {}\n", frame.frame, "verdict",
+                    "act: image", width, "rmse", "relative", "worst", "over %", "FLIP", "worst pixel: A | B");
     for (const ActComparison& act : frame.acts) {
         if (act.choice_a != act.choice_b)
-            text += fmt::format("  {:<12}  {}: A {}, B {}\n", "", act.label, act.choice_a.empty() ? "leaves it out" : act.choice_a,
-                                act.choice_b.empty() ? "leaves it out" : act.choice_b);
+            text +=
+                fmt::format("  {:<12}  {}: A {}, B {}\n", "", act.label, act.choice_a.empty() ? "leaves it out" : act.choice_a,
+                            act.choice_b.empty() ? "leaves it out" : act.choice_b);
         for (const ImageComparison& image : act.images) text += row_text(act, image, width);
     }
     if (!frame.divergence.act.empty())
-        text += fmt::format("  first difference: {}: {}\n    {}\n", frame.divergence.act, frame.divergence.image, frame.divergence.step);
+        text += fmt::format("  first difference: {}: {}\n    {}\n", frame.divergence.act, frame.divergence.image,
+                            frame.divergence.step);
     return text;
 }
 

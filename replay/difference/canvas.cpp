@@ -39,11 +39,13 @@ int Canvas::text(std::string_view text, Box at, Rgb ink) {
         std::array<unsigned char, 4> color;
     };
     std::vector<Corner> corners(4 * 40 * (copy.size() + 1));
-    const int boxes = stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(), static_cast<int>(corners.size() * sizeof(Corner)));
+    const int boxes =
+        stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(), static_cast<int>(corners.size() * sizeof(Corner)));
     for (int i = 0; i < boxes; ++i) {
         const Corner &from = corners[static_cast<std::size_t>(4 * i)], &to = corners[static_cast<std::size_t>(4 * i + 2)];
         const int x = static_cast<int>(from.x), y = static_cast<int>(from.y);
-        fill({at.x + x * scale, at.y + y * scale, (static_cast<int>(to.x) - x) * scale, (static_cast<int>(to.y) - y) * scale}, ink);
+        fill({at.x + x * scale, at.y + y * scale, (static_cast<int>(to.x) - x) * scale, (static_cast<int>(to.y) - y) * scale},
+             ink);
     }
     return text_width(copy);
 }

@@ -30,7 +30,7 @@ public:
     /// Letters 7 `scale` high whose upper left corner is x, y; cut off at `width`. Returns the width of what was drawn.
     int text(std::string_view, Box at, Rgb ink);
 
-    static constexpr int scale = 2;         ///< of letters
+    static constexpr int scale = 2;          ///< of letters
     static constexpr int line = 13 * scale;  ///< from line to line
 
 private:

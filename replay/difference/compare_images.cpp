@@ -32,8 +32,8 @@ std::vector<Judged> judged(const ImageComparison& made, const ErrorLimits& limit
     const bool flip_alone = made.flip && limits.flip_mean && !limits.limit;
     if (error.kind == ImageError::Kind::values) {
         if (!flip_alone)
-            all.push_back(
-            {fmt::format("percent of pixels over {:g}", limits.limit.value_or(0)), percent(error.over_limit, error.pixels), limits.percent});
+            all.push_back({fmt::format("percent of pixels over {:g}", limits.limit.value_or(0)),
+                           percent(error.over_limit, error.pixels), limits.percent});
         if (limits.hard_limit < ErrorLimits::none) all.push_back({"worst", error.worst, limits.hard_limit});
     } else {
         const bool depth = error.kind == ImageError::Kind::depth;

@@ -14,7 +14,8 @@ ImageComparison in_one_alone(const std::string& image, std::string_view side) {
     return {.image = image, .verdict = Verdict::over, .reason = fmt::format("only {} has it", side)};
 }
 
-Result<ImageComparison> compare_outputs(const std::string& image, const ActImages& a, const ActImages& b, const ErrorLimits& limits) {
+Result<ImageComparison> compare_outputs(const std::string& image, const ActImages& a, const ActImages& b,
+                                        const ErrorLimits& limits) {
     const HostImage &of_a = a.images.at(image), &of_b = b.images.at(image);
     const bool other_choice = a.choice != b.choice;
     if (other_choice && content_of(image, of_a.shape.format) == Content::coded)
@@ -56,13 +57,15 @@ void add(FrameComparison& frame, ActComparison act) {
 Result<std::string> first_step(const std::vector<StepImages>& a, const std::vector<StepImages>& b, const ErrorLimits& limits) {
     if (a.size() != b.size()) return fmt::format("the plans differ: {} steps against {}", a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-        if (a[i].name != b[i].name) return fmt::format("the plans differ from step {} on: {} against {}", a[i].step, a[i].name, b[i].name);
+        if (a[i].name != b[i].name)
+            return fmt::format("the plans differ from step {} on: {} against {}", a[i].step, a[i].name, b[i].name);
         for (const auto& [image, of_a] : a[i].images) {
             const auto of_b = b[i].images.find(image);
             if (of_b == b[i].images.end() || of_a.texels == of_b->second.texels) continue;
             const auto made = compare_images(image, of_a, of_b->second, limits);
             if (!made) return made.error();
-            if (made->verdict == Verdict::over) return fmt::format("step {}, {}, writes '{}': {}", a[i].step, a[i].name, image, made->reason);
+            if (made->verdict == Verdict::over)
+                return fmt::format("step {}, {}, writes '{}': {}", a[i].step, a[i].name, image, made->reason);
         }
     }
     return std::string("no image of a step differs: it is in a buffer");
@@ -74,8 +77,9 @@ Result<void> find_step(FrameComparison& frame, const RunToCompare& a, const RunT
     if (label.empty()) return {};
     const auto act = std::ranges::find(frame.acts, label, &ActComparison::label);
     if (act->choice_a != act->choice_b) {
-        frame.divergence.step = fmt::format("A does it with {}, B with {}: from here on outputs are compared, not steps",
-                                            act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
+        frame.divergence.step =
+            fmt::format("A does it with {}, B with {}: from here on outputs are compared, not steps",
+                        act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
         return {};
     }
     const auto stage = find_stage(label.substr(0, label.find(' ')));
@@ -91,7 +95,8 @@ Result<void> find_step(FrameComparison& frame, const RunToCompare& a, const RunT
 
 }  // namespace
 
-Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits, const SeeImages& see) {
+Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits,
+                                     const SeeImages& see) {
     const auto acts_a = a.session.act_images(a.request);
     if (!acts_a) return acts_a.error();
     const auto acts_b = b.session.act_images(b.request);
@@ -116,7 +121,8 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
     return frame;
 }
 
-Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits& limits, const SeeImages& see) {
+Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits& limits,
+                                           const SeeImages& see) {
     FrameComparison frame;
     ActComparison act{.label = "images"};
     const bool single = a.size() == 1 && b.size() == 1;

@@ -33,7 +33,7 @@ struct FrameComparison {
 
 /// A side of a comparison in words.
 struct Side {
-    std::string name;                    ///< of the file
+    std::string name;                     ///< of the file
     std::string capture, device, driver;  ///< empty for images
 };
 
@@ -51,7 +51,8 @@ struct RunToCompare {
 };
 
 /// The images of a comparison while they are there, for pictures of them.
-using SeeImages = std::function<Result<void>(const ActComparison&, const ImageComparison&, const HostImage& a, const HostImage& b)>;
+using SeeImages =
+    std::function<Result<void>(const ActComparison&, const ImageComparison&, const HostImage& a, const HostImage& b)>;
 
 /// Act by act. Fails when images that should have one shape do not.
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits&, const SeeImages&);

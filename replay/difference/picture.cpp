@@ -25,8 +25,11 @@ struct Texels {
 /// The part of an image that is shown.
 Texels texels_of(const HostImage& image, const ImageComparison& made) {
     const Extent& extent = image.shape.extent;
-    Texels shown{static_cast<int>(extent.width), static_cast<int>(extent.height), content_of(made.image, image.shape.format),
-                 row(image.shape.format).channels, {}};
+    Texels shown{static_cast<int>(extent.width),
+                 static_cast<int>(extent.height),
+                 content_of(made.image, image.shape.format),
+                 row(image.shape.format).channels,
+                 {}};
     const bool light = shown.content == Content::radiance || shown.content == Content::display;
     const std::uint32_t first = light ? 0 : made.error.worst_pixel.layer, count = light ? image.shape.layers : 1;
     for (std::uint32_t y = 0; y < extent.height; ++y)
@@ -53,7 +56,8 @@ double quantile(const std::vector<glm::dvec3>& values, double share) {
 }
 
 Rgb byte_rgb(const glm::dvec3& v) {
-    return {std::to_integer<std::uint8_t>(unorm8(v.x)), std::to_integer<std::uint8_t>(unorm8(v.y)), std::to_integer<std::uint8_t>(unorm8(v.z))};
+    return {std::to_integer<std::uint8_t>(unorm8(v.x)), std::to_integer<std::uint8_t>(unorm8(v.y)),
+            std::to_integer<std::uint8_t>(unorm8(v.z))};
 }
 
 Rgb light_rgb(const glm::dvec3& v) {
@@ -77,14 +81,16 @@ struct Range {
 
 /// Display light is shown as it is; radiance up to what 99 % of it are below; the rest between its least and largest value.
 Range range_of(const Texels& a, Format format) {
-    if (a.content == Content::display) return {0, 1, row(format).bytes == row(format).channels ? Content::numbers : Content::radiance};
-    const double high = quantile(a.values, a.content == Content::radiance ? .99 : 1), low = a.content == Content::radiance ? 0 : quantile(a.values, 0);
+    if (a.content == Content::display)
+        return {0, 1, row(format).bytes == row(format).channels ? Content::numbers : Content::radiance};
+    const double high = quantile(a.values, a.content == Content::radiance ? .99 : 1),
+                 low = a.content == Content::radiance ? 0 : quantile(a.values, 0);
     return {low, high > low ? high : low + 1, a.content == Content::radiance ? Content::radiance : Content::numbers};
 }
 
 /// matplotlib's magma (CC0) at nine places.
 Rgb magma(double share) {
-    static constexpr Rgb stops[] = {{0, 0, 4},     {28, 16, 68},   {79, 18, 123},  {129, 37, 129}, {181, 54, 122},
+    static constexpr Rgb stops[] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
                                     {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
     const double at = std::clamp(share, 0., 1.) * 8;
     const auto below = std::min<std::size_t>(7, static_cast<std::size_t>(at));
@@ -122,11 +128,12 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
     const int top = box.y + Canvas::line;
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
-            canvas.fill({box.x + x * zoom, top + y * zoom, zoom, zoom},
-                        panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)));
+            canvas.fill(
+                {box.x + x * zoom, top + y * zoom, zoom, zoom},
+                panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)));
     const int around = 3 * std::max(zoom, 3);
-    const Box frame{box.x + static_cast<int>(worst.x) * zoom + zoom / 2 - around, top + static_cast<int>(worst.y) * zoom + zoom / 2 - around,
-                    2 * around + 1, 2 * around + 1};
+    const Box frame{box.x + static_cast<int>(worst.x) * zoom + zoom / 2 - around,
+                    top + static_cast<int>(worst.y) * zoom + zoom / 2 - around, 2 * around + 1, 2 * around + 1};
     canvas.outline(frame, mark);
     canvas.outline({frame.x - 1, frame.y - 1, frame.width + 2, frame.height + 2}, {0, 0, 0});
     if (!panel.legend) return;
@@ -181,7 +188,8 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     canvas.text(made.reason, {gap, gap + Canvas::line, canvas.width() - 2 * gap, 0}, ink);
     for (int i = 0; i < static_cast<int>(panels.size()); ++i)
         draw(canvas, panels[static_cast<std::size_t>(i)],
-             {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a, made.error.worst_pixel);
+             {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a,
+             made.error.worst_pixel);
     return canvas;
 }
 

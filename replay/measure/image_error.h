@@ -17,7 +17,7 @@ namespace strata {
 struct ErrorLimits {
     static constexpr double none = std::numeric_limits<double>::infinity();
     // Of values, as `idiff` has them: a pixel counts by its worst channel.
-    double limit = 0;                                ///< a pixel may differ by so much
+    std::optional<double> limit = std::nullopt;      ///< a pixel may differ by so much; unset: 0, or FLIP alone decides
     double percent = 0;                              ///< of the pixels may differ by more
     double hard_limit = none;                        ///< no pixel may differ by more
     double warn_limit = none, warn_percent = 0;      ///< the same, for a warning
