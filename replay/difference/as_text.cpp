@@ -69,9 +69,9 @@ std::string frame_text(const FrameComparison& frame) {
                             act.choice_b.empty() ? "leaves it out" : act.choice_b);
         for (const ImageComparison& image : act.images) text += row_text(act, image, width);
     }
-    if (!frame.divergence.act.empty())
-        text += fmt::format("  first difference: {}: {}\n    {}\n", frame.divergence.act, frame.divergence.image,
-                            frame.divergence.step);
+    const Divergence& first = frame.divergence;
+    if (!first.act.empty()) text += fmt::format("  first difference: {}: {}\n", first.act, first.image);
+    if (!first.step.empty()) text += fmt::format("    {}\n", first.step);
     return text;
 }
 

@@ -52,7 +52,7 @@ void decide(ImageComparison& made, const ErrorLimits& limits) {
         const Judged& first = made.judged.front();
         made.verdict = Verdict::over;
         made.reason =
-            fmt::format("{} is {:.6g}, allowed {:.6g}; {}", first.metric, first.value, first.threshold, at_text(made.error));
+            fmt::format("{}: {:.6g}, allowed {:.6g}; {}", first.metric, first.value, first.threshold, at_text(made.error));
         return;
     }
     const double warned = percent(made.error.over_warn_limit, made.error.pixels);

@@ -155,7 +155,7 @@ Panel image_panel(const std::string& label, const Texels& texels, const Range& r
 Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& made) {
     const double gain = gain_of(a, b);
     const std::uint32_t channels = a.channels;
-    Panel panel{fmt::format("{} x {:g}", channels > 1 ? "|B - A|" : "B - A", gain),
+    Panel panel{fmt::format("{} x {:g}", channels > 1 ? "abs(B - A)" : "B - A", gain),
                 [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
                 [gain, channels](double share) {
                     const double v = channels > 1 ? share : 2 * share - 1;

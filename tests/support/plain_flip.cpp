@@ -57,9 +57,7 @@ glm::dvec3 hunt_lab(const glm::dvec3& rgb) {
     return {lightness, .01 * lightness * 500 * (x - y), .01 * lightness * 200 * (y - z)};
 }
 
-double hyab(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
-}
+double hyab(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 using Kernel = std::vector<double>;  // 2 radius + 1 weights
 
@@ -183,7 +181,8 @@ double tone_mapped(double x) {
 Picture picture_of(const ColorPlanes& planes, const std::function<double(double)>& shown) {
     Picture picture{static_cast<int>(planes.width), static_cast<int>(planes.height), {}};
     for (std::size_t i = 0; i < planes.rgb[0].size(); ++i)
-        picture.pixels.emplace_back(shown(double(planes.rgb[0][i])), shown(double(planes.rgb[1][i])), shown(double(planes.rgb[2][i])));
+        picture.pixels.emplace_back(shown(double(planes.rgb[0][i])), shown(double(planes.rgb[1][i])),
+                                    shown(double(planes.rgb[2][i])));
     return picture;
 }
 
