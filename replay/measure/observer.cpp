@@ -1,18 +1,12 @@
 #include "replay/measure/observer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-// The same loops for processors with AVX2, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define STRATA_VECTOR_CODE __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define STRATA_VECTOR_CODE
-#endif
 
 namespace strata {
 namespace {
@@ -30,13 +24,9 @@ constexpr float xyz[3][3] = {
 constexpr float rgb[3][3] = {
     {3.08034199f, -1.53739897f, -.54294302f}, {-.92117840f, 1.87592998f, .04524841f}, {.05288129f, -.20401121f, 1.15112991f}};
 
-// std::bit_cast is a call where a caller is compiled for several processors.
-[[gnu::always_inline]] inline std::int32_t bits_of(float value) { return __builtin_bit_cast(std::int32_t, value); }
-[[gnu::always_inline]] inline float float_of(std::int32_t bits) { return __builtin_bit_cast(float, bits); }
-
 // By value: references to one of two floats keep a loop from becoming vector code.
-[[gnu::always_inline]] inline float smaller(float a, float b) { return a < b ? a : b; }
-[[gnu::always_inline]] inline float larger(float a, float b) { return a > b ? a : b; }
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
 
 struct Lanes {
     float at[lanes];
@@ -44,8 +34,7 @@ struct Lanes {
 
 /// in(x + k) and in(x - k) are `ahead` and `behind` of distance k.
 template <Symmetry symmetry, typename Ahead, typename Behind>
-[[gnu::always_inline]] inline Lanes filtered(const std::vector<float>& weights, const float* center, const Ahead& ahead,
-                                             const Behind& behind) {
+inline Lanes filtered(const std::vector<float>& weights, const float* center, const Ahead& ahead, const Behind& behind) {
     Lanes sum;
     for (std::size_t i = 0; i < lanes; ++i) sum.at[i] = weights[0] * center[i];
     for (std::size_t k = 1; k < weights.size(); ++k) {
@@ -56,8 +45,7 @@ template <Symmetry symmetry, typename Ahead, typename Behind>
 }
 
 template <Symmetry symmetry>
-[[gnu::always_inline]] inline void filter_across(const std::vector<float>& weights, const float* in, float* out,
-                                                 std::size_t count) {
+inline void filter_across(const std::vector<float>& weights, const float* in, float* out, std::size_t count) {
     for (std::size_t x = 0; x < count; x += lanes) {
         const float* center = in + x;
         const Lanes sum = filtered<symmetry>(
@@ -66,15 +54,14 @@ template <Symmetry symmetry>
     }
 }
 
-STRATA_VECTOR_CODE void across(const FlipKernel& kernel, const float* in, float* out, std::size_t count) {
+void across(const FlipKernel& kernel, const float* in, float* out, std::size_t count) {
     if (kernel.symmetry == Symmetry::even) filter_across<Symmetry::even>(kernel.weights, in, out, count);
     else filter_across<Symmetry::odd>(kernel.weights, in, out, count);
 }
 
 /// rows[radius] is the row itself, rows[radius + k] the one k below it. Adds to out.
 template <Symmetry symmetry>
-[[gnu::always_inline]] inline void filter_down(const std::vector<float>& weights, const float* const* rows, float* out,
-                                               std::size_t count) {
+inline void filter_down(const std::vector<float>& weights, const float* const* rows, float* out, std::size_t count) {
     const float* const* middle = rows + weights.size() - 1;
     for (std::size_t x = 0; x < count; x += lanes) {
         const Lanes sum = filtered<symmetry>(
@@ -84,13 +71,13 @@ template <Symmetry symmetry>
     }
 }
 
-STRATA_VECTOR_CODE void down(const FlipKernel& kernel, const float* const* rows, float* out, std::size_t count) {
+void down(const FlipKernel& kernel, const float* const* rows, float* out, std::size_t count) {
     if (kernel.symmetry == Symmetry::even) filter_down<Symmetry::even>(kernel.weights, rows, out, count);
     else filter_down<Symmetry::odd>(kernel.weights, rows, out, count);
 }
 
 /// Narkowicz's fit of the ACES curve without its pre-exposure of 0.6; above 100 it is 1.
-[[gnu::always_inline]] inline float tone_mapped(float light) {
+inline float tone_mapped(float light) {
     const float x = .6f * smaller(light, 100.f);
     return smaller(1.f, x * (2.51f * x + .03f) / (x * (2.43f * x + .59f) + .14f));
 }
@@ -101,21 +88,21 @@ struct Opponent {
     float luminance, red_green, blue_yellow;
 };
 
-[[gnu::always_inline]] inline Opponent opponent(float r, float g, float b) {
+inline Opponent opponent(float r, float g, float b) {
     const float x = xyz[0][0] * r + xyz[0][1] * g + xyz[0][2] * b;
     const float y = xyz[1][0] * r + xyz[1][1] * g + xyz[1][2] * b;
     const float z = xyz[2][0] * r + xyz[2][1] * g + xyz[2][2] * b;
     return {y, x - y, y - z};
 }
 
-[[gnu::always_inline]] inline float on_display(float light) { return smaller(1.f, larger(0.f, light)); }
+inline float on_display(float light) { return smaller(1.f, larger(0.f, light)); }
 
 /// `in` and `out` are three rows each.
 template <typename Shown>
-[[gnu::always_inline]] inline void opponent_row(const float* const* in, float* const* out, std::size_t count,
-                                                const Shown& shown) {
+inline void opponent_row(const float* const* in, float* const* out, std::size_t count, const Shown& shown) {
     const float *red = in[0], *green = in[1], *blue = in[2];
-    float* __restrict luminance = out[0], * __restrict red_green = out[1], * __restrict blue_yellow = out[2];
+    float *luminance = out[0], *red_green = out[1], *blue_yellow = out[2];
+#pragma GCC ivdep  // rows are apart
     for (std::size_t i = 0; i < count; ++i) {
         const Opponent o = opponent(shown(red[i]), shown(green[i]), shown(blue[i]));
         luminance[i] = o.luminance;
@@ -124,43 +111,42 @@ template <typename Shown>
     }
 }
 
-STRATA_VECTOR_CODE void displayed_row(const float* const* in, float* const* out, std::size_t count) {
+void displayed_row(const float* const* in, float* const* out, std::size_t count) {
     opponent_row(in, out, count, [](float light) { return on_display(light); });
 }
 
-STRATA_VECTOR_CODE void exposed_row(const float* const* in, float* const* out, std::size_t count, float exposure) {
+void exposed_row(const float* const* in, float* const* out, std::size_t count, float exposure) {
     opponent_row(in, out, count, [=](float light) { return tone_mapped(larger(0.f, light) * exposure); });
 }
 
 /// Relative error below 2e-7 for t in [.008, 1]: a third of the exponent, then Halley's iteration twice.
-[[gnu::always_inline]] inline float cube_root(float t) {
-    float y = float_of(static_cast<std::int32_t>(static_cast<float>(bits_of(t)) * (1 / 3.f)) + 0x2a514067);
+inline float cube_root(float t) {
+    float y = std::bit_cast<float>(static_cast<std::int32_t>(static_cast<float>(std::bit_cast<std::int32_t>(t)) * (1 / 3.f)) +
+                                   0x2a514067);
     y *= (y * y * y + 2 * t) / (2 * y * y * y + t);
     return y * (y * y * y + 2 * t) / (2 * y * y * y + t);
 }
 
 /// t > 0 and normal. The logarithm's series in (m - 1) / (m + 1), m in [.7, 1.42]: error below 1e-9.
-[[gnu::always_inline]] inline float log2_of(float t) {
-    const std::int32_t bits = bits_of(t), shifted = bits - 0x3f3504f3;
+inline float log2_of(float t) {
+    const std::int32_t bits = std::bit_cast<std::int32_t>(t), shifted = bits - 0x3f3504f3;
     const float exponent = static_cast<float>(shifted >> 23);
-    const float m = float_of((shifted & 0x007fffff) + 0x3f3504f3);
+    const float m = std::bit_cast<float>((shifted & 0x007fffff) + 0x3f3504f3);
     const float s = (m - 1) / (m + 1), q = s * s;
     return exponent + s * (2.8853901f + q * (.96179669f + q * (.57707802f + q * (.41219858f + q * .32059890f))));
 }
 
 /// -126 < t < 126. Taylor's polynomial around the nearest integer: error below 2e-7.
-[[gnu::always_inline]] inline float exp2_of(float t) {
+inline float exp2_of(float t) {
     const float whole = static_cast<float>(static_cast<std::int32_t>(t + (t < 0 ? -.5f : .5f))), f = t - whole;
     const float p =
         1 + f * (.69314718f + f * (.24022651f + f * (.055504109f + f * (.0096181291f + f * (.0013333558f + f * .00015403530f)))));
-    return p * float_of((static_cast<std::int32_t>(whole) + 127) << 23);
+    return p * std::bit_cast<float>((static_cast<std::int32_t>(whole) + 127) << 23);
 }
 
-[[gnu::always_inline]] inline float power(float base, float exponent) {
-    return exp2_of(exponent * log2_of(larger(base, 1e-18f)));
-}
+inline float power(float base, float exponent) { return exp2_of(exponent * log2_of(larger(base, 1e-18f))); }
 
-[[gnu::always_inline]] inline float lab_curve(float t) {
+inline float lab_curve(float t) {
     const float root = cube_root(larger(t, .008f));
     return t > .00885645168f ? root : t * 7.78703704f + 4.f / 29;
 }
@@ -170,11 +156,11 @@ struct Lab {
     float lightness, a, b;
 };
 
-[[gnu::always_inline]] inline float shown(float x, float y, float z, int channel) {
+inline float shown(float x, float y, float z, int channel) {
     return on_display(rgb[channel][0] * x + rgb[channel][1] * y + rgb[channel][2] * z);
 }
 
-[[gnu::always_inline]] inline Lab hunt_lab(float luminance, float red_green, float blue_yellow) {
+inline Lab hunt_lab(float luminance, float red_green, float blue_yellow) {
     const float x = luminance + red_green, z = luminance - blue_yellow;
     const float r = shown(x, luminance, z, 0), g = shown(x, luminance, z, 1), b = shown(x, luminance, z, 2);
     const float fx = lab_curve(xyz[0][0] * r + xyz[0][1] * g + xyz[0][2] * b);
@@ -185,7 +171,7 @@ struct Lab {
 }
 
 /// Lightness and hue differ independently.
-[[gnu::always_inline]] inline float hyab(const Lab& p, const Lab& q) {
+inline float hyab(const Lab& p, const Lab& q) {
     const float a = p.a - q.a, b = p.b - q.b;
     return std::abs(p.lightness - q.lightness) + std::sqrt(a * a + b * b);
 }
@@ -327,7 +313,7 @@ void Observer::filter_columns(const Planes& planes, std::uint32_t y, Rows& rows)
 
 namespace {
 
-[[gnu::always_inline]] inline float length(float x, float y) { return std::sqrt(x * x + y * y); }
+inline float length(float x, float y) { return std::sqrt(x * x + y * y); }
 
 /// What the columns' filters left of one row.
 struct SeenRow {
@@ -338,10 +324,11 @@ struct Knee {
     float knee, largest;
 };
 
-STRATA_VECTOR_CODE void difference_row(SeenRow a, SeenRow b, Knee errors, std::span<float> out) {
+void difference_row(SeenRow a, SeenRow b, Knee errors, std::span<float> out) {
     const float below = .95f / errors.knee, above = .05f / (errors.largest - errors.knee);
-    float* __restrict const to = out.data();
+    float* const to = out.data();
     const std::size_t count = out.size();
+#pragma GCC ivdep  // rows are apart
     for (std::size_t i = 0; i < count; ++i) {
         const Lab p = hunt_lab(a.luminance[i], a.red_green[i], a.blue_yellow[i]);
         const Lab q = hunt_lab(b.luminance[i], b.red_green[i], b.blue_yellow[i]);
