@@ -44,9 +44,14 @@ Result<ActComparison> compare_acts(const ActImages& a, const ActImages& b, const
     return act;
 }
 
-/// Notes the act's verdicts, and the first that is over tolerance.
+/// Notes the act's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
+/// fill the memory.
 void add(FrameComparison& frame, ActComparison act) {
-    for (const ImageComparison& image : act.images) {
+    for (ImageComparison& image : act.images) {
+        if (image.flip) {
+            image.flip->map = {};
+            image.flip->exposure = {};
+        }
         frame.verdict = std::max(frame.verdict, image.verdict);
         if (image.verdict == Verdict::over && frame.divergence.act.empty()) frame.divergence = {act.label, image.image, ""};
     }

@@ -155,14 +155,15 @@ Panel image_panel(const std::string& label, const Texels& texels, const Range& r
 Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& made) {
     const double gain = gain_of(a, b);
     const std::uint32_t channels = a.channels;
-    Panel panel{fmt::format("{} x {:g}", channels > 1 ? "abs(B - A)" : "B - A", gain),
+    const std::string scaled = gain < 1 ? fmt::format("/ {:g}", 1 / gain) : fmt::format("x {:g}", gain);
+    Panel panel{fmt::format("{} {}", channels > 1 ? "abs(B - A)" : "B - A", scaled),
                 [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
                 [gain, channels](double share) {
                     const double v = channels > 1 ? share : 2 * share - 1;
                     return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
                 },
                 channels > 1 ? "0" : fmt::format("{:.3g}", -1 / gain), fmt::format("{:.3g}", 1 / gain)};
-    panel.note = fmt::format("rmse {:.3g}", made.error.rmse);
+    panel.note = fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: no number" : "");
     return panel;
 }
 

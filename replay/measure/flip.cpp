@@ -88,26 +88,29 @@ Flip empty_flip(const ColorPlanes& reference, [[maybe_unused]] const ColorPlanes
 }  // namespace
 
 ColorPlanes color_planes(const HostImage& image) {
-    const Extent& extent = image.shape.extent;
+    ColorPlanes planes = color_planes(in_double(image));
     const FormatRow& format = row(image.shape.format);
-    ColorPlanes planes{extent.width, extent.height, {}, {}};
-    const std::size_t count = std::size_t(extent.width) * extent.height;
-    const bool bytes = format.bytes == format.channels;
+    if (format.bytes != format.channels) return planes;
+    for (std::vector<float>& plane : planes.rgb)
+        for (float& value : plane) value = decode_srgb(value);
+    return planes;
+}
+
+ColorPlanes color_planes(const ReferenceImage& image) {
+    ColorPlanes planes{image.width, image.height, {}, {}};
+    const std::size_t count = std::size_t(image.width) * image.height;
     for (std::vector<float>& plane : planes.rgb) plane.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto x = static_cast<std::uint32_t>(i % extent.width), y = static_cast<std::uint32_t>(i / extent.width);
         glm::dvec3 sum(0);
-        for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer) sum += glm::dvec3(texel(image, x, y, layer));
-        if (format.channels == 1) sum = glm::dvec3(sum.x);
+        for (std::size_t layer = 0; layer < image.layers; ++layer) sum += glm::dvec3(image.texels[layer * count + i]);
+        if (image.channels == 1) sum = glm::dvec3(sum.x);
         if (!std::isfinite(sum.x + sum.y + sum.z)) {
             if (planes.broken.empty()) planes.broken.resize(count);
             planes.broken[i] = true;
             continue;
         }
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double light = sum[static_cast<glm::length_t>(c)] / image.shape.layers;
-            planes.rgb[c][i] = static_cast<float>(bytes ? decode_srgb(light) : light);
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            planes.rgb[c][i] = static_cast<float>(sum[static_cast<glm::length_t>(c)] / image.layers);
     }
     return planes;
 }

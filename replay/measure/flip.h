@@ -21,6 +21,8 @@ struct ColorPlanes {
 
 /// The first three channels; layers are samples and are averaged. A single channel is grey. Bytes are sRGB, as in a PNG.
 ColorPlanes color_planes(const HostImage&);
+/// The same of an image in double.
+ColorPlanes color_planes(const ReferenceImage&);
 
 /// Seen from 0.7 m on a monitor 0.7 m wide of 3840 pixels: 67.02.
 inline constexpr double pixels_per_degree_of_a_desk = 3840 * 3.14159265358979323846 / 180;
