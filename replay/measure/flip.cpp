@@ -20,6 +20,8 @@ double light_that_shows_as_85_percent() {
 
 // A picture of a range beyond this is mostly darkness that no display shows.
 constexpr double most_exposures = 32;
+// Light below this is black: its exposures would leave the range of a float.
+constexpr float darkest = 1e-30f;
 
 std::vector<float> luminances(const ColorPlanes& picture) {
     std::vector<float> all(picture.rgb[0].size());
@@ -39,10 +41,10 @@ float median_of(std::vector<float>& values) {
 std::optional<ExposureRange> exposures_of(const ColorPlanes& picture) {
     std::vector<float> light = luminances(picture);
     const float brightest = light.empty() ? 0 : *std::ranges::max_element(light);
-    if (brightest <= 0) return {};
+    if (brightest <= darkest) return {};
     float median = median_of(light);
-    if (median <= 0) {
-        std::erase_if(light, [](float v) { return v <= 0; });
+    if (median <= darkest) {
+        std::erase_if(light, [](float v) { return v <= darkest; });
         median = median_of(light);
     }
     const double shown = light_that_shows_as_85_percent();

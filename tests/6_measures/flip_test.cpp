@@ -94,6 +94,7 @@ TEST(Flip, ABlackReferenceIsJudgedByTheExposuresOfTheTest) {
     const Flip flip = radiance_flip(uniform(0, 0, 0), uniform(3, 3, 3));
     EXPECT_GT(flip.mean, .9);
     EXPECT_EQ(radiance_flip(uniform(0, 0, 0), uniform(0, 0, 0)).mean, 0);
+    EXPECT_EQ(radiance_flip(uniform(1e-40f, 0, 0), uniform(0, 0, 0)).mean, 0);  // no exposure of a float shows it
 }
 
 TEST(Flip, AMostlyBlackReferenceHasFiniteExposures) {
