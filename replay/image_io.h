@@ -33,6 +33,11 @@ Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path&);
 std::byte display_byte(double light);
 /// Every texel's display_byte()s; alpha dropped.
 Result<void> write_png(const std::filesystem::path&, const HostImage&);
+/// Bytes as they are, three a pixel, rows top to bottom.
+Result<void> write_png(const std::filesystem::path&, const Extent&, std::span<const std::byte> rgb);
+
+/// As rgba8_unorm, bytes as they are (sRGB); a file without alpha reads as opaque. Refuses 16 bits per channel.
+Result<HostImage> read_png(const std::filesystem::path&);
 
 /// 32 hex digits over shape and texels.
 std::string hash_of(const HostImage&);

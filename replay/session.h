@@ -82,6 +82,7 @@ struct WorstTexel {
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
 struct Accuracy {
     std::vector<Figure> method;                            ///< from the stage's judge
+    std::optional<double> flip;                            ///< mean of FLIP against the truth, of a stage that makes radiance
     double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;

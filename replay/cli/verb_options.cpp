@@ -102,6 +102,26 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
     return indices;
 }
 
+std::string command_line(const CLI::App& verb) {
+    const auto quoted = [](const std::string& word) {
+        constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
+        if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+        std::string safe = "'";
+        for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        return safe + "'";
+    };
+    std::string line = "strata " + verb.get_name();
+    for (const CLI::Option* option : verb.get_options()) {
+        if (option->count() == 0) continue;
+        const bool flag = option->get_items_expected_max() == 0;
+        for (const std::string& value : option->results()) {
+            if (!option->get_positional()) line += " " + option->get_name();
+            if (!flag) line += " " + quoted(value);
+        }
+    }
+    return line;
+}
+
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text) {
     const std::size_t cross = text.find('x');
     std::pair<std::uint32_t, std::uint32_t> extent;

@@ -12,6 +12,7 @@ std::function<Result<void>()> declare_replay(CLI::App&);
 std::function<Result<void>()> declare_accept(CLI::App&);
 std::function<Result<void>()> declare_graph(CLI::App&);
 std::function<Result<void>()> declare_report(CLI::App&);
+std::function<Result<void>()> declare_diff(CLI::App&);
 
 std::span<const Verb> verbs() {
     static constexpr Verb table[] = {
@@ -25,6 +26,7 @@ std::span<const Verb> verbs() {
         {"accept", "write down what a replay gave as what is expected from now on", declare_accept},
         {"graph", "the plan of a frame: steps, barriers, memory, what is left out and why", declare_graph},
         {"report", "every technique of a stage: error against time", declare_report},
+        {"diff", "two captures, settings, devices or images: what differs, where, by how much", declare_diff},
     };
     return table;
 }

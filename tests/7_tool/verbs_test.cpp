@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "accept", "graph", "report"};
+constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "accept", "export", "graph", "diff", "report"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
@@ -153,6 +153,7 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
     EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
     const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name)));
