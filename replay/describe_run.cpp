@@ -5,29 +5,6 @@
 #include <functional>
 
 namespace strata {
-namespace {
-
-/// Bytes of the images and buffers that a stage's steps are the first to touch, whether or not their memory is shared.
-std::map<std::string, std::uint64_t> bytes_by_stage(const Plan& plan) {
-    std::map<std::string, std::uint64_t> by_stage;
-    std::vector<bool> image_seen(plan.images.size()), buffer_seen(plan.buffers.size());
-    for (const PlannedStep& planned : plan.steps) {
-        std::uint64_t& sum = by_stage[std::string(name(static_cast<Stage>(plan.scopes[planned.step.scope].stage)))];
-        for (const Barrier& barrier : planned.barriers) {
-            if (barrier.image && !image_seen[barrier.image.id]) {
-                image_seen[barrier.image.id] = true;
-                if (!plan.images[barrier.image.id].import) sum += bytes(plan.images[barrier.image.id].shape);
-            }
-            if (barrier.buffer && !buffer_seen[barrier.buffer.id]) {
-                buffer_seen[barrier.buffer.id] = true;
-                if (!plan.buffers[barrier.buffer.id].import) sum += plan.buffers[barrier.buffer.id].bytes;
-            }
-        }
-    }
-    return by_stage;
-}
-
-}  // namespace
 
 std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution) {
     std::vector<CounterRecord> records;
@@ -65,7 +42,8 @@ Run describe_run(const Declaration& d) {
     for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope].name, step.step.name, {}});
     for (const DeclaredAct& act : d.frame.acts)
         run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
-    run.stage_bytes = bytes_by_stage(d.plan);
+    run.memory.over_time = memory_over_time(d.plan);
+    for (const auto& [stage, memory] : run.memory.over_time.stages) run.stage_bytes[stage] = memory.allocated;
     run.acts_from_memo = d.scopes_from_memo.size();
     run.acts_executed = d.frame.acts.size() - run.acts_from_memo;
     return run;

@@ -6,6 +6,7 @@
 
 #include "replay/declaration.h"
 #include "replay/gpu/executor.h"
+#include "replay/memory_need.h"
 #include "replay/session.h"
 
 namespace strata {
@@ -15,7 +16,8 @@ public:
     /// Where frames come from: a file, or memory.
     using Source = std::variant<Capture, std::vector<Frame>>;
 
-    DeviceSession(std::unique_ptr<Device>, Source);
+    /// memory_budget: as in DeviceChoice.
+    DeviceSession(std::unique_ptr<Device>, Source, std::uint64_t memory_budget);
 
     const DeviceInfo& device() const override { return device_->info(); }
     const Capture* capture() const override { return std::get_if<Capture>(&source_); }
@@ -44,8 +46,20 @@ private:
     Result<Declaration> prepare(const Request&, Memo*, Keep);
     /// Whether the device can bind every buffer whole.
     Result<void> check_buffers(const Plan&) const;
+    /// Declares with the memo, as far as the budget leaves it room.
+    Result<Declaration> prepare_with_memo(const Request&, const RunOptions&);
+    MemoryNeed need_of(const Plan&, const RunOptions&) const;
+    /// Refuses what the memory budget does not cover, before any of it is allocated.
+    Result<void> check_budget(const Plan&, const RunOptions&) const;
+    /// Makes room for a plan that uses nothing of the memo.
+    Result<void> make_room(const Plan&, const RunOptions&);
+    void upload_scene();
     /// The one place where a device's collapse becomes an Error.
+    template <typename Action>
+    std::invoke_result_t<Action> guarded(Action);
     Result<Execution> execute(const Declaration&, const RunOptions&);
+    /// What is known of a run after it.
+    Run finished(const Declaration&, const Execution&);
     void remember(const Declaration&, const std::vector<CounterRecord>&);
 
     std::unique_ptr<Device> device_;
@@ -53,6 +67,9 @@ private:
     DeviceScene scene_;
     Memo memo_;
     std::unique_ptr<LoadedFrame> loaded_;
+    std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
+    std::uint64_t memory_budget_;
+    RunTimes times_;  ///< of the latest request
     Source source_;
 };
 

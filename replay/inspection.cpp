@@ -124,13 +124,9 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
             outputs.push_back({output, peeks.add(*step, image)});
     for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(places_of(d, act, peeks));
 
-    const std::size_t pipelines = executor_->pipelines_created();
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
-    Run run = describe_run(d);
-    run.counters = read_counters(d, *execution);
-    run.pipelines_created = executor_->pipelines_created() - pipelines;
-    run.notes = loaded_->notes;
+    Run run = finished(d, *execution);
     for (const Place& place : outputs) run.images.emplace(place.name, execution->peeked[place.peek]);
     for (std::size_t i = 0; i < of_acts.size(); ++i) {
         run.acts.push_back(describe_act(d, d.frame.acts[i]));

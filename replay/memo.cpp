@@ -36,21 +36,33 @@ KeptAct* Memo::find(std::uint64_t key, std::span<const std::string> images) {
     return &found->second;
 }
 
-KeptAct& Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
-    if (const auto old = kept_.find(key); old != kept_.end()) drop(old);
-    KeptAct act{.last_used = ++clock_};
-    for (const ImageRecord& image : images) {
-        act.images.push_back({image.name, {next_id_++}, image.shape});
-        act.bytes += bytes(image.shape);
-    }
-    while (held_ + act.bytes > budget_ && !kept_.empty()) {
+void Memo::shrink(std::uint64_t bytes) {
+    while (held_ > bytes) {
         const auto oldest = std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_used; });
         if (oldest->second.last_used > run_began_) break;
         drop(oldest);
     }
+}
+
+void Memo::limit(std::uint64_t budget_bytes) {
+    budget_ = budget_bytes;
+    begin_run();
+    shrink(budget_);
+}
+
+KeptAct* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
+    if (const auto old = kept_.find(key); old != kept_.end()) drop(old);
+    KeptAct act{.last_used = ++clock_};
+    for (const ImageRecord& image : images) {
+        act.images.push_back({image.name, {next_id_++}, image.shape});
+        act.bytes += executor_->image_bytes(image.shape);
+    }
+    if (act.bytes > budget_) return nullptr;
+    shrink(budget_ - act.bytes);
+    if (held_ + act.bytes > budget_) return nullptr;
     held_ += act.bytes;
     for (const auto& image : act.images) executor_->create_image(image.id, image.shape);
-    return kept_.emplace(key, std::move(act)).first->second;
+    return &kept_.emplace(key, std::move(act)).first->second;
 }
 
 void Memo::commit(std::uint64_t key, std::vector<CounterRecord> counters) {

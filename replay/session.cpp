@@ -6,6 +6,8 @@
 #include "replay/counted.h"
 #include "replay/describe_run.h"
 #include "replay/device_session.h"
+#include "replay/measure/host_memory.h"
+#include "replay/measure/lap.h"
 #include "replay/scene/fit_textures.h"
 
 namespace strata {
@@ -30,11 +32,12 @@ void collect_images(const Declaration& d, const Execution& execution, Run& run) 
 
 }  // namespace
 
-DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source)
+DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source, std::uint64_t memory_budget)
     : device_(std::move(device)),
       executor_(Executor::create(*device_)),
       scene_(*executor_),
       memo_(*executor_, memo_budget_bytes),
+      memory_budget_(memory_budget),
       source_(std::move(source)) {}
 
 std::size_t DeviceSession::frame_count() const {
@@ -52,29 +55,25 @@ Result<Frame> DeviceSession::frame(std::size_t index) {
 
 Result<Run> DeviceSession::run(const Request& request) {
     if (request.acts == Acts::brought_back) return run_with_acts(request);
-    auto declared = prepare(request, &memo_, Keep::outputs);
+    RunOptions options;
+    auto declared = prepare_with_memo(request, options);
     if (!declared) return declared.error();
     Declaration& d = *declared;
-    RunOptions options;
     if (!request.until.empty()) {
         const auto until = find_step(d.plan, request.until);
         if (!until) return until.error();
         options.until = *until;
     }
-    const std::size_t pipelines = executor_->pipelines_created();
     const auto execution = execute(d, options);
     if (!execution) {
         memo_.drop_unfilled();
         return execution.error();
     }
-    Run run = describe_run(d);
-    run.counters = read_counters(d, *execution);
+    Run run = finished(d, *execution);
     if (options.until) memo_.drop_unfilled();
     else remember(d, run.counters);
     run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
     collect_images(d, *execution, run);
-    run.pipelines_created = executor_->pipelines_created() - pipelines;
-    run.notes = loaded_->notes;
     return run;
 }
 
@@ -91,9 +90,7 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 step_ms[i].push_back(execution->step_ms);
                 continue;
             }
-            runs.push_back(describe_run(*declared));
-            runs.back().counters = read_counters(*declared, *execution);
-            runs.back().notes = loaded_->notes;
+            runs.push_back(finished(*declared, *execution));
             collect_images(*declared, *execution, runs.back());
         }
     }
@@ -109,6 +106,8 @@ Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
 
 Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
     const FrameVariant variant = variant_of(request);
+    times_ = {};
+    Lap lap;
     if (!loaded_ || loaded_->variant != variant) {
         auto recorded = frame(request.frame);
         if (!recorded) return recorded.error();
@@ -116,9 +115,13 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
         if (!loaded) return loaded.error();
         loaded_ = std::make_unique<LoadedFrame>(*std::move(loaded));
         loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
-        scene_.upload(scene_records(loaded_->frame));
+        not_uploaded_ = scene_records(loaded_->frame);
+        scene_.describe(*not_uploaded_);
+        times_.load = lap();
     }
-    return declare(request, {*loaded_, scene_, device(), memo}, keep);
+    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), memo}, keep); });
+    times_.declare = lap();
+    return declared;
 }
 
 Result<void> DeviceSession::check_buffers(const Plan& plan) const {
@@ -131,13 +134,54 @@ Result<void> DeviceSession::check_buffers(const Plan& plan) const {
     return {};
 }
 
-Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
-    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
+template <typename Action>
+std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
     try {
-        return executor_->run(d.plan, options);
+        return action();
     } catch (const DeviceFailure& failure) {
         return fail(Fault::device_failed, "{}", failure.what());
     }
+}
+
+void DeviceSession::upload_scene() {
+    if (!not_uploaded_) return;
+    Lap lap;
+    if (memory_budget_ != 0) {  // the old frame's memory goes first
+        executor_->forget_plan();
+        scene_.forget();
+    }
+    scene_.upload(*not_uploaded_);
+    not_uploaded_.reset();
+    times_.upload = lap();
+}
+
+Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
+    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
+    const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
+    if (!uses_memo)
+        if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
+    auto execution = guarded([&]() -> Result<Execution> {
+        upload_scene();
+        return executor_->run(d.plan, options);
+    });
+    if (execution) times_.device = execution->host_ms;
+    return execution;
+}
+
+Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
+    Run run = describe_run(d);
+    run.counters = read_counters(d, execution);
+    run.notes = loaded_->notes;
+    run.pipelines_created = execution.pipelines_created;
+    run.host_ms = times_;
+    const DeviceMemory memory = executor_->memory();
+    run.memory.plan = memory.plan;
+    run.memory.memo = memo_.held();
+    run.memory.scene = memory.imports - std::min(memory.imports, run.memory.memo);
+    run.memory.allocated = memory.allocated;
+    run.memory.peak_allocated = memory.peak_allocated;
+    run.memory.host_peak = host_peak_bytes();
+    return run;
 }
 
 void DeviceSession::remember(const Declaration& d, const std::vector<CounterRecord>& counters) {
@@ -154,7 +198,7 @@ namespace {
 Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, DeviceSession::Source source) {
     auto device = Device::open(choice);
     if (!device) return device.error();
-    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source)));
+    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source), choice.memory_budget));
 }
 
 }  // namespace
