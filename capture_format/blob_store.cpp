@@ -8,10 +8,13 @@
 #include "capture_format/blob_store.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstring>
 
 #include <xxhash.h>
 #include <zstd.h>
+
+#include "capture_format/picture.h"
 
 namespace strata {
 namespace {
@@ -35,6 +38,20 @@ BlobHash blob_hash(std::span<const std::byte> bytes) {
     if (bytes.empty()) return {};
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
     return {hash.low64, hash.high64};
+}
+
+std::string text(const BlobHash& hash) { return fmt::format("{:016x}{:016x}", hash.high, hash.low); }
+
+std::optional<BlobHash> parse_blob_hash(std::string_view digits) {
+    constexpr std::size_t half = 16;
+    BlobHash hash;
+    const auto parse = [](std::string_view part, std::uint64_t& value) {
+        const auto [end, problem] = std::from_chars(part.data(), part.data() + part.size(), value, 16);
+        return problem == std::errc() && end == part.data() + part.size();
+    };
+    if (digits.size() != 2 * half || !parse(digits.substr(0, half), hash.high) || !parse(digits.substr(half), hash.low))
+        return {};
+    return hash;
 }
 
 BlobName BlobCollector::put(std::span<const std::byte> bytes) {
@@ -73,10 +90,12 @@ Result<std::vector<PackedBlobs>> BlobCollector::pack() {
     return packed;
 }
 
-Result<BlobStore> BlobStore::open(const Container& container) {
+Result<BlobStore> BlobStore::open(const Container& container, SectionType type) {
     BlobStore store(container);
     for (std::size_t i = 0; i < container.sections().size(); ++i) {
-        if (container.sections()[i].type != SectionType::blobs) continue;
+        const Section& section = container.sections()[i];
+        if (section.type != type) continue;
+        if (type == SectionType::expect && section.version != expect_images_version) continue;  // a text, or a later thing
         if (const Result<void> read = store.read_index(i); !read) return read.error();
     }
     return store;
@@ -84,7 +103,7 @@ Result<BlobStore> BlobStore::open(const Container& container) {
 
 Result<void> BlobStore::read_index(std::size_t number) {
     const Section& section = container_->sections()[number];
-    if (section.version != blobs_version) {
+    if (section.type == SectionType::blobs && section.version != blobs_version) {
         return fail(Fault::bad_input, "{} has version {}; this program reads {}", container_->whereabouts(number),
                     section.version, blobs_version);
     }
@@ -150,8 +169,7 @@ Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
     if (blob.bytes == 0) return std::span<const std::byte>();
     const auto place = places_.find(blob.hash);
     if (place == places_.end() || place->second.bytes != blob.bytes) {
-        return fail(Fault::bad_input, "the file lacks blob {:016x}{:016x} of {} bytes", blob.hash.high, blob.hash.low,
-                    blob.bytes);
+        return fail(Fault::bad_input, "the file lacks blob {} of {} bytes", text(blob.hash), blob.bytes);
     }
     BlobsSection& section = sections_[place->second.section];
     section.used = true;

@@ -155,16 +155,4 @@ Result<void> Recorder::finish() {
     return {};
 }
 
-Result<void> append_expectation(const std::filesystem::path& path, std::string_view expectation) {
-    if (expectation.size() > longest_expectation) {
-        return fail(Fault::usage, "an expectation of {} bytes is too long; {} are the most", expectation.size(),
-                    longest_expectation);
-    }
-    Result<ContainerWriter> file = ContainerWriter::extend(path);
-    if (!file) return file.error();
-    const Payload payload = {SectionType::expect, expect_version, std::as_bytes(std::span(expectation)), expectation.size()};
-    if (const Result<void> added = file->add(payload); !added) return added;
-    return file->finish();
-}
-
 }  // namespace strata

@@ -18,6 +18,9 @@
 
 namespace strata {
 
+/// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
+enum class Acts { left, brought_back };
+
 /// What to replay and what to bring back.
 struct Request {
     std::size_t frame = 0;                           ///< index in the capture
@@ -27,11 +30,20 @@ struct Request {
     std::string until;                               ///< last step to run: part of its name; empty: all
     std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
+    Acts acts = Acts::left;                          ///< not with `until`
 };
 
 struct StepRecord {
     std::string scope, name;   ///< "transparency: transparency/weighted", the shader
     std::optional<Spread> ms;  ///< with timing
+};
+
+/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
+struct ActImages {
+    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
+    std::string label;   ///< "transparency", or "combine at film"
+    std::string choice;  ///< "technique key=value ..."
+    std::map<std::string, HostImage> images;
 };
 
 /// What one run gave.
@@ -44,19 +56,13 @@ struct Run {
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
+    std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
     std::size_t acts_executed = 0, acts_from_memo = 0;
     std::size_t pipelines_created = 0;  ///< during this run
     std::vector<std::string> notes;     ///< what had to be reduced to fit the device
-};
-
-/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
-struct ActImages {
-    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
-    std::string label;   ///< "transparency", or "combine at film"
-    std::string choice;  ///< "technique key=value ..."
-    std::map<std::string, HostImage> images;
+    std::vector<ActImages> acts;        ///< with Acts::brought_back, in the order of the frame
 };
 
 /// What a step of the plan wrote, read back right after it.
@@ -94,7 +100,9 @@ public:
     virtual ~Session() = default;
 
     virtual const DeviceInfo& device() const = 0;
-    virtual std::string capture_id() const = 0;
+    /// The capture it was opened on; null for frames made in code.
+    virtual const Capture* capture() const = 0;
+    std::string capture_id() const { return capture() ? capture()->id() : "made in code"; }
     virtual std::size_t frame_count() const = 0;
     virtual Result<Frame> frame(std::size_t) = 0;
 
@@ -111,7 +119,7 @@ public:
     /// Any image after any step: step by index in the plan, image by its name in the graph.
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
     /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
-    virtual Result<std::vector<ActImages>> act_images(const Request&) = 0;
+    Result<std::vector<ActImages>> act_images(Request);
     /// What every step of a stage's acts wrote, in order.
     virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.

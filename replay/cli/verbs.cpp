@@ -8,6 +8,7 @@ std::function<Result<void>()> declare_import(CLI::App&);
 std::function<Result<void>()> declare_info(CLI::App&);
 std::function<Result<void>()> declare_validate(CLI::App&);
 std::function<Result<void>()> declare_replay(CLI::App&);
+std::function<Result<void>()> declare_accept(CLI::App&);
 std::function<Result<void>()> declare_graph(CLI::App&);
 std::function<Result<void>()> declare_report(CLI::App&);
 
@@ -19,6 +20,7 @@ std::span<const Verb> verbs() {
         {"info", "what is in a capture, and what its frames call for", declare_info},
         {"validate", "check every byte and every index of a capture", declare_validate},
         {"replay", "run every pass again; write EXR, PNG and JSON", declare_replay},
+        {"accept", "write down what a replay gave as what is expected from now on", declare_accept},
         {"graph", "the plan of a frame: steps, barriers, memory, what is left out and why", declare_graph},
         {"report", "every technique of a stage: error against time", declare_report},
     };

@@ -43,7 +43,8 @@ int rank(const DeviceInfo& device) {
 }
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index) {
-    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
+                                             vk::PhysicalDeviceSubgroupProperties>();
     const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
     return {.index = index,
@@ -53,6 +54,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index)
             .cpu = cpu_name(),
             .kind = kind_of(properties.deviceType),
             .software = properties.deviceType == vk::PhysicalDeviceType::eCpu,
+            .vector_width = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize,
             .max_buffer_bytes = properties.limits.maxStorageBufferRange,
             .max_image_extent = properties.limits.maxImageDimension2D,
             .capabilities = capabilities_of(device),

@@ -16,6 +16,7 @@ struct DeviceInfo {
     std::string name, driver, driver_version, cpu;
     std::string kind;                    ///< "discrete", "integrated", "cpu", ...
     bool software = false;               ///< times are the CPU's and no model of a GPU
+    std::uint32_t vector_width = 0;      ///< lanes of a subgroup: on a CPU driver the width of its vectors in 32-bit numbers
     std::uint64_t max_buffer_bytes = 0;  ///< of one storage buffer binding
     std::uint32_t max_image_extent = 0;
     Capabilities capabilities;

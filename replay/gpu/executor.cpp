@@ -208,6 +208,7 @@ void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
     device_->run_once([&](const vk::raii::CommandBuffer& commands) {
         full_barrier(commands);
         for (const Image image : plan.kept_images) {
+            if (frame.options.kept_images == KeptImages::left) break;
             const bool is_there = !plan.images[image.id].import && frame.resources.holds(image);
             if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), copies);
         }

@@ -30,11 +30,14 @@ struct Peek {
 };
 
 enum class Timestamps { off, on };
+/// Whether the host reads the images that the graph keeps. They are made either way.
+enum class KeptImages { read, left };
 
 struct RunOptions {
     std::optional<std::size_t> until;  ///< last step to run, all of them where empty
     std::vector<Peek> peeks;
     Timestamps timestamps = Timestamps::off;
+    KeptImages kept_images = KeptImages::read;
 };
 
 struct Execution {
