@@ -1,8 +1,9 @@
-// strata import: a glTF scene becomes a capture of one frame.
+// strata import: a glTF scene, or a deep image, becomes a capture.
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
 #include "capture_format/whole_file.h"
@@ -16,10 +17,41 @@ struct Options {
     std::filesystem::path scene, output;
     std::string size = "640x360";
     GltfOptions gltf;
+    bool deep = false;
+    DeepOptions of_deep;
     DeviceChoice device;
 };
 
+std::filesystem::path output_of(const Options& options) {
+    return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
+}
+
+Result<void> record_frame(const Options& options, const Frame& frame) {
+    if (const auto good = check_frame(frame); !good) return good;
+    auto file = WholeFile::begin(output_of(options));
+    if (!file) return file.error();
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
+    if (!recorder) return recorder.error();
+    if (const auto done = add_thumbnail(*recorder, frame, options.device); !done) return done;
+    if (const auto done = recorder->record(frame); !done) return done;
+    if (const auto done = recorder->finish(); !done) return done;
+    return file->commit();
+}
+
+Result<void> import_deep_image(const Options& options) {
+    const auto image = import_deep(options.scene, options.of_deep);
+    if (!image) return image.error();
+    for (const std::string& warning : image->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
+    if (const auto done = record_frame(options, image->frame); !done) return done;
+    const DeepCensus& census = image->census;
+    fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", counted(census.samples, "sample"),
+               options.scene.filename().string(), counted(census.fragments, "fragment"), counted(census.pixels, "pixel"),
+               census.deepest, output_of(options).string());
+    return {};
+}
+
 Result<void> import(const Options& options) {
+    if (options.deep) return import_deep_image(options);
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
@@ -28,22 +60,11 @@ Result<void> import(const Options& options) {
     const auto scene = import_gltf(options.scene, gltf);
     if (!scene) return scene.error();
     for (const std::string& warning : scene->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
-    if (const auto good = check_frame(scene->frame); !good) return good;
-
-    const std::filesystem::path output =
-        options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
-    auto file = WholeFile::begin(output);
-    if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
-    if (!recorder) return recorder.error();
-    if (const auto done = add_thumbnail(*recorder, scene->frame, options.device); !done) return done;
-    if (const auto done = recorder->record(scene->frame); !done) return done;
-    if (const auto done = recorder->finish(); !done) return done;
-    if (const auto done = file->commit(); !done) return done;
+    if (const auto done = record_frame(options, scene->frame); !done) return done;
     const Frame& frame = scene->frame;
     fmt::print(stderr, "imported {}, {}, {}, {} into {}\n", counted(frame.draws.size(), "draw"),
                counted(frame.materials.size(), "material"), counted(frame.textures.size(), "texture"),
-               counted(frame.lights.size(), "light"), output.string());
+               counted(frame.lights.size(), "light"), output_of(options).string());
     return {};
 }
 
@@ -51,7 +72,9 @@ Result<void> import(const Options& options) {
 
 std::function<Result<void>()> declare_import(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    app.add_option("scene", options->scene, "a .gltf or .glb file")->required();
+    app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")->required();
+    app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
+    app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");
     app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
