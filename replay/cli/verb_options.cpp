@@ -45,6 +45,9 @@ Texture thumbnail_of(const HostImage& display) {
 void add_options(CLI::App& app, OpenOptions& options) {
     app.add_option("capture", options.capture, "a .strata file")->required();
     app.add_option("--gpu", options.device.gpu, "device by index or part of its name; see strata --list-gpus");
+    app.add_option("--without", options.device.without,
+                   "treat the device as lacking this Vulkan feature or capability; repeatable")
+        ->allow_extra_args(false);
     app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
     app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
 }
