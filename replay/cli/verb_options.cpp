@@ -50,6 +50,9 @@ Frame small(Frame frame) {
 void add_options(CLI::App& app, OpenOptions& options) {
     app.add_option("capture", options.capture, "a .strata file")->required();
     app.add_option("--gpu", options.device.gpu, "device by index or part of its name; see strata --list-gpus");
+    app.add_option("--without", options.device.without,
+                   "treat the device as lacking this Vulkan feature or capability; repeatable")
+        ->allow_extra_args(false);
     app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
     app.add_option("--memory-budget", options.device.memory_budget,
                    "most memory to take from the device, like 256MiB; what needs more is refused (4)")

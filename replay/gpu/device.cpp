@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "capture_format/nearest_name.h"
 #include "replay/gpu/feature_table.h"
 #include "replay/gpu/opened_device.h"
 
@@ -67,6 +68,26 @@ std::vector<DeviceInfo> describe_all(const std::vector<vk::raii::PhysicalDevice>
     return described;
 }
 
+/// Takes what the user names away from every device.
+Result<void> leave_out(std::vector<DeviceInfo>& devices, const std::vector<std::string>& without) {
+    const std::vector<std::string_view> features = baseline_features();
+    for (const std::string& wanted : without) {
+        std::vector<std::string_view> known = features;
+        bool is_known = std::ranges::find(features, wanted) != features.end();
+        for (DeviceInfo& device : devices)
+            if (is_known && device.lacks.empty()) device.lacks = fmt::format("the feature {} (by --without)", wanted);
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Capability::count_); ++i) {
+            const auto capability = static_cast<Capability>(i);
+            known.push_back(name(capability));
+            if (name(capability) != wanted) continue;
+            is_known = true;
+            for (DeviceInfo& device : devices) std::erase(device.capabilities, capability);
+        }
+        if (!is_known) return fail(Fault::usage, "no device feature is called '{}'{}", wanted, did_you_mean(wanted, known));
+    }
+    return {};
+}
+
 std::string list_of(const std::vector<DeviceInfo>& devices) {
     std::string list;
     for (const DeviceInfo& device : devices) {
@@ -117,7 +138,9 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
     if (!instance) return instance.error();
     try {
         auto devices = instance->handle().enumeratePhysicalDevices();
-        auto chosen = strata::choose(describe_all(devices), choice.gpu);
+        auto described = describe_all(devices);
+        if (const auto left_out = leave_out(described, choice.without); !left_out) return left_out.error();
+        auto chosen = strata::choose(described, choice.gpu);
         if (!chosen) return chosen.error();
         auto physical = std::move(devices[chosen->index]);
         return std::unique_ptr<Device>(
