@@ -11,7 +11,7 @@ packages=(
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     libspirv-cross-c-shared-dev libfmt-dev libglm-dev libtbb-dev libzstd-dev libxxhash-dev
     libflatbuffers-dev flatbuffers-compiler libmeshoptimizer-dev libstb-dev
-    libopenexr-dev nlohmann-json3-dev libcli11-dev
+    libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
 

@@ -6,8 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture_format/container.h"
@@ -21,6 +24,9 @@ struct BlobHash {
     auto operator<=>(const BlobHash&) const = default;
 };
 BlobHash blob_hash(std::span<const std::byte>);
+/// 32 hex digits, and back: nothing for any other text.
+std::string text(const BlobHash&);
+std::optional<BlobHash> parse_blob_hash(std::string_view);
 
 /// A blob as a frame names it.
 struct BlobName {
@@ -46,21 +52,27 @@ public:
     BlobName put(std::span<const std::byte>);
     /// The blobs put since the last call as sections, none when there are no new ones. Fails for a blob above the limit.
     Result<std::vector<PackedBlobs>> pack();
+    /// What pack() would compress now.
+    std::uint64_t pending_bytes() const { return pending_bytes_; }
 
 private:
     struct Pending {
         BlobHash hash;
         std::vector<std::byte> bytes;
     };
+    static PackedBlobs pack(std::span<const Pending>, std::uint64_t raw_bytes);
+
     std::set<BlobHash> known_;
     std::vector<Pending> pending_;
+    std::uint64_t pending_bytes_ = 0;
 };
 
 /// Reading: finds blobs by hash, decompresses a section when one of its blobs is asked for the first time.
 class BlobStore {
 public:
-    /// Reads the indices of all blobs sections; decompresses nothing. The container must outlive the store.
-    static Result<BlobStore> open(const Container&);
+    /// Reads the indices of all blobs sections of frames, or of the images of expectations; decompresses nothing. The container
+    /// must outlive the store.
+    static Result<BlobStore> open(const Container&, SectionType = SectionType::blobs);
 
     /// The bytes of a blob, valid until keep_only_used().
     Result<std::span<const std::byte>> find(const BlobName&);

@@ -125,7 +125,7 @@ void FrameChain::clear() {
 }
 
 void FrameChain::remember(Words frame) {
-    std::ranges::rotate(history_, history_.end() - 1);
+    std::rotate(history_.begin(), history_.end() - 1, history_.end());  // clang 14 cannot compile the one of std::ranges
     history_[0] = std::move(frame);
     known_ = std::min<std::uint32_t>(known_ + 1, static_cast<std::uint32_t>(history_.size()));
     reach_ = (reach_ + 1) % frames_per_key;

@@ -18,8 +18,9 @@ namespace strata {
 
 struct Capture::Contents {
     Container container;
-    std::optional<BlobStore> blobs;  ///< refers to the container, so it opens when that has its place
-    std::mutex decoding;             ///< frame() fills and empties what follows and the blob store
+    std::optional<BlobStore> blobs;   ///< refers to the container, so it opens when that has its place
+    std::optional<BlobStore> images;  ///< of the expectations, opened when the first is asked for
+    std::mutex decoding;              ///< frame() fills and empties what follows and the blob store
     FrameChain chain;
     std::optional<std::size_t> unpacked;  ///< the frame the chain ends with
     std::vector<std::size_t> frames;      ///< section numbers
@@ -184,6 +185,22 @@ const std::string& Capture::id() const { return contents_->id; }
 const CaptureSummary& Capture::summary() const { return contents_->summary; }
 const Texture& Capture::thumbnail() const { return contents_->thumbnail; }
 const std::vector<std::string>& Capture::expectations() const { return contents_->expectations; }
+
+Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, std::uint64_t bytes) const {
+    Contents& contents = *contents_;
+    const auto hash = parse_blob_hash(name);
+    if (!hash) return fail(Fault::bad_input, "an expectation names the image '{}', which is no hash", name);
+    const std::lock_guard lock(contents.decoding);
+    if (!contents.images) {
+        Result<BlobStore> opened = BlobStore::open(contents.container, SectionType::expect);
+        if (!opened) return opened.error();
+        contents.images = *std::move(opened);
+    }
+    contents.images->keep_only_used();  // those of the expectation before the last
+    const auto found = contents.images->find({*hash, bytes});
+    if (!found) return found.error();
+    return std::vector<std::byte>(found->begin(), found->end());
+}
 
 Result<Frame> Capture::frame(std::size_t index) const {
     Contents& contents = *contents_;

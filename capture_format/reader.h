@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -47,8 +48,10 @@ public:
     const CaptureSummary& summary() const;
     /// Small RGBA8 picture, empty when there is none.
     const Texture& thumbnail() const;
-    /// What append_expectation() added, oldest first.
+    /// The texts of ExpectationWriter and append_expectation(), oldest first.
     const std::vector<std::string>& expectations() const;
+    /// Texels that were kept with the expectations: by the name ExpectationWriter::add_image() gave, and how many bytes.
+    Result<std::vector<std::byte>> expected_image(std::string_view name, std::uint64_t bytes) const;
 
 private:
     struct Contents;

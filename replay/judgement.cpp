@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "passes/frame_images.h"
+#include "replay/measure/flip.h"
+
 namespace strata {
 namespace {
 
@@ -62,6 +65,15 @@ void compare(std::string_view name, const ReferenceImage& got, const ReferenceIm
     }
 }
 
+/// How different the stage's picture looks from its truth; of stages that make radiance.
+std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
+    const std::string_view picture = stage.outputs.front();
+    const FrameImageRow* row = find_frame_image(picture);
+    const auto got = result.find(picture), wanted = truth.find(picture);
+    if (!row || row->content != Content::radiance || got == result.end() || wanted == truth.end()) return {};
+    return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
+}
+
 }  // namespace
 
 ImageSet run_model(const JudgedStage& stage) {
@@ -93,7 +105,9 @@ Accuracy judge_stage(const JudgedStage& stage) {
 
     const StageInfo& of_stage = info(technique.stage);
     const StageInput input{stage.frame, stage.before};
-    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : of_stage.truth(input), input);
+    const ImageSet truth = stage.truth ? ImageSet() : of_stage.truth(input);
+    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : truth, input);
+    accuracy.flip = flip_of(of_stage, stage.result, stage.truth ? *stage.truth : truth);
     return accuracy;
 }
 

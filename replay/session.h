@@ -15,8 +15,12 @@
 #include "replay/host_image.h"
 #include "replay/measure/timing.h"
 #include "replay/memo.h"
+#include "replay/memory_need.h"
 
 namespace strata {
+
+/// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
+enum class Acts { left, brought_back };
 
 /// What to replay and what to bring back.
 struct Request {
@@ -27,11 +31,34 @@ struct Request {
     std::string until;                               ///< last step to run: part of its name; empty: all
     std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
+    Acts acts = Acts::left;                          ///< not with `until`
 };
 
 struct StepRecord {
     std::string scope, name;   ///< "transparency: transparency/weighted", the shader
     std::optional<Spread> ms;  ///< with timing
+};
+
+/// What a run held, in bytes.
+struct RunMemory {
+    std::uint64_t scene = 0, memo = 0, plan = 0;      ///< on the device when it was done
+    std::uint64_t allocated = 0, peak_allocated = 0;  ///< taken from the device now, and the most since the session opened
+    std::uint64_t host_peak = 0;                      ///< the process's, see host_peak_bytes()
+    MemoryOverTime over_time;                         ///< by stage and step
+};
+
+/// Where a run spent the host's time, in milliseconds.
+struct RunTimes {
+    double load = 0, declare = 0, upload = 0;  ///< frame decoded and turned into records; graph compiled; scene to the device
+    HostTimes device;
+};
+
+/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
+struct ActImages {
+    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
+    std::string label;   ///< "transparency", or "combine at film"
+    std::string choice;  ///< "technique key=value ..."
+    std::map<std::string, HostImage> images;
 };
 
 /// What one run gave.
@@ -44,24 +71,20 @@ struct Run {
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
+    std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
+    RunMemory memory;
+    RunTimes host_ms;
     std::size_t acts_executed = 0, acts_from_memo = 0;
     std::size_t pipelines_created = 0;  ///< during this run
     std::vector<std::string> notes;     ///< what had to be reduced to fit the device
-};
-
-/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
-struct ActImages {
-    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
-    std::string label;   ///< "transparency", or "combine at film"
-    std::string choice;  ///< "technique key=value ..."
-    std::map<std::string, HostImage> images;
+    std::vector<ActImages> acts;        ///< with Acts::brought_back, in the order of the frame
 };
 
 /// What a step of the plan wrote, read back right after it.
 struct StepImages {
-    std::size_t step = 0;                     ///< in Plan::steps
+    std::size_t step = 0;                     ///< in the plan that keeps every image and so leaves nothing out
     std::string scope, name;                  ///< as in StepRecord
     std::map<std::string, HostImage> images;  ///< by their names in the graph
 };
@@ -76,6 +99,7 @@ struct WorstTexel {
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
 struct Accuracy {
     std::vector<Figure> method;                            ///< from the stage's judge
+    std::optional<double> flip;                            ///< mean of FLIP against the truth, of a stage that makes radiance
     double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
@@ -94,7 +118,9 @@ public:
     virtual ~Session() = default;
 
     virtual const DeviceInfo& device() const = 0;
-    virtual std::string capture_id() const = 0;
+    /// The capture it was opened on; null for frames made in code.
+    virtual const Capture* capture() const = 0;
+    std::string capture_id() const { return capture() ? capture()->id() : "made in code"; }
     virtual std::size_t frame_count() const = 0;
     virtual Result<Frame> frame(std::size_t) = 0;
 
@@ -111,7 +137,7 @@ public:
     /// Any image after any step: step by index in the plan, image by its name in the graph.
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
     /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
-    virtual Result<std::vector<ActImages>> act_images(const Request&) = 0;
+    Result<std::vector<ActImages>> act_images(Request);
     /// What every step of a stage's acts wrote, in order.
     virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.

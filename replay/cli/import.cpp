@@ -1,8 +1,10 @@
-// strata import: a glTF scene becomes a capture, of one frame or of an animation's.
+// strata import: a glTF scene becomes a capture, of one frame or of an animation's; so does a deep image.
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
 #include "capture_format/whole_file.h"
@@ -17,40 +19,54 @@ struct Options {
     std::string size = "640x360";
     std::uint32_t frames = 1;
     GltfOptions gltf;
+    bool deep = false;
+    DeepOptions of_deep;
     DeviceChoice device;
 };
-
-void print_imported(const Frame& frame, std::uint32_t frames, const std::filesystem::path& output) {
-    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", counted(frames, "frame"), counted(frame.draws.size(), "draw"),
-               counted(frame.materials.size(), "material"), counted(frame.textures.size(), "texture"),
-               counted(frame.lights.size(), "light"), output.string());
-}
 
 std::filesystem::path output_of(const Options& options) {
     return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
 }
 
-/// Frame after frame, so that an animation of a large scene never lies in memory as a whole.
-Result<void> record_frames(GltfScene& scene, const Options& options) {
-    auto frame = scene.frame(0);
-    if (!frame) return frame.error();
+/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns the last one.
+Result<Frame> record_frames(const Options& options, std::uint32_t count,
+                            const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
+    auto frame = frame_at(0);
+    if (!frame) return frame;
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
     auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
-    if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done;
-    for (std::uint32_t index = 0; index < options.frames; ++index) {
-        if (index > 0) frame = scene.frame(index);
-        if (!frame) return frame.error();
-        if (const auto done = recorder->record(*frame); !done) return done;
+    if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
+    for (std::uint32_t index = 0; index < count; ++index) {
+        if (index > 0) frame = frame_at(index);
+        if (!frame) return frame;
+        if (const auto done = recorder->record(*frame); !done) return done.error();
     }
-    if (const auto done = recorder->finish(); !done) return done;
-    if (const auto done = file->commit(); !done) return done;
-    print_imported(*frame, options.frames, output_of(options));
+    if (const auto done = recorder->finish(); !done) return done.error();
+    if (const auto done = file->commit(); !done) return done.error();
+    return frame;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
+}
+
+Result<void> import_deep_image(const Options& options) {
+    auto image = import_deep(options.scene, options.of_deep);
+    if (!image) return image.error();
+    print_warnings(image->warnings);
+    const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
+    if (!recorded) return recorded.error();
+    const DeepCensus& census = image->census;
+    fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", counted(census.samples, "sample"),
+               options.scene.filename().string(), counted(census.fragments, "fragment"), counted(census.pixels, "pixel"),
+               census.deepest, output_of(options).string());
     return {};
 }
 
 Result<void> import(const Options& options) {
+    if (options.deep) return import_deep_image(options);
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
@@ -58,16 +74,22 @@ Result<void> import(const Options& options) {
     if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
-    const auto recorded = record_frames(*scene, options);
-    for (const std::string& warning : scene->warnings()) fmt::print(stderr, "strata: warning: {}\n", warning);
-    return recorded;
+    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
+    print_warnings(scene->warnings());
+    if (!last) return last.error();
+    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", counted(options.frames, "frame"),
+               counted(last->draws.size(), "draw"), counted(last->materials.size(), "material"),
+               counted(last->textures.size(), "texture"), counted(last->lights.size(), "light"), output_of(options).string());
+    return {};
 }
 
 }  // namespace
 
 std::function<Result<void>()> declare_import(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    app.add_option("scene", options->scene, "a .gltf or .glb file")->required();
+    app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")->required();
+    app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
+    app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");
     app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");

@@ -1,15 +1,18 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "capture_format/whole_file.h"
-#include "replay/cli/revision.h"
+#include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
+#include "replay/expectation_check.h"
 #include "replay/image_io.h"
+#include "replay/repeat.h"
 
 namespace strata {
 namespace {
@@ -23,44 +26,19 @@ struct Options {
     std::vector<std::string> outputs = {"color", "depth_layers", "display"};
     std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder = ".";
-    bool json = false;
+    double tolerance = 0;
+    bool json = false, expect = false, no_expect = false;
 };
 
-/// What a picture needs to be traced back; the same block is in the EXR header and in the JSON.
-Metadata provenance(const Session& session, const Request& request, const Run& run) {
-    ordered_json choices(run.choices);
-    const DeviceInfo& device = session.device();
-    Metadata metadata{{"software", fmt::format("strata {}", tool_revision)},
-                      {"strata.capture", session.capture_id()},
-                      {"strata.frame", std::to_string(request.frame)},
-                      {"strata.settings", choices.dump()},
-                      {"strata.device", device.name},
-                      {"strata.driver", device.driver + " " + device.driver_version},
-                      {"strata.cpu", device.cpu}};
-    for (const auto& [name, image] : run.images) metadata["strata.hash." + name] = hash_of(image);
-    return metadata;
-}
+/// A frame replayed, and held against what the capture expects where that was asked for.
+struct Replayed {
+    Run run;
+    std::optional<ExpectationVerdict> verdict;
+    ordered_json json;
+};
 
-ordered_json json_of(const Session& session, const Request& request, const Run& run) {
-    ordered_json json{{"schema", "strata.replay"}, {"schema_version", 1}};
-    for (const auto& [key, value] : provenance(session, request, run)) json["provenance"][key] = value;
-    json["provenance"]["strata.settings"] = run.choices;
-    for (const StepRecord& step : run.steps) {
-        ordered_json row{{"scope", step.scope}, {"name", step.name}};
-        if (step.ms) row["gpu_ms"] = {{"median", step.ms->median}, {"mad", step.ms->mad}, {"repeats", step.ms->repeats}};
-        json["steps"].push_back(row);
-    }
-    for (const auto& [stage, ms] : run.stage_ms)
-        json["stage_ms"][stage] = {{"median", ms.median}, {"mad", ms.mad}, {"repeats", ms.repeats}};
-    for (const SkippedStage& skipped : run.skipped)
-        json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
-    for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
-    json["image_bytes"] = run.image_bytes;
-    json["buffer_bytes"] = run.buffer_bytes;
-    return json;
-}
-
-Result<void> write_frame(const Session& session, const Request& request, const Run& run, const Options& options) {
+Result<void> write_frame(const Session& session, const Request& request, const Replayed& replayed, const Options& options) {
+    const Run& run = replayed.run;
     const std::string base =
         (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
     std::vector<ExrPart> parts;
@@ -73,24 +51,8 @@ Result<void> write_frame(const Session& session, const Request& request, const R
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         fmt::print(stderr, "wrote {}.png\n", base);
     }
-    const std::string json = json_of(session, request, run).dump(2) + "\n";
-    if (const auto done = write_whole_file(base + ".json", json); !done) return done;
+    if (const auto done = write_whole_file(base + ".json", replayed.json.dump(2) + "\n"); !done) return done;
     fmt::print(stderr, "wrote {}.json\n", base);
-    return {};
-}
-
-/// Replays again without the memo and names the first output that differs.
-Result<void> check_repeats(Session& session, const Request& request, const Run& first, std::size_t repeats) {
-    for (std::size_t repeat = 1; repeat < repeats; ++repeat) {
-        session.forget_memo();
-        const auto again = session.run(request);
-        if (!again) return again.error();
-        for (const auto& [name, image] : first.images)
-            if (again->images.at(name).texels != image.texels)
-                return fail(Fault::not_repeatable, "frame {}: '{}' differed in repeat {} of {}", request.frame, name, repeat + 1,
-                            repeats);
-    }
-    if (repeats > 1) fmt::print(stderr, "frame {}: {} repeats, every output bit for bit the same\n", request.frame, repeats);
     return {};
 }
 
@@ -106,7 +68,75 @@ Result<Run> run_once(Session& session, const Request& request, const Options& op
     if (options.timed == 0) return session.run(request);
     auto runs = session.time(std::span(&request, 1), options.timed);
     if (!runs) return runs.error();
-    return std::move(runs->front());
+    Run run = std::move(runs->front());
+    if (request.acts == Acts::left) return run;
+    auto acts = session.act_images(request);
+    if (!acts) return acts.error();
+    run.acts = *std::move(acts);
+    return run;
+}
+
+bool expects(const Session& session, const Options& options) {
+    return !options.no_expect && options.until.empty() && (options.expect || !session.capture()->expectations().empty());
+}
+
+Result<Replayed> replay_frame(Session& session, const Request& request, const Options& options) {
+    auto run = run_once(session, request, options);
+    if (!run) return run.error();
+    Replayed replayed{.run = *std::move(run)};
+    for (const std::string& note : replayed.run.notes) fmt::print(stderr, "strata: {}\n", note);
+    if (const auto done = check_repeats(session, request, replayed.run, options.repeat); !done) return done.error();
+    if (options.repeat > 1)
+        fmt::print(stderr, "frame {}: {} repeats, every image of every act bit for bit the same\n", request.frame,
+                   options.repeat);
+    if (expects(session, options)) {
+        const auto known = expectations_of(*session.capture());
+        if (!known) return known.error();
+        const Expectation got = expectation_of(session, request, replayed.run);
+        auto verdict = check_expectations(*session.capture(), *known, replayed.run, got, options.tolerance);
+        if (!verdict) return verdict.error();
+        replayed.verdict = *std::move(verdict);
+    }
+    replayed.json = json_of(session, request, replayed.run, replayed.verdict ? &*replayed.verdict : nullptr);
+    return replayed;
+}
+
+/// The command that would make what a frame gave its expectation.
+std::string command_to_accept(const Options& options, std::size_t frame) {
+    std::string command = fmt::format("strata accept '{}' --frames {}", options.open.capture.string(), frame);
+    for (const std::string& use : options.choices.uses) command += fmt::format(" --use {}", use);
+    for (const std::string& set : options.choices.sets) command += fmt::format(" --set {}", set);
+    for (const std::string& force : options.choices.force) command += fmt::format(" --force {}", force);
+    if (options.choices.samples != 0) command += fmt::format(" --samples {}", options.choices.samples);
+    if (!options.open.device.gpu.empty()) command += fmt::format(" --gpu '{}'", options.open.device.gpu);
+    return command;
+}
+
+/// The verdict as what the program ends with.
+Result<void> judge(const Session& session, const Request& request, const Replayed& replayed, const Options& options) {
+    if (!replayed.verdict) return {};
+    const ExpectationVerdict& verdict = *replayed.verdict;
+    const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
+    switch (verdict.agreement) {
+        case Agreement::exact:
+            fmt::print(stderr, "frame {}: every image of every act is bit for bit as expected{}\n", request.frame, where);
+            return {};
+        case Agreement::within_tolerance:
+            for (const ImageVerdict& image : verdict.images)
+                if (image.agreement == Agreement::within_tolerance)
+                    fmt::print(stderr, "frame {}: within tolerance of what is expected{}: {}\n", request.frame, where,
+                               sentence(image));
+            return {};
+        case Agreement::diverges:
+            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first act that diverges is {}", request.frame,
+                        where, sentence(*verdict.first_divergence()));
+        case Agreement::no_expectation:
+            return fail(Fault::expectation_missing,
+                        "frame {} has no expectation for this device and these choices; it gives\n  {}\naccept it with: {}",
+                        request.frame, short_json(expectation_of(session, request, replayed.run)),
+                        command_to_accept(options, request.frame));
+    }
+    return {};
 }
 
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
@@ -146,20 +176,23 @@ Result<void> replay(const Options& options) {
     std::filesystem::create_directories(options.folder, problem);
     if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
 
+    const bool acts = options.repeat > 1 || options.json || expects(**session, options);
+    request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
+    Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
     for (const std::size_t frame : *frames) {
         request->frame = frame;
-        const auto run = run_once(**session, *request, options);
-        if (!run) return run.error();
-        for (const std::string& note : run->notes) fmt::print(stderr, "strata: {}\n", note);
-        if (const auto done = check_repeats(**session, *request, *run, options.repeat); !done) return done;
-        if (const auto done = write_frame(**session, *request, *run, options); !done) return done;
-        if (options.json) all["frames"].push_back(json_of(**session, *request, *run));
-        else print_summary(*request, *run);
-        if (options.timed > 0 && !options.json) print_times(*run);
+        auto replayed = replay_frame(**session, *request, options);
+        if (!replayed) return replayed.error();
+        if (const auto done = write_frame(**session, *request, *replayed, options); !done) return done;
+        if (!options.json) print_summary(*request, replayed->run);
+        if (options.timed > 0 && !options.json) print_times(replayed->run);
+        const auto now = judge(**session, *request, *replayed, options);
+        if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
+        all["frames"].push_back(std::move(replayed->json));
     }
     if (options.json) std::cout << all.dump(2) << "\n";
-    return {};
+    return judged;
 }
 
 }  // namespace
@@ -170,13 +203,18 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
     app.add_option("--outputs", options->outputs, "images to write: frame images or stage/technique:view")->delimiter(',');
-    app.add_option("--until", options->until, "stop after the last step whose name contains this");
-    app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when any output differs")
-        ->check(CLI::Range(1, 100000));
+    auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this");
+    app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when an image of any act differs")
+        ->check(CLI::Range(1, 100000))
+        ->excludes(until);
     app.add_option("--time", options->timed, "time every step this many times after a warm-up: median and deviation")
         ->check(CLI::Range(1, 10000));
     app.add_option("-o,--output", options->folder, "folder for the files, made when missing");
     app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_option("--tolerance", options->tolerance, "largest relative rmse to what is expected, where its images are kept")
+        ->check(CLI::NonNegativeNumber);
+    auto* expect = app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame");
+    app.add_flag("--no-expect", options->no_expect, "do not compare with what the capture expects")->excludes(expect);
     return [options] { return replay(*options); };
 }
 

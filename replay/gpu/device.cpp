@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "capture_format/nearest_name.h"
 #include "replay/gpu/feature_table.h"
 #include "replay/gpu/opened_device.h"
 
@@ -43,7 +44,8 @@ int rank(const DeviceInfo& device) {
 }
 
 DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index) {
-    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
+                                             vk::PhysicalDeviceSubgroupProperties>();
     const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
     return {.index = index,
@@ -53,6 +55,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index)
             .cpu = cpu_name(),
             .kind = kind_of(properties.deviceType),
             .software = properties.deviceType == vk::PhysicalDeviceType::eCpu,
+            .vector_width = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize,
             .max_buffer_bytes = properties.limits.maxStorageBufferRange,
             .max_image_extent = properties.limits.maxImageDimension2D,
             .capabilities = capabilities_of(device),
@@ -63,6 +66,26 @@ std::vector<DeviceInfo> describe_all(const std::vector<vk::raii::PhysicalDevice>
     std::vector<DeviceInfo> described;
     for (const auto& device : devices) described.push_back(describe(device, static_cast<std::uint32_t>(described.size())));
     return described;
+}
+
+/// Takes what the user names away from every device.
+Result<void> leave_out(std::vector<DeviceInfo>& devices, const std::vector<std::string>& without) {
+    const std::vector<std::string_view> features = baseline_features();
+    for (const std::string& wanted : without) {
+        std::vector<std::string_view> known = features;
+        bool is_known = std::ranges::find(features, wanted) != features.end();
+        for (DeviceInfo& device : devices)
+            if (is_known && device.lacks.empty()) device.lacks = fmt::format("the feature {} (by --without)", wanted);
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Capability::count_); ++i) {
+            const auto capability = static_cast<Capability>(i);
+            known.push_back(name(capability));
+            if (name(capability) != wanted) continue;
+            is_known = true;
+            for (DeviceInfo& device : devices) std::erase(device.capabilities, capability);
+        }
+        if (!is_known) return fail(Fault::usage, "no device feature is called '{}'{}", wanted, did_you_mean(wanted, known));
+    }
+    return {};
 }
 
 std::string list_of(const std::vector<DeviceInfo>& devices) {
@@ -115,16 +138,19 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
     if (!instance) return instance.error();
     try {
         auto devices = instance->handle().enumeratePhysicalDevices();
-        auto chosen = strata::choose(describe_all(devices), choice.gpu);
+        auto described = describe_all(devices);
+        if (const auto left_out = leave_out(described, choice.without); !left_out) return left_out.error();
+        auto chosen = strata::choose(described, choice.gpu);
         if (!chosen) return chosen.error();
         auto physical = std::move(devices[chosen->index]);
-        return std::unique_ptr<Device>(std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen));
+        return std::unique_ptr<Device>(
+            std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen, choice.memory_budget));
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_failed, "the device cannot be opened: {}", problem.what());
     }
 }
 
-OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical, DeviceInfo info)
+OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical, DeviceInfo info, std::uint64_t memory_budget)
     : instance_(std::move(instance)),
       info_(std::move(info)),
       physical_(std::move(physical)),
@@ -132,7 +158,7 @@ OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical,
       device_(make_device(physical_, info_.capabilities)),
       queue_(device_, *queue_family(physical_), 0),
       commands_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, *queue_family(physical_))),
-      memory_(physical_, device_) {}
+      memory_(physical_, device_, memory_budget) {}
 
 OpenedDevice::~OpenedDevice() = default;
 

@@ -16,6 +16,7 @@ struct DeviceInfo {
     std::string name, driver, driver_version, cpu;
     std::string kind;                    ///< "discrete", "integrated", "cpu", ...
     bool software = false;               ///< times are the CPU's and no model of a GPU
+    std::uint32_t vector_width = 0;      ///< lanes of a subgroup: on a CPU driver the width of its vectors in 32-bit numbers
     std::uint64_t max_buffer_bytes = 0;  ///< of one storage buffer binding
     std::uint32_t max_image_extent = 0;
     Capabilities capabilities;
@@ -23,8 +24,11 @@ struct DeviceInfo {
 };
 
 struct DeviceChoice {
-    std::string gpu;          ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
-    bool validation = false;  ///< core, synchronization and queue-submit validation; messages become errors
+    std::string gpu;                  ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
+    bool validation = false;          ///< core, synchronization and queue-submit validation; messages become errors
+    std::uint64_t memory_budget = 0;  ///< most memory to take from the device, in bytes; 0: as much as it gives
+    /// Capabilities and features of the baseline that every device is taken to lack, to see what becomes of a frame without them.
+    std::vector<std::string> without;
 };
 
 /// Every device of the machine, usable or not.

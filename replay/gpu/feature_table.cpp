@@ -123,6 +123,12 @@ std::string first_missing(const vk::raii::PhysicalDevice& device) {
     return missing_format(device);
 }
 
+std::vector<std::string_view> baseline_features() {
+    std::vector<std::string_view> names;
+    for (const FeatureRow& row : baseline) names.push_back(row.name);
+    return names;
+}
+
 Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
     Capabilities found;
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return found;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
 
@@ -15,6 +17,9 @@ using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::Physica
 
 /// Empty when the device can replay, else the first thing it lacks, as it reads after "lacks": "the feature dualSrcBlend".
 std::string first_missing(const vk::raii::PhysicalDevice&);
+
+/// The features of the baseline by Vulkan's names for them.
+std::vector<std::string_view> baseline_features();
 
 /// What the device has beyond the baseline.
 Capabilities capabilities_of(const vk::raii::PhysicalDevice&);

@@ -8,6 +8,7 @@
 #include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/raster_state.h"
+#include "replay/measure/lap.h"
 
 namespace strata {
 namespace {
@@ -191,11 +192,13 @@ const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vecto
     std::string key = key_of(planned, state);
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
 
+    Lap lap;
     const vk::raii::Device& device = device_->handle();
     auto sets = set_layouts(device, planned);
     auto layout = pipeline_layout(device, planned.step, sets);
     auto handle = is_compute ? make_compute(device, planned, *layout) : make_raster(device, planned, state, *layout);
     device_->label(*handle, planned.step.name);
+    milliseconds_ += lap();
     return pipelines_.emplace(std::move(key), Pipeline{std::move(sets), std::move(layout), std::move(handle)}).first->second;
 }
 

@@ -28,10 +28,13 @@ public:
     /// The pipeline of a compute or raster step. Images are those of the plan.
     const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
     std::size_t created() const { return pipelines_.size(); }
+    /// What making them took so far.
+    double milliseconds() const { return milliseconds_; }
 
 private:
     OpenedDevice* device_;
     std::map<std::string, Pipeline> pipelines_;
+    double milliseconds_ = 0;
 };
 
 vk::DescriptorType descriptor_type(BindingKind);

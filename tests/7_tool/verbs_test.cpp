@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
 
@@ -14,7 +15,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "graph", "report"};
+constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "accept", "export", "graph", "diff", "report"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
@@ -58,6 +59,17 @@ TEST(Record, AnUnknownScenarioIsAUsageError) {
     EXPECT_EQ(failed.code, 2);
     EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+}
+
+TEST(Record, FramesOfAnyShapeHaveASmallThumbnail) {
+    for (const char* size : {"4x2000", "2000x4", "320x180"}) {
+        const Finished recorded = strata(std::string("record three_panes -o thin.strata --size ") + size);
+        ASSERT_EQ(recorded.code, 0) << size << ": " << recorded.err;
+        const auto capture = Capture::open(folder() / "thin.strata");
+        ASSERT_TRUE(capture) << capture.error().sentence;
+        EXPECT_GT(capture->thumbnail().width, 0u) << size << ": " << recorded.err;
+        EXPECT_LE(capture->thumbnail().width, 160u) << size;
+    }
 }
 
 TEST(Info, SaysWhatAFrameCallsForAndWhy) {
@@ -141,6 +153,7 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
     EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
     const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name)));

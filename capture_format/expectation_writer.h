@@ -1,0 +1,38 @@
+// Adds what replays are expected to give to a finished capture. The work is done on a copy that takes the capture's place when
+// it is whole: whoever is stopped on the way leaves the capture as it was. The capture's id stays the same.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "capture_format/result.h"
+
+namespace strata {
+
+class ExpectationWriter {
+public:
+    /// Fails for what is no finished capture, and (usage) where it cannot be replaced.
+    static Result<ExpectationWriter> extend(const std::filesystem::path& capture);
+    ExpectationWriter(ExpectationWriter&&) noexcept;
+    ExpectationWriter& operator=(ExpectationWriter&&) noexcept;
+    ~ExpectationWriter();
+
+    /// Keeps an image's texels (any bytes, up to 1 GiB) with the text that follows. Equal ones are stored once. Returns what
+    /// Capture::expected_image() finds them by.
+    std::string add_image(std::span<const std::byte> texels);
+    /// Text as the replayer writes it, up to 64 MiB.
+    Result<void> add(std::string_view text);
+    /// Puts the extended capture in the old one's place.
+    Result<void> finish();
+
+private:
+    struct Extended;
+    explicit ExpectationWriter(std::unique_ptr<Extended>);
+    std::unique_ptr<Extended> extended_;
+};
+
+}  // namespace strata

@@ -1,0 +1,122 @@
+// strata accept: the only way expectations are written. Shows what differs from what was expected before, then writes.
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "capture_format/expectation_writer.h"
+#include "replay/cli/revision.h"
+#include "replay/cli/verb_options.h"
+#include "replay/counted.h"
+#include "replay/expectation_check.h"
+#include "replay/repeat.h"
+
+namespace strata {
+namespace {
+
+struct Options {
+    OpenOptions open;
+    ChoiceOptions choices;
+    std::string frames;
+    bool with_images = false, dry_run = false;
+};
+
+/// What a frame gave beside what was expected of it.
+struct Candidate {
+    Expectation expectation;
+    Run run;
+    std::optional<ExpectationVerdict> before;  ///< against what this device was expected to give
+    bool lacks_images = false;                 ///< the old expectation has hashes alone, and images are wanted
+    bool is_news() const { return !before || before->agreement != Agreement::exact || lacks_images; }
+};
+
+Result<Candidate> replay_candidate(Session& session, const Request& request, const Options& options) {
+    auto run = session.run(request);
+    if (!run) return run.error();
+    // What varies can be no expectation.
+    if (const auto same = check_repeats(session, request, *run, 2); !same) return same.error();
+    Candidate candidate{.expectation = expectation_of(session, request, *run), .run = *std::move(run)};
+    candidate.expectation.tool = tool_revision;
+    const auto known = expectations_of(*session.capture());
+    if (!known) return known.error();
+    if (const Expectation* old = newest_for(*known, candidate.expectation)) {
+        auto verdict = compare_with(*session.capture(), *old, candidate.run, candidate.expectation, 0);
+        if (!verdict) return verdict.error();
+        candidate.before = *std::move(verdict);
+        for (const ExpectedAct& act : old->acts)
+            for (const ExpectedImage& image : act.images)
+                candidate.lacks_images = candidate.lacks_images || (options.with_images && image.texels.empty());
+    }
+    return candidate;
+}
+
+void show(const Candidate& candidate) {
+    fmt::print("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
+    if (!candidate.before) {
+        for (const ExpectedAct& act : candidate.expectation.acts)
+            for (const ExpectedImage& image : act.images)
+                fmt::print("  new      {:<24} {:<16} {}\n", act.label, image.name, image.hash);
+        return;
+    }
+    for (const ImageVerdict& image : candidate.before->images) {
+        if (image.agreement == Agreement::exact) fmt::print("  same     {:<24} {:<16} {}\n", image.act, image.image, image.hash);
+        else fmt::print("  changed  {}\n", sentence(image));
+    }
+}
+
+Result<void> write(ExpectationWriter& writer, Candidate& candidate, const Options& options) {
+    for (std::size_t i = 0; options.with_images && i < candidate.run.acts.size(); ++i)
+        for (ExpectedImage& image : candidate.expectation.acts[i].images)
+            image.texels = writer.add_image(candidate.run.acts[i].images.at(image.name).texels);
+    return writer.add(as_json(candidate.expectation));
+}
+
+Result<void> accept(const Options& options) {
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->outputs.clear();
+    request->acts = Acts::brought_back;
+    auto session = open(options.open);
+    if (!session) return session.error();
+    const auto frames = frame_indices(options.frames, (*session)->frame_count());
+    if (!frames) return frames.error();
+
+    std::optional<ExpectationWriter> writer;
+    std::size_t news = 0;
+    for (const std::size_t frame : *frames) {
+        request->frame = frame;
+        auto candidate = replay_candidate(**session, *request, options);
+        if (!candidate) return candidate.error();
+        show(*candidate);
+        if (!candidate->is_news()) continue;
+        ++news;
+        if (options.dry_run) continue;
+        if (!writer) {
+            auto extended = ExpectationWriter::extend(options.open.capture);
+            if (!extended) return extended.error();
+            writer = *std::move(extended);
+        }
+        if (const auto written = write(*writer, *candidate, options); !written) return written;
+    }
+    if (writer)
+        if (const auto finished = writer->finish(); !finished) return finished;
+    const std::string file = options.open.capture.string();
+    if (news == 0) fmt::print("nothing changed: {} stays as it is\n", file);
+    else if (options.dry_run) fmt::print("{} would be expected anew; {} stays as it is\n", counted(news, "frame"), file);
+    else fmt::print("{} expected anew in {}{}\n", counted(news, "frame"), file, options.with_images ? ", images kept" : "");
+    return {};
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_accept(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    add_options(app, options->open);
+    add_options(app, options->choices);
+    app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
+    app.add_flag("--with-images", options->with_images, "keep the images: a tolerance and worst texels need them");
+    app.add_flag("--dry-run", options->dry_run, "show what would change and write nothing");
+    return [options] { return accept(*options); };
+}
+
+}  // namespace strata

@@ -1,0 +1,125 @@
+#include "replay/cli/run_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "replay/cli/revision.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const Spread& spread) {
+    return {{"median", spread.median}, {"mad", spread.mad}, {"repeats", spread.repeats}};
+}
+
+ordered_json steps_of(const Run& run) {
+    ordered_json steps = ordered_json::array();
+    for (const StepRecord& step : run.steps) {
+        ordered_json row{{"index", steps.size()}, {"scope", step.scope}, {"name", step.name}};
+        if (step.ms) row["gpu_ms"] = json_of(*step.ms);
+        steps.push_back(std::move(row));
+    }
+    return steps;
+}
+
+ordered_json acts_of(const Run& run) {
+    ordered_json acts = ordered_json::array();
+    for (const ActImages& act : run.acts) {
+        ordered_json row{{"index", acts.size()}, {"name", act.label}, {"choice", act.choice}, {"hash", ordered_json::object()}};
+        for (const auto& [name, image] : act.images) row["hash"][name] = hash_of(image);
+        acts.push_back(std::move(row));
+    }
+    return acts;
+}
+
+ordered_json json_of(const ImageVerdict& verdict) {
+    ordered_json json{
+        {"act", verdict.act}, {"image", verdict.image}, {"hash", verdict.hash}, {"expected", verdict.expected_hash}};
+    if (!verdict.deviation) return json;
+    const WorstTexel& w = verdict.deviation->worst;
+    json["metric"] = "relative rmse";
+    json["value"] = verdict.deviation->rmse;
+    json["differing_texels"] = verdict.deviation->differing;
+    json["worst_texel"] = {{"x", w.x},
+                           {"y", w.y},
+                           {"layer", w.layer},
+                           {"got", {w.got.x, w.got.y, w.got.z, w.got.w}},
+                           {"expected", {w.wanted.x, w.wanted.y, w.wanted.z, w.wanted.w}}};
+    return json;
+}
+
+ordered_json json_of(const ExpectationVerdict& verdict) {
+    constexpr const char* names[] = {"exact", "within tolerance", "diverges", "missing"};
+    ordered_json json{{"agreement", names[static_cast<std::size_t>(verdict.agreement)]}};
+    if (verdict.elsewhere) json["expected_on"] = text(*verdict.elsewhere);
+    if (const ImageVerdict* first = verdict.first_divergence()) json["first_divergence"] = json_of(*first);
+    for (const ImageVerdict& image : verdict.images)
+        if (image.agreement == Agreement::within_tolerance) json["within_tolerance"].push_back(json_of(image));
+    return json;
+}
+
+ordered_json json_of(const RunMemory& memory) {
+    ordered_json json{{"plan_bytes", memory.plan},
+                      {"scene_bytes", memory.scene},
+                      {"memo_bytes", memory.memo},
+                      {"device_allocated_bytes", memory.allocated},
+                      {"device_peak_bytes", memory.peak_allocated},
+                      {"host_peak_bytes", memory.host_peak},
+                      {"fullest_step",
+                       {{"scope", memory.over_time.fullest_scope},
+                        {"name", memory.over_time.fullest_step},
+                        {"alive_bytes", memory.over_time.peak}}}};
+    for (const auto& [stage, of_stage] : memory.over_time.stages)
+        json["stages"][stage] = {{"allocated_bytes", of_stage.allocated}, {"peak_bytes", of_stage.peak}};
+    return json;
+}
+
+ordered_json json_of(const RunTimes& times) {
+    return {{"load", times.load},
+            {"declare", times.declare},
+            {"upload", times.upload},
+            {"allocate", times.device.allocate},
+            {"pipelines", times.device.pipelines},
+            {"record", times.device.record},
+            {"render", times.device.render},
+            {"read_back", times.device.read_back}};
+}
+
+}  // namespace
+
+Metadata provenance(const Session& session, const Request& request, const Run& run) {
+    ordered_json choices(run.choices);
+    const DeviceInfo& device = session.device();
+    Metadata metadata{{"software", fmt::format("strata {}", tool_revision)},
+                      {"strata.capture", session.capture_id()},
+                      {"strata.frame", std::to_string(request.frame)},
+                      {"strata.settings", choices.dump()},
+                      {"strata.device", device.name},
+                      {"strata.driver", device.driver + " " + device.driver_version},
+                      {"strata.cpu", device.cpu}};
+    for (const auto& [name, image] : run.images) metadata["strata.hash." + name] = hash_of(image);
+    return metadata;
+}
+
+ordered_json json_of(const Session& session, const Request& request, const Run& run, const ExpectationVerdict* verdict) {
+    ordered_json json{{"schema", "strata.replay"}, {"schema_version", 1}};
+    for (const auto& [key, value] : provenance(session, request, run)) json["provenance"][key] = value;
+    json["provenance"]["strata.settings"] = run.choices;
+    json["steps"] = steps_of(run);
+    if (!run.acts.empty()) json["acts"] = acts_of(run);
+    if (verdict) json["expectation"] = json_of(*verdict);
+    if (run.frame_ms) json["frame_ms"] = json_of(*run.frame_ms);
+    for (const auto& [stage, ms] : run.stage_ms) json["stage_ms"][stage] = json_of(ms);
+    for (const SkippedStage& skipped : run.skipped)
+        json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
+    for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
+    for (const std::string& note : run.notes) json["notes"].push_back(note);
+    json["image_bytes"] = run.image_bytes;
+    json["buffer_bytes"] = run.buffer_bytes;
+    json["memory"] = json_of(run.memory);
+    json["host_ms"] = json_of(run.host_ms);
+    return json;
+}
+
+}  // namespace strata

@@ -1,0 +1,71 @@
+#include "replay/describe_run.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
+namespace strata {
+
+std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution) {
+    std::vector<CounterRecord> records;
+    for (const CounterSource& source : d.counters) {
+        const auto bytes = execution.buffers.find(source.buffer.id);
+        for (const Counter& counter : source.technique->counters) {
+            std::uint32_t value = 0;
+            if (bytes != execution.buffers.end()) std::memcpy(&value, bytes->second.data() + counter.offset, sizeof value);
+            const auto same = [&](const CounterRecord& r) {
+                return r.technique == source.technique->name && r.name == counter.name;
+            };
+            const auto known = std::ranges::find_if(records, same);
+            if (known == records.end())
+                records.push_back({std::string(source.technique->name), std::string(counter.name), value});
+            else known->value += value;  // a technique that acts at several stages counts in each
+        }
+    }
+    return records;
+}
+
+std::string choice_line(const Choice& choice) {
+    std::string line(choice.technique->name);
+    for (const std::string& setting : choice.settings.lines()) line += " " + setting;
+    return line;
+}
+
+Run describe_run(const Declaration& d) {
+    Run run{.skipped = d.frame.skipped,
+            .culled = d.plan.culled,
+            .width = d.images.extent.width,
+            .height = d.images.extent.height,
+            .samples = d.images.samples,
+            .image_bytes = d.plan.image_bytes,
+            .buffer_bytes = d.plan.buffer_bytes};
+    for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope].name, step.step.name, {}});
+    for (const DeclaredAct& act : d.frame.acts)
+        run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
+    run.memory.over_time = memory_over_time(d.plan);
+    for (const auto& [stage, memory] : run.memory.over_time.stages) run.stage_bytes[stage] = memory.allocated;
+    run.acts_from_memo = d.scopes_from_memo.size();
+    run.acts_executed = d.frame.acts.size() - run.acts_from_memo;
+    return run;
+}
+
+void add_times(Run& run, const std::vector<std::vector<double>>& repeats) {
+    const auto spread = [&](const std::function<bool(std::size_t)>& counts) {
+        std::vector<double> sums;
+        for (const std::vector<double>& steps : repeats) {
+            sums.push_back(0);
+            for (std::size_t i = 0; i < steps.size(); ++i)
+                if (counts(i)) sums.back() += steps[i];
+        }
+        return spread_of(sums);
+    };
+    run.frame_ms = spread([](std::size_t) { return true; });
+    for (std::size_t i = 0; i < run.steps.size(); ++i) run.steps[i].ms = spread([&](std::size_t step) { return step == i; });
+    for (const auto& [stage, choice] : run.choices) {
+        // A scope is named "place: stage/technique", so a technique's acts count for it wherever they stand.
+        const std::string technique = ": " + choice.substr(0, choice.find(' '));
+        run.stage_ms[stage] = spread([&](std::size_t step) { return run.steps[step].scope.ends_with(technique); });
+    }
+}
+
+}  // namespace strata

@@ -1,0 +1,180 @@
+// Looking inside a frame: what acts and steps gave, what a stage found, and how it fares against model and truth.
+#include <algorithm>
+#include <set>
+
+#include "replay/describe_run.h"
+#include "replay/device_session.h"
+#include "replay/judgement.h"
+
+namespace strata {
+namespace {
+
+/// The last step up to `end` that writes the image, or nothing.
+std::optional<std::size_t> last_write(const Plan& plan, Image image, std::size_t end) {
+    for (std::size_t i = std::min(end, plan.steps.size()); i-- > 0;)
+        for (const Barrier& barrier : plan.steps[i].barriers)
+            if (barrier.image.id == image.id && barrier.image && writes(barrier.after)) return i;
+    return {};
+}
+
+/// Scopes are in the order of the steps.
+std::size_t first_step_after(const Plan& plan, std::uint32_t scope) {
+    const auto at = std::ranges::find_if(plan.steps, [&](const PlannedStep& s) { return s.step.scope > scope; });
+    return static_cast<std::size_t>(at - plan.steps.begin());
+}
+
+/// Places of a plan to look at; one that is wanted twice is read once.
+class Peeks {
+public:
+    std::size_t add(std::size_t step, Image image) {
+        const auto same = [&](const Peek& peek) { return peek.step == step && peek.image.id == image.id; };
+        const auto known = std::ranges::find_if(peeks_, same);
+        if (known != peeks_.end()) return static_cast<std::size_t>(known - peeks_.begin());
+        peeks_.push_back({step, image});
+        return peeks_.size() - 1;
+    }
+    RunOptions options() const { return {.peeks = peeks_, .kept_images = KeptImages::left}; }
+
+private:
+    std::vector<Peek> peeks_;
+};
+
+/// Where the image of a name is found among what was peeked.
+struct Place {
+    std::string name;
+    std::size_t peek = 0;
+};
+
+/// The outputs of its stage that an act writes, after its last step.
+std::vector<Place> places_of(const Declaration& d, const DeclaredAct& act, Peeks& peeks) {
+    std::vector<Place> places;
+    for (const std::string_view output : info(act.technique->stage).outputs) {
+        const Image image = d.images.*find_frame_image(output)->member;
+        if (!image || d.graph.shape(image).samples > 1) continue;
+        const auto step = last_write(d.plan, image, first_step_after(d.plan, act.scope));
+        if (step && d.plan.steps[*step].step.scope == act.scope) places.push_back({std::string(output), peeks.add(*step, image)});
+    }
+    return places;
+}
+
+ActImages describe_act(const Declaration& d, const DeclaredAct& act) {
+    const Stage stage = act.technique->stage;
+    std::string label(name(stage));
+    if (act.at != stage) label += fmt::format(" at {}", name(act.at));
+    return {stage, act.at, std::move(label), choice_line(d.choices.at(stage)), {}};
+}
+
+}  // namespace
+
+Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, const std::string& image) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    if (step >= plan.steps.size())
+        return fail(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
+    const Image handle = declared->graph.find_image(image);
+    if (!handle) return fail(Fault::usage, "the frame has no image '{}'", image);
+    if (!last_write(plan, handle, step + 1)) return fail(Fault::usage, "'{}' is not written yet after step {}", image, step);
+    auto execution = execute(*declared, {.until = step, .peeks = {{step, handle}}});
+    if (!execution) return execution.error();
+    return std::move(execution->peeked.front());
+}
+
+Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage) {
+    auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const auto acts = std::span(declared->frame.acts);
+    const auto own = [&](const DeclaredAct& act) { return act.technique->stage == stage; };
+    const auto last = std::ranges::find_if(acts.rbegin(), acts.rend(), own);
+    if (last == acts.rend()) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+
+    const Plan& plan = declared->plan;
+    RunOptions options{.kept_images = KeptImages::left};
+    std::vector<std::pair<std::string_view, bool>> names;  // and whether it is a result
+    const auto want = [&](std::string_view image_name, Image image, std::size_t end, bool result) {
+        if (!image || declared->graph.shape(image).samples > 1) return;
+        if (const auto step = last_write(plan, image, end)) {
+            options.peeks.push_back({*step, image});
+            names.emplace_back(image_name, result);
+        }
+    };
+    for (const FrameImageRow& row : frame_images())
+        want(row.name, last->before.*row.member, first_step_after(plan, last->scope - 1), false);
+    for (const std::string_view output : info(stage).outputs)
+        want(output, declared->images.*find_frame_image(output)->member, first_step_after(plan, last->scope), true);
+
+    const auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    Inspected inspected{.choice = declared->choices.at(stage)};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        (names[i].second ? inspected.result : inspected.before)
+            .insert_or_assign(std::string(names[i].first), in_double(execution->peeked[i]));
+    return inspected;
+}
+
+Result<Run> DeviceSession::run_with_acts(const Request& request) {
+    auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Declaration& d = *declared;
+    Peeks peeks;
+    std::vector<Place> outputs;
+    std::vector<std::vector<Place>> of_acts;
+    for (const auto& [output, image] : d.outputs)
+        if (const auto step = last_write(d.plan, image, d.plan.steps.size()))
+            outputs.push_back({output, peeks.add(*step, image)});
+    for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(places_of(d, act, peeks));
+
+    const auto execution = execute(d, peeks.options());
+    if (!execution) return execution.error();
+    Run run = finished(d, *execution);
+    for (const Place& place : outputs) run.images.emplace(place.name, execution->peeked[place.peek]);
+    for (std::size_t i = 0; i < of_acts.size(); ++i) {
+        run.acts.push_back(describe_act(d, d.frame.acts[i]));
+        for (const Place& place : of_acts[i]) run.acts.back().images.emplace(place.name, execution->peeked[place.peek]);
+    }
+    return run;
+}
+
+Result<std::vector<StepImages>> DeviceSession::step_images(const Request& request, Stage stage) {
+    const auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    std::set<std::uint32_t> scopes;
+    for (const DeclaredAct& act : declared->frame.acts)
+        if (act.technique->stage == stage) scopes.insert(act.scope);
+    std::vector<StepImages> steps;
+    RunOptions options{.kept_images = KeptImages::left};
+    std::vector<std::size_t> places;  // of each peek, in steps
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        const Step& step = plan.steps[i].step;
+        if (!scopes.contains(step.scope)) continue;
+        std::set<std::uint32_t> written;
+        for (const Barrier& barrier : plan.steps[i].barriers) {
+            if (!barrier.image || !writes(barrier.after) || declared->graph.shape(barrier.image).samples > 1) continue;
+            if (!written.insert(barrier.image.id).second) continue;  // one barrier per mip and layer
+            options.peeks.push_back({i, barrier.image});
+            places.push_back(steps.size());
+        }
+        steps.push_back({i, plan.scopes[step.scope].name, step.name, {}});
+    }
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        steps[places[i]].images.emplace(plan.images[options.peeks[i].image.id].name, std::move(execution->peeked[i]));
+    return steps;
+}
+
+Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
+    const auto inspected = inspect(request, stage);
+    if (!inspected) return inspected.error();
+    return info(stage).truth({loaded_->frame, inspected->before});
+}
+
+Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
+    const auto inspected = inspect(request, stage);
+    if (!inspected) return inspected.error();
+    return judge_stage(
+        {loaded_->frame, loaded_->features, inspected->choice, inspected->before, inspected->result, against, truth});
+}
+
+}  // namespace strata

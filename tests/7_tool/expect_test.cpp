@@ -1,0 +1,174 @@
+// Expectations through the tool: accepted once, met ever after, and every way not to meet them with its exit code.
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "capture_format/reader.h"
+#include "capture_format/recorder.h"
+#include "passes/registry.h"
+#include "tests/7_tool/process.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
+
+std::string bytes_of_panes() {
+    std::ostringstream bytes;
+    bytes << std::ifstream(folder() / "panes.strata", std::ios::binary).rdbuf();
+    return bytes.str();
+}
+
+/// As if the capture had been accepted by a program that gave other bits for one image.
+void expect_otherwise(const std::string& act, const std::string& image) {
+    const Capture capture = must(Capture::open(folder() / "panes.strata"));
+    json expectation = json::parse(capture.expectations().back());
+    for (json& of_act : expectation["acts"])
+        for (json& of_image : of_act["images"])
+            if (of_act["act"] == act && of_image["name"] == image) of_image["hash"] = std::string(32, '0');
+    must(append_expectation(folder() / "panes.strata", expectation.dump()));
+}
+
+TEST(Accept, ShowsWhatIsNewThenReplayMeetsIt) {
+    record_panes();
+    const Finished accepted = strata("accept panes.strata");
+    ASSERT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_THAT(accepted.out, HasSubstr("new      transparency"));
+    EXPECT_THAT(accepted.out, HasSubstr("1 frame expected anew in panes.strata"));
+    const Finished replayed = strata("replay panes.strata --json");
+    EXPECT_EQ(replayed.code, 0);
+    EXPECT_THAT(replayed.err, HasSubstr("bit for bit as expected"));
+    EXPECT_EQ(json::parse(replayed.out)["frames"][0]["expectation"]["agreement"], "exact");
+}
+
+TEST(Accept, WritesNothingWhenNothingChanged) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    const std::string before = bytes_of_panes();
+    const Finished again = strata("accept panes.strata");
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.out, HasSubstr("nothing changed"));
+    EXPECT_THAT(again.out, Not(HasSubstr("new ")));
+    EXPECT_EQ(bytes_of_panes(), before);
+}
+
+TEST(Accept, ADryRunShowsAndWritesNothing) {
+    record_panes();
+    const std::string before = bytes_of_panes();
+    const Finished shown = strata("accept panes.strata --dry-run");
+    EXPECT_EQ(shown.code, 0);
+    EXPECT_THAT(shown.out, HasSubstr("would be expected anew"));
+    EXPECT_EQ(bytes_of_panes(), before);
+}
+
+TEST(Accept, ShowsTheFiguresOfWhatChanged) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata --with-images").code, 0);
+    expect_otherwise("transparency", "color");
+    const Finished accepted = strata("accept panes.strata");
+    EXPECT_EQ(accepted.code, 0);
+    EXPECT_THAT(accepted.out, HasSubstr("changed  transparency: 'color' differs in 0 of "));
+    EXPECT_THAT(accepted.out, HasSubstr("same     gbuffer"));
+    EXPECT_EQ(strata("replay panes.strata").code, 0);
+}
+
+TEST(Accept, KeepsImagesLaterWhenAskedTo) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    EXPECT_THAT(strata("accept panes.strata --with-images").out, HasSubstr("images kept"));
+    EXPECT_THAT(strata("accept panes.strata --with-images").out, HasSubstr("nothing changed"));
+}
+
+TEST(Accept, OfACaptureThatCannotBeReplacedIsAnErrorAndLeavesIt) {
+    record_panes();
+    EXPECT_EQ(strata("accept nowhere.strata").code, 3);
+    EXPECT_EQ(strata("accept panes.strata --frames 7").code, 2);
+    EXPECT_EQ(strata("accept panes.strata --use nothing/here").code, 2);
+}
+
+TEST(Expect, ADivergenceIsExitOneAndNamesTheFirstAct) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    expect_otherwise("transparency", "color");
+    const Finished diverged = strata("replay panes.strata --json");
+    EXPECT_EQ(diverged.code, 1);
+    EXPECT_THAT(diverged.err, HasSubstr("the first act that diverges is transparency: 'color'"));
+    const json verdict = json::parse(diverged.out)["frames"][0]["expectation"];
+    EXPECT_EQ(verdict["agreement"], "diverges");
+    EXPECT_EQ(verdict["first_divergence"]["act"], "transparency");
+    EXPECT_EQ(strata("replay panes.strata --no-expect").code, 0);
+}
+
+TEST(Expect, AToleranceIsMetWithKeptImages) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata --with-images").code, 0);
+    expect_otherwise("transparency", "color");  // another hash, the same image
+    EXPECT_EQ(strata("replay panes.strata").code, 1);
+    const Finished tolerated = strata("replay panes.strata --tolerance 0.001");
+    EXPECT_EQ(tolerated.code, 0);
+    EXPECT_THAT(tolerated.err, HasSubstr("within tolerance"));
+}
+
+TEST(Expect, OtherChoicesAreExitSixWithTheCommandThatAcceptsThem) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    const std::string other = " --use " + std::string(techniques_of(Stage::transparency)[1]->name);
+    const Finished missing = strata("replay panes.strata" + other);
+    EXPECT_EQ(missing.code, 6);
+    EXPECT_THAT(missing.err, HasSubstr("\"transparency\":{\"color\":\""));
+    const std::string command = "accept 'panes.strata' --frames 0" + other;
+    EXPECT_THAT(missing.err, HasSubstr("strata " + command));
+    ASSERT_EQ(strata(command).code, 0);
+    EXPECT_EQ(strata("replay panes.strata" + other).code, 0);
+    EXPECT_EQ(strata("replay panes.strata").code, 0);
+}
+
+TEST(Expect, ACaptureWithoutExpectationsReplaysUnlessTheyAreDemanded) {
+    record_panes();
+    EXPECT_EQ(strata("replay panes.strata").code, 0);
+    EXPECT_EQ(strata("replay panes.strata --expect").code, 6);
+    EXPECT_EQ(strata("replay panes.strata --expect --no-expect").code, 2);
+}
+
+TEST(Expect, AnExpectationThatIsNoneIsExitThree) {
+    record_panes();
+    must(append_expectation(folder() / "panes.strata", "display 1234"));
+    EXPECT_EQ(strata("replay panes.strata").code, 3);
+    EXPECT_EQ(strata("replay panes.strata --no-expect").code, 0);
+}
+
+TEST(MemoryBudget, IsGivenWithItsUnitAndRefusedWithNumbers) {
+    record_panes();
+    const Finished kept = strata("replay panes.strata --json --memory-budget 256MiB");
+    ASSERT_EQ(kept.code, 0) << kept.err;
+    const json memory = json::parse(kept.out)["frames"][0]["memory"];
+    EXPECT_LE(memory["device_peak_bytes"], 256 << 20);
+    EXPECT_GT(memory["stages"]["gbuffer"]["peak_bytes"], 0);
+    EXPECT_GT(memory["host_peak_bytes"], 0);
+    const Finished refused = strata("report panes.strata --memory-budget 64KiB");
+    EXPECT_EQ(refused.code, 4);
+    EXPECT_THAT(refused.err, HasSubstr("the memory budget is 0.1 MiB"));
+}
+
+TEST(ReplayJson, NamesStepsByIndexAndHashesEveryAct) {
+    record_panes();
+    const Finished replayed = strata("replay panes.strata --json --time 3");
+    ASSERT_EQ(replayed.code, 0) << replayed.err;
+    const json frame = json::parse(replayed.out)["frames"][0];
+    EXPECT_EQ(frame["steps"][1]["index"], 1);
+    for (const json& step : frame["steps"]) EXPECT_TRUE(step["gpu_ms"].contains("mad")) << step;
+    ASSERT_GE(frame["acts"].size(), 3u);
+    for (const json& act : frame["acts"])
+        for (const auto& [image, hash] : act["hash"].items()) EXPECT_EQ(hash.get<std::string>().size(), 32u) << image;
+}
+
+}  // namespace
+}  // namespace strata
