@@ -39,11 +39,7 @@ void add_surfaces(Losses& losses, const Frame& frame) {
                      [](M m) { return m.lighting_model == LightingModel::lambert || m.lighting_model == LightingModel::burley; }),
                "materials are lit by lambert or burley; glTF knows its own model and none");
     losses.add(count(frame.materials, [](M m) { return m.distortion != 0; }), "materials distort what is behind them; left out");
-    losses.add(count(frame.materials,
-                     [](M m) {
-                         const bool opaque = m.alpha_mode == AlphaMode::opaque || m.alpha_mode == AlphaMode::mask;
-                         return opaque && m.transmission != glm::vec3(0);
-                     }),
+    losses.add(count(frame.materials, [](M m) { return !is_transparent(m.alpha_mode) && m.transmission != glm::vec3(0); }),
                "opaque materials have a transmission; left out");
     std::vector<bool> shown(frame.meshes.size());
     for (const Draw& draw : frame.draws) shown[draw.mesh] = true;

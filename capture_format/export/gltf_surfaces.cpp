@@ -7,6 +7,7 @@
 #include <stb_image_write.h>
 
 #include "capture_format/export/gltf_glass.h"
+#include "capture_format/srgb.h"
 #include "capture_format/texture_mips.h"
 
 namespace strata::to_gltf_parts {
@@ -26,9 +27,7 @@ std::vector<std::byte> finest_texels(const Texture& texture, TextureFormat wante
     for (std::size_t i = 0; i < texels.size(); ++i) {
         if (i % 4 == 3) continue;  // alpha is linear in both
         const double value = std::to_integer<int>(texels[i]) / 255.0;
-        const double linear = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-        const double srgb = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-        texels[i] = static_cast<std::byte>(std::lround(255 * (wanted == TextureFormat::rgba8_srgb ? srgb : linear)));
+        texels[i] = unorm8(wanted == TextureFormat::rgba8_srgb ? encode_srgb(value) : decode_srgb(value));
     }
     return texels;
 }
@@ -145,7 +144,7 @@ void Surfaces::add_glass(Json& json, const Material& material) {
 
 Json Surfaces::material(const Material& material) {
     const glm::vec4& base = material.base_color;
-    const bool blends = material.alpha_mode != AlphaMode::opaque && material.alpha_mode != AlphaMode::mask;
+    const bool blends = is_transparent(material.alpha_mode);
     Json pbr = {{"baseColorFactor", {base.x, base.y, base.z, base.w}},
                 {"metallicFactor", material.metallic},
                 {"roughnessFactor", material.roughness}};

@@ -41,8 +41,8 @@ public:
     ~GltfScene();
 
     /// The scene at index / fps seconds; an animation begins again after its last key. previous_to_world is the transform one
-    /// frame earlier, that of the frame itself at index 0. A framing camera and the exposure stay those of frame 0. Meshes that
-    /// skins or morph targets move are new ones in every frame, the others are the same.
+    /// frame earlier, that of the frame itself at index 0. A framing camera stands still and sees the whole animation; the
+    /// exposure is that of frame 0. Meshes that skins or morph targets move are new in every frame, the others are the same.
     Result<Frame> frame(std::uint32_t index);
     /// What was ignored and why, of the file and of the frames made so far.
     const std::vector<std::string>& warnings() const;

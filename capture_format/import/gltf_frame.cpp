@@ -124,8 +124,12 @@ Result<void> FrameSource::read() {
     return {};
 }
 
-NodePose FrameSource::pose_at(std::uint32_t index) const {
-    return clip_ ? clip_->pose(document_, index / options_.fps) : rest_pose(document_);
+FrameSource::Making FrameSource::begin(double time, double previous_time) const {
+    const auto pose = [&](double at) { return clip_ ? clip_->pose(document_, at) : rest_pose(document_); };
+    Making making{.pose = pose(time), .budget = Budget(options_.memory_budget)};
+    making.to_world = to_world(document_, hierarchy_, making.pose);
+    making.previous_to_world = previous_time == time ? making.to_world : to_world(document_, hierarchy_, pose(previous_time));
+    return making;
 }
 
 /// A skin moves its mesh by the joints alone, wherever its node is (glTF 2.0, 3.7.3.3). The vertices are kept relative to the
@@ -226,6 +230,24 @@ std::optional<View> FrameSource::seen_by_camera(const std::vector<glm::dmat4>& t
     return std::nullopt;
 }
 
+/// A framing camera stands still and sees all that happens: it frames the scene at sixteen moments of the animation.
+Result<void> FrameSource::frame_everything() {
+    std::vector<glm::dvec3> corners;
+    Bounds scene;
+    const double duration = clip_ ? clip_->duration() : 0;
+    const int moments = duration > 0 ? 16 : 1;
+    for (int moment = 0; moment < moments; ++moment) {
+        const double time = duration * moment / moments;
+        Making making = begin(time, time);
+        if (const auto drawn = add_draws(making); !drawn) return drawn;
+        for (const glm::dvec3& corner : making.corners) scene.add(corner);
+        corners.insert(corners.end(), making.corners.begin(), making.corners.end());
+    }
+    if (corners.empty()) corners = {glm::dvec3(-1), glm::dvec3(1)};
+    framing_ = framing_view(corners, scene, options_);
+    return {};
+}
+
 Result<void> FrameSource::set_view(Making& making) {
     const std::size_t cameras = document_.cameras.size();
     if (options_.camera >= 0 && static_cast<std::size_t>(options_.camera) >= cameras) {
@@ -233,8 +255,7 @@ Result<void> FrameSource::set_view(Making& making) {
     }
     const auto seen = cameras > 0 ? seen_by_camera(making.to_world) : std::nullopt;
     if (!seen && !framing_) {
-        if (making.corners.empty()) making.corners = {glm::dvec3(-1), glm::dvec3(1)};
-        framing_ = framing_view(making.corners, making.scene, options_);
+        if (const auto framed = frame_everything(); !framed) return framed;
     }
     making.frame.view = seen ? *seen : *framing_;
     making.frame.view.width = options_.width;
@@ -272,9 +293,7 @@ Result<Frame> FrameSource::frame(std::uint32_t index) {
     if (index > 0 && !exposure_) {  // what stays is taken from frame 0
         if (const auto first = frame(0); !first) return first.error();
     }
-    Making making{.pose = pose_at(index), .budget = Budget(options_.memory_budget)};
-    making.to_world = to_world(document_, hierarchy_, making.pose);
-    making.previous_to_world = index == 0 ? making.to_world : to_world(document_, hierarchy_, pose_at(index - 1));
+    Making making = begin(index / options_.fps, (index == 0 ? 0 : index - 1) / options_.fps);
     making.frame.time = index / options_.fps;
     making.frame.index = index;
     making.frame.materials = surfaces_.materials;

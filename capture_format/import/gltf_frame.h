@@ -38,13 +38,14 @@ private:
 
     Result<void> check_extensions();
     Result<void> read_animation();
-    NodePose pose_at(std::uint32_t index) const;
+    Making begin(double time, double previous_time) const;
     Result<void> add_draws(Making&);
     Result<void> add_draw(Making&, const Node&, const Primitive&);
     Result<std::uint32_t> moving_mesh(Making&, const Node&, const Primitive&);
     std::vector<glm::dmat4> joint_matrices(const Making&, const Node&) const;
     glm::dmat4 object_to_world(const std::vector<glm::dmat4>& to_world, const Node&, const Primitive&) const;
     std::optional<View> seen_by_camera(const std::vector<glm::dmat4>& to_world);
+    Result<void> frame_everything();
     Result<void> set_view(Making&);
     void set_light(Making&);
     void warn(std::string sentence);
@@ -57,7 +58,7 @@ private:
     std::optional<Clip> clip_;
     ImportedMaterials surfaces_;
     std::optional<Geometry> geometry_;
-    std::optional<View> framing_;    ///< of frame 0
+    std::optional<View> framing_;    ///< of all frames that no camera sees
     std::optional<float> exposure_;  ///< of frame 0
     std::vector<std::string> warnings_;
     std::set<std::string> warned_;

@@ -1,5 +1,8 @@
 #include "capture_format/import/gltf_load.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "capture_format/import/gltf_json.h"
 #include "capture_format/import/gltf_meshopt.h"
 
@@ -85,7 +88,7 @@ LightSource read_light(Fields fields) {
             .intensity = fields.number("intensity", 1),
             .range = fields.number("range", 0),
             .inner_angle = spot.number("innerConeAngle", 0),
-            .outer_angle = spot.number("outerConeAngle", 0.7853981633974483)};
+            .outer_angle = spot.number("outerConeAngle", std::numbers::pi / 4)};
 }
 
 /// Reads the lists of one file.
@@ -174,17 +177,21 @@ private:
         root.each("buffers", [&](Fields fields) { buffers_.push_back(read_buffer(fields, buffers_.size(), binary)); });
         root.each("bufferViews", [&](Fields fields) { document_.views.push_back(read_view(fields)); });
         root.each("accessors", [&](Fields fields) { document_.accessors.push_back(read_accessor(fields)); });
-        root.each("images", [&](Fields fields) {
-            Image image{.name = fields.text("name"), .uri = fields.text("uri"), .content = {}};
-            const int view = fields.index("bufferView");
-            if (view >= 0 && static_cast<std::size_t>(view) < document_.views.size()) {
-                image.content = document_.views[static_cast<std::size_t>(view)].content;
-            } else {
-                image.content = image.uri.empty() ? Bytes{{}, "it has neither a uri nor a buffer view"} : resource(image.uri);
-            }
-            if (image.uri.starts_with("data:")) image.uri = "data URI";
-            document_.images.push_back(std::move(image));
-        });
+        root.each("images", [&](Fields fields) { document_.images.push_back(read_image(fields)); });
+    }
+
+    Image read_image(Fields fields) {
+        Image image{.name = fields.text("name"), .uri = fields.text("uri"), .content = {}};
+        const int view = fields.index("bufferView");
+        if (view >= 0) {
+            const bool exists = static_cast<std::size_t>(view) < document_.views.size();
+            image.content = exists ? document_.views[static_cast<std::size_t>(view)].content
+                                   : Bytes{{}, fmt::format("buffer view {} does not exist", view)};
+        } else {
+            image.content = image.uri.empty() ? Bytes{{}, "it has neither a uri nor a buffer view"} : resource(image.uri);
+        }
+        if (image.uri.starts_with("data:")) image.uri = "data URI";
+        return image;
     }
 
     void read_scene(Fields& root) {

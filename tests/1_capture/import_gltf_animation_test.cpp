@@ -83,6 +83,17 @@ TEST(GltfAnimation, FramesKnowWhereThingsWereOneFrameEarlier) {
     EXPECT_EQ(third.meshes.size(), 1u);
 }
 
+TEST(GltfAnimation, TheFramingCameraSeesAllOfIt) {
+    GltfScene scene = opened(sliding(), {.fps = 4});
+    for (std::uint32_t index = 0; index < 8; ++index) {
+        const Frame frame = frame_of(scene, index);
+        const glm::dvec3 corner(frame.draws[0].to_world * glm::dvec4(1, 0, 0, 1));
+        const glm::dvec4 clip(frame.view.projection * glm::vec4(frame.view.to_view * (corner - frame.view.origin), 1));
+        EXPECT_LT(std::abs(clip.x), clip.w) << index;
+        EXPECT_LT(std::abs(clip.y), clip.w) << index;
+    }
+}
+
 TEST(GltfAnimation, BeginsAgainAfterItsLastKey) {
     GltfScene scene = opened(sliding(), {.fps = 4});
     EXPECT_EQ(frame_of(scene, 8).draws[0].to_world, frame_of(scene, 0).draws[0].to_world);

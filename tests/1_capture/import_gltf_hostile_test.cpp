@@ -62,6 +62,7 @@ TEST(HostileGltf, DanglingReferencesAreRefused) {
 TEST(HostileGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
     const ImportedScene scene = imported(with_image(R"("bufferView":0,"mimeType":"image/png")", ""));
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("neither PNG nor JPEG")));
+    EXPECT_THAT(imported(with_image(R"("bufferView":9)", "")).warnings, Contains(HasSubstr("buffer view 9 does not exist")));
     std::string text = with_image(R"("bufferView":0,"mimeType":"image/png")", "");
     const std::string view = R"({"buffer":0,"byteOffset":0,"byteLength":36})";
     text.insert(text.find(view), R"({"buffer":0,"byteOffset":16,"byteLength":1000000},)");

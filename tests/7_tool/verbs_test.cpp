@@ -8,6 +8,7 @@
 #include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/gltf_text.h"
 
 namespace strata {
 namespace {
@@ -162,6 +163,21 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     }
     EXPECT_EQ(strata("report panes.strata --stage nothing").code, 2);
     EXPECT_EQ(strata("report panes.strata --sweep nothing=1,2").code, 2);
+}
+
+TEST(Import, AnAnimationBecomesFrames) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.floats({0, 1}, "SCALAR", 1);
+    gltf.floats({0, 0, 0, 1, 0, 0}, "VEC3", 3);
+    std::ofstream(folder() / "moving.gltf") << gltf.text(showing(triangle, R"(,"animations":[{"name":"slide","samplers":[
+        {"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])"));
+    const Finished imported = strata("import moving.gltf --frames 3 --fps 4 --size 32x18");
+    ASSERT_EQ(imported.code, 0) << imported.err;
+    EXPECT_THAT(imported.err, HasSubstr("imported 3 frames, 1 draw"));
+    EXPECT_EQ(json::parse(strata("info moving.strata --json").out)["frames"], 3);
+    for (const char* wrong : {"--animation fly", "--fps 0", "--frames 0"}) {
+        EXPECT_EQ(strata(std::string("import moving.gltf ") + wrong).code, 2) << wrong;
+    }
 }
 
 TEST(Import, ABrokenSceneIsExitThree) {
