@@ -4,13 +4,15 @@
 #include <cassert>
 #include <cmath>
 
-#include "capture_format/srgb.h"
+#include "passes/reference/textures.h"
 
 namespace strata::gbuffer {
 namespace {
 
 constexpr double smallest_normal = 0x1p-14, largest_half = 65504;
 constexpr std::uint32_t codes_per_sign = 30720, first_normal = 0x0400, first_negative_normal = 0x8400;
+
+double linear_to_srgb(double c) { return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
 /// The nearest of levels + 1 equal steps of 0..1, as its number.
 std::uint32_t level(double value, std::uint32_t levels) {
@@ -63,7 +65,7 @@ SurfacePoint stored_material(SurfacePoint p) {
     p.metallic = double(code / 256 % 60) / 59;
     p.model = static_cast<LightingModel>(code / 256 / 60);
     for (int c = 0; c < 3; ++c)
-        p.base_color[c] = decode_srgb(level(encode_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
+        p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
     p.roughness = level(p.roughness, 255) / 255.0;
     return p;
 }

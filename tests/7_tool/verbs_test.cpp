@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
 
@@ -58,6 +59,17 @@ TEST(Record, AnUnknownScenarioIsAUsageError) {
     EXPECT_EQ(failed.code, 2);
     EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+}
+
+TEST(Record, FramesOfAnyShapeHaveASmallThumbnail) {
+    for (const char* size : {"4x2000", "2000x4", "320x180"}) {
+        const Finished recorded = strata(std::string("record three_panes -o thin.strata --size ") + size);
+        ASSERT_EQ(recorded.code, 0) << size << ": " << recorded.err;
+        const auto capture = Capture::open(folder() / "thin.strata");
+        ASSERT_TRUE(capture) << capture.error().sentence;
+        EXPECT_GT(capture->thumbnail().width, 0u) << size << ": " << recorded.err;
+        EXPECT_LE(capture->thumbnail().width, 160u) << size;
+    }
 }
 
 TEST(Info, SaysWhatAFrameCallsForAndWhy) {
