@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/whole_file.h"
+#include "replay/cli/revision.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/difference/comparison.h"
@@ -107,7 +108,8 @@ Result<Request> request_of_side(const Options& options, const SideOptions& side)
 
 Side describe(const SideOptions& side, const Session& session) {
     const DeviceInfo& device = session.device();
-    return {side.file.filename().string(), session.capture_id(), device.name, device.driver + " " + device.driver_version};
+    return {side.file.filename().string(), session.capture_id(), device.name, device.driver + " " + device.driver_version,
+            device.cpu};
 }
 
 /// Both captures, or one capture two ways. One session serves both where file and device are the same.
@@ -213,7 +215,7 @@ Result<void> diff(Options options) {
         if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
     }
     Pictures pictures(options);
-    Comparison comparison{.limits = options.limits, .rerun = options.rerun};
+    Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;
     fmt::print("{}", options.json ? as_json(comparison) : as_text(comparison));
     if (!options.junit.empty())

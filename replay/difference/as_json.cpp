@@ -79,7 +79,7 @@ ordered_json json_of(const FrameComparison& frame) {
 ordered_json json_of(const Side& side) {
     ordered_json json{{"name", side.name}};
     if (!side.capture.empty()) json["capture"] = side.capture;
-    if (!side.device.empty()) json["device"] = {{"name", side.device}, {"driver", side.driver}};
+    if (!side.device.empty()) json["device"] = {{"name", side.device}, {"driver", side.driver}, {"cpu", side.cpu}};
     return json;
 }
 
@@ -96,6 +96,7 @@ ordered_json json_of(const ErrorLimits& limits) {
 std::string as_json(const Comparison& comparison) {
     ordered_json json{{"schema", "strata.diff"},
                       {"schema_version", 1},
+                      {"tool", comparison.tool},
                       {"a", json_of(comparison.a)},
                       {"b", json_of(comparison.b)},
                       {"limits", json_of(comparison.limits)},

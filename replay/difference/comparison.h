@@ -33,15 +33,15 @@ struct FrameComparison {
 
 /// A side of a comparison in words.
 struct Side {
-    std::string name;                     ///< of the file
-    std::string capture, device, driver;  ///< empty for images
+    std::string name;                          ///< of the file
+    std::string capture, device, driver, cpu;  ///< empty for images
 };
 
 struct Comparison {
     Side a, b;
     ErrorLimits limits;
     std::vector<FrameComparison> frames;
-    std::string rerun;  ///< the command line
+    std::string tool, rerun;  ///< "strata REVISION", the command line
 };
 
 /// A run to compare: a session and what to ask of it. Both sides may be one session.
