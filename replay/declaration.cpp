@@ -91,6 +91,7 @@ public:
         const std::size_t place = place_++;
         Graph& graph = d_->graph;
         const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
+        d_->act_keys.push_back(key);
         if (skip_[place]) return remember_counters(key, act);
         if (wanted_[place].empty()) return;
         if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
@@ -114,7 +115,7 @@ public:
                 Image to = graph.import("kept " + image.name, image.shape, image.id);
                 graph.copy(graph.find_image(image.name), to);
             }
-            d_->memo_writes.emplace_back(key, act.technique);
+            d_->memo_writes.emplace_back(key, act.scope);
         }
         refresh(graph, d_->images);
     }
@@ -125,7 +126,7 @@ private:
         if (const KeptAct* kept = memo_->find(key, {})) {
             d_->counters_if_idle[act.scope] = kept->counters;
         } else if (memo_->reserve(key, {})) {
-            d_->memo_writes.emplace_back(key, act.technique);
+            d_->memo_writes.emplace_back(key, act.scope);
         }
     }
 

@@ -1,9 +1,10 @@
 // The session behind Session::open: one device, one capture, the frame that is loaded, the memo. What it does is spread over
-// session.cpp (opening, running, timing) and inspection.cpp (looking inside a frame, judging).
+// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging) and memory_budget.cpp.
 #pragma once
 
 #include <variant>
 
+#include "passes/reference/fragments.h"
 #include "replay/declaration.h"
 #include "replay/gpu/executor.h"
 #include "replay/memory_need.h"
@@ -34,12 +35,25 @@ public:
     void forget_memo() override { memo_.clear(); }
 
 private:
-    /// Every image as a stage's technique (its last act) found it, and the stage's outputs as it left them.
+    /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
+    /// kept, and the transparent fragments before it as soon as a model wants them.
+    struct Found {
+        std::uint64_t frame = 0;          ///< LoadedFrame::key
+        std::vector<std::uint64_t> keys;  ///< of the acts before; empty: not known to be the same again
+        ImageSet images;
+        std::optional<FragmentLists> fragments;
+    };
+    /// The outputs of a stage as its technique left them; found_ is what it found.
     struct Inspected {
         Choice choice;
-        ImageSet before, result;
+        ImageSet result;
     };
     Result<Inspected> inspect(const Request&, Stage);
+    struct TimedRun {
+        Run run;
+        std::vector<double> step_ms;
+    };
+    Result<TimedRun> time_alone(const Request&);
     Result<Run> run_with_acts(const Request&);
 
     /// Loads the frame's variant when it is not the current one, and declares the request on it.
@@ -60,7 +74,7 @@ private:
     Result<Execution> execute(const Declaration&, const RunOptions&);
     /// What is known of a run after it.
     Run finished(const Declaration&, const Execution&);
-    void remember(const Declaration&, const std::vector<CounterRecord>&);
+    void remember(const Declaration&, const Execution&);
 
     std::unique_ptr<Device> device_;
     std::unique_ptr<Executor> executor_;
@@ -70,6 +84,7 @@ private:
     std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
     std::uint64_t memory_budget_;
     RunTimes times_;  ///< of the latest request
+    std::optional<Found> found_;
     Source source_;
 };
 

@@ -25,11 +25,6 @@ Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
     return fail(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
 }
 
-void collect_images(const Declaration& d, const Execution& execution, Run& run) {
-    for (const auto& [name, image] : d.outputs)
-        if (const auto found = execution.images.find(image.id); found != execution.images.end()) run.images[name] = found->second;
-}
-
 }  // namespace
 
 DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source, std::uint64_t memory_budget)
@@ -71,31 +66,9 @@ Result<Run> DeviceSession::run(const Request& request) {
     }
     Run run = finished(d, *execution);
     if (options.until) memo_.drop_unfilled();
-    else remember(d, run.counters);
-    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
-    collect_images(d, *execution, run);
+    else remember(d, *execution);
+    run.images = images_of(d, *execution);
     return run;
-}
-
-Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
-    std::vector<Run> runs;
-    std::vector<std::vector<std::vector<double>>> step_ms(requests.size());  // [request][repeat][step]
-    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {              // the first of each warms up
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            const auto declared = prepare(requests[i], nullptr, Keep::outputs);
-            if (!declared) return declared.error();
-            const auto execution = execute(*declared, {.timestamps = Timestamps::on});
-            if (!execution) return execution.error();
-            if (repeat > 0) {
-                step_ms[i].push_back(execution->step_ms);
-                continue;
-            }
-            runs.push_back(finished(*declared, *execution));
-            collect_images(*declared, *execution, runs.back());
-        }
-    }
-    for (std::size_t i = 0; i < runs.size(); ++i) add_times(runs[i], step_ms[i]);
-    return runs;
 }
 
 Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
@@ -171,6 +144,8 @@ Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions&
 Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
     Run run = describe_run(d);
     run.counters = read_counters(d, execution);
+    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
+    run.counters = summed(std::move(run.counters));
     run.notes = loaded_->notes;
     run.pipelines_created = execution.pipelines_created;
     run.host_ms = times_;
@@ -184,13 +159,8 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
     return run;
 }
 
-void DeviceSession::remember(const Declaration& d, const std::vector<CounterRecord>& counters) {
-    for (const auto& [key, technique] : d.memo_writes) {
-        std::vector<CounterRecord> own;
-        std::ranges::copy_if(counters, std::back_inserter(own),
-                             [&](const CounterRecord& c) { return c.technique == technique->name; });
-        memo_.commit(key, std::move(own));
-    }
+void DeviceSession::remember(const Declaration& d, const Execution& execution) {
+    for (const auto& [key, scope] : d.memo_writes) memo_.commit(key, read_counters(d, execution, scope));
 }
 
 namespace {

@@ -136,6 +136,7 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     const double pipelines_ms = pipelines_.milliseconds();
     const std::size_t pipelines_before = pipelines_.created();
 
+    pipelines_.make(plan, std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size()));
     auto commands = device_->begin_commands();
     const auto layouts = imports_.layouts();
     try {

@@ -62,7 +62,6 @@ TEST(StepImages, ComeStepByStepAndEndWithWhatTheActLeft) {
         for (const auto& [name, image] : step.images) last[name] = hash_of(image);
     const auto acts = must(session->act_images({}));
     EXPECT_EQ(last.at("color"), hash_of(act_named(acts, "transparency").images.at("color")));
-    EXPECT_GT(last.size(), 1u);  // what the technique keeps to itself, too
 }
 
 TEST(StepImages, OfAStageTheFrameDoesNotNeedAreNone) {
