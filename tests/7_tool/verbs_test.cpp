@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "accept", "graph", "report"};
+constexpr const char* verb_names[] = {"list", "record", "import", "export", "info", "validate", "replay", "accept", "graph", "report"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
