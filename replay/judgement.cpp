@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+
 #include "passes/frame_images.h"
 #include "replay/measure/flip.h"
 

@@ -64,7 +64,7 @@ TEST_P(DeepExport, IsFlattenedToTheTruthByOpenExrAndByUs) {
     const TemporaryFile file("deep.exr");
     const std::string exr = replayed.exported();
     write_file(file.path(), bytes_of(exr));
-    const std::vector<glm::vec4> theirs = openexr_composite(file.path());
+    const std::vector<glm::vec4> theirs = openexr_composite(file.path()).texels;
     const FlatDeep ours = must(flatten_deep(bytes_of(exr), "exported"));
     expect_truth(replayed, [&](std::uint32_t x, std::uint32_t y) { return glm::dvec4(theirs[y * replayed.truth.width + x]); });
     expect_truth(replayed, [&](std::uint32_t x, std::uint32_t y) { return texel(ours.image, x, y); });

@@ -125,7 +125,7 @@ std::string flat_file(std::uint32_t width, std::uint32_t height) {
     return stream.str();
 }
 
-std::vector<glm::vec4> openexr_composite(const std::filesystem::path& path) {
+OpenExrComposite openexr_composite(const std::filesystem::path& path) {
     Imf::DeepScanLineInputFile file(path.c_str());
     Imf::CompositeDeepScanLine composite;
     composite.addSource(&file);
@@ -139,7 +139,7 @@ std::vector<glm::vec4> openexr_composite(const std::filesystem::path& path) {
                                                  sizeof(glm::vec4), sizeof(glm::vec4) * width));
     composite.setFrameBuffer(buffer);
     composite.readPixels(window.min.y, window.max.y);
-    return texels;
+    return {std::move(texels), {window.min.x, window.min.y}, width};
 }
 
 }  // namespace strata

@@ -32,7 +32,12 @@ std::string deep_file(const std::vector<std::pair<std::string, DeepSource>>& par
 /// One RGBA image of a size that is not deep.
 std::string flat_file(std::uint32_t width, std::uint32_t height);
 
-/// What Imf::CompositeDeepScanLine makes of the data window, row by row: RGB and A in float.
-std::vector<glm::vec4> openexr_composite(const std::filesystem::path&);
+/// What Imf::CompositeDeepScanLine makes of a file: RGB and A in float, row by row from the data window's corner.
+struct OpenExrComposite {
+    std::vector<glm::vec4> texels;
+    glm::ivec2 from{0};
+    std::size_t width = 0;
+};
+OpenExrComposite openexr_composite(const std::filesystem::path&);
 
 }  // namespace strata
