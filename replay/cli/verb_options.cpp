@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
+#include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
 
@@ -40,6 +41,10 @@ Texture thumbnail_of(const HostImage& display) {
     return texture;
 }
 
+void say_what_is_left_out(const Capture& capture) {
+    for (const std::string& sentence : capture.summary().left_out) fmt::print(stderr, "strata: {}\n", sentence);
+}
+
 }  // namespace
 
 void add_options(CLI::App& app, OpenOptions& options) {
@@ -53,7 +58,15 @@ void add_options(CLI::App& app, OpenOptions& options) {
 }
 
 Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
-    return Session::open(options.capture, options.device, options.allow_partial ? Partial::allowed : Partial::refused);
+    auto session = Session::open(options.capture, options.device, options.allow_partial ? Partial::allowed : Partial::refused);
+    if (session) say_what_is_left_out(*(*session)->capture());
+    return session;
+}
+
+Result<Capture> open_capture(const std::filesystem::path& path, Partial partial) {
+    auto capture = Capture::open(path, partial);
+    if (capture) say_what_is_left_out(*capture);
+    return capture;
 }
 
 void add_options(CLI::App& app, ChoiceOptions& options) {
