@@ -10,7 +10,7 @@ packages=(
     g++ cmake ninja-build ccache pkg-config glslang-tools
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     libspirv-cross-c-shared-dev libfmt-dev libglm-dev libtbb-dev libzstd-dev libxxhash-dev
-    libflatbuffers-dev flatbuffers-compiler libtinygltf-dev libstb-dev
+    libflatbuffers-dev flatbuffers-compiler libmeshoptimizer-dev libstb-dev
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)

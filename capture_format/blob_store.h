@@ -52,14 +52,19 @@ public:
     BlobName put(std::span<const std::byte>);
     /// The blobs put since the last call as sections, none when there are no new ones. Fails for a blob above the limit.
     Result<std::vector<PackedBlobs>> pack();
+    /// What pack() would compress now.
+    std::uint64_t pending_bytes() const { return pending_bytes_; }
 
 private:
     struct Pending {
         BlobHash hash;
         std::vector<std::byte> bytes;
     };
+    static PackedBlobs pack(std::span<const Pending>, std::uint64_t raw_bytes);
+
     std::set<BlobHash> known_;
     std::vector<Pending> pending_;
+    std::uint64_t pending_bytes_ = 0;
 };
 
 /// Reading: finds blobs by hash, decompresses a section when one of its blobs is asked for the first time.

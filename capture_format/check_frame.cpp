@@ -93,16 +93,32 @@ Error Inspection::located(std::string_view sentence) const {
     return fail(Fault::bad_input, "{} {} '{}': {}", subject_.kind, subject_.index, subject_.name.substr(0, 60), sentence);
 }
 
-Result<void> check_frame(const Frame& frame) {
+Result<void> check_submissions(const Frame& frame, const ResourceShapes& resources) {
     Inspection inspection;
     inspection.expect(finite(frame.time), "the frame's time is not finite");
     inspect_view(inspection, frame.view);
     inspect_environment(inspection, frame);
     inspect_camera(inspection, frame.lens, frame.film);
     inspect_choices(inspection, frame);
-    inspect_resources(inspection, frame);
-    inspect_lights(inspection, frame);
+    inspect_submissions(inspection, frame, resources);
+    inspect_lights(inspection, frame, resources.textures);
     return inspection.verdict();
+}
+
+Result<void> check_frame(const Frame& frame) {
+    Inspection inspection;
+    ResourceShapes resources{.textures = frame.textures.size(), .meshes = {}, .materials = frame.materials};
+    for (std::size_t i = 0; i < frame.textures.size(); ++i) {
+        inspection.at({"texture", i, frame.textures[i].name});
+        inspect_texture(inspection, frame.textures[i]);
+    }
+    for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
+        const Mesh& mesh = frame.meshes[i];
+        inspection.at({"mesh", i, mesh.name});
+        inspect_mesh(inspection, mesh);
+        resources.meshes.push_back({mesh.name, mesh.positions.empty(), !mesh.uv0.empty(), !mesh.uv1.empty()});
+    }
+    return inspection.failed() ? inspection.verdict() : check_submissions(frame, resources);
 }
 
 }  // namespace strata

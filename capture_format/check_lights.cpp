@@ -46,8 +46,6 @@ void inspect_angles(Inspection& inspection, const Light& light) {
 }
 
 void inspect_indices(Inspection& inspection, const Frame& frame, const Light& light) {
-    inspection.expect(optional_index(light.texture, frame.textures.size()), "it uses texture {} of {}", light.texture,
-                      frame.textures.size());
     inspection.expect(light.clip_planes.size() <= most_clip_planes, "a light has up to {} clip planes, not {}", most_clip_planes,
                       light.clip_planes.size());
     for (const ClipPlane& plane : light.clip_planes) {
@@ -122,7 +120,7 @@ void inspect_volume(Inspection& inspection, const LightVolume& volume) {
 
 }  // namespace
 
-void inspect_lights(Inspection& inspection, const Frame& frame) {
+void inspect_lights(Inspection& inspection, const Frame& frame, std::size_t textures) {
     for (std::size_t i = 0; i < frame.blockers.size(); ++i) {
         inspection.at({.kind = "blocker", .index = i});
         inspect_rectangle(inspection, frame.blockers[i]);
@@ -136,6 +134,8 @@ void inspect_lights(Inspection& inspection, const Frame& frame) {
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         inspection.at({"light", i, frame.lights[i].name});
         inspect_light(inspection, frame, frame.lights[i]);
+        inspection.expect(optional_index(frame.lights[i].texture, textures), "it uses texture {} of {}", frame.lights[i].texture,
+                          textures);
     }
     inspection.at({.kind = "sun"});
     inspect_sun(inspection, frame.sun);

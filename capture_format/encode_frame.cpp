@@ -17,14 +17,9 @@ class Encoder {
 public:
     explicit Encoder(BlobCollector& blobs) : blobs_(blobs) { builder_.ForceDefaults(true); }
 
-    std::vector<std::byte> encode(const Frame&);
+    std::vector<std::byte> encode(const Frame&, const StoredResources&);
 
 private:
-    template <typename T>
-    schema::Blob blob(const std::vector<T>& values) {
-        const BlobName name = blobs_.put(std::as_bytes(std::span(values)));
-        return {name.hash.low, name.hash.high, name.bytes};
-    }
     /// Encodes every element and the vector of them.
     template <typename T, typename Table>
     auto list(const std::vector<T>& values, Offset<Table> (Encoder::*encode_one)(const T&)) {
@@ -34,8 +29,8 @@ private:
     }
 
     Offset<schema::View> view(const View&);
-    Offset<schema::Texture> texture(const Texture&);
-    Offset<schema::Mesh> mesh(const Mesh&);
+    Offset<schema::Texture> texture(const StoredTexture&);
+    Offset<schema::Mesh> mesh(const StoredMesh&);
     Offset<schema::TextureUse> texture_use(const TextureUse&);
     Offset<schema::Material> material(const Material&);
     Offset<schema::Draw> draw(const Draw&);
@@ -64,6 +59,7 @@ schema::DVec3 bits(const glm::dvec3& v) { return same_bits<schema::DVec3>(v); }
 schema::DMat3 bits(const glm::dmat3& m) { return same_bits<schema::DMat3>(m); }
 schema::DMat4 bits(const glm::dmat4& m) { return same_bits<schema::DMat4>(m); }
 schema::Mat4 bits(const glm::mat4& m) { return same_bits<schema::Mat4>(m); }
+schema::Blob named(const BlobName& blob) { return {blob.hash.low, blob.hash.high, blob.bytes}; }
 
 Offset<schema::View> Encoder::view(const View& view) {
     const schema::DVec3 origin = bits(view.origin);
@@ -83,9 +79,10 @@ Offset<schema::View> Encoder::view(const View& view) {
     return table.Finish();
 }
 
-Offset<schema::Texture> Encoder::texture(const Texture& texture) {
+Offset<schema::Texture> Encoder::texture(const StoredTexture& stored) {
+    const Texture& texture = stored.texture;
     const auto name = builder_.CreateString(texture.name);
-    const schema::Blob texels = blob(texture.texels);
+    const schema::Blob texels = named(stored.texels);
     schema::TextureBuilder table(builder_);
     table.add_name(name);
     table.add_format(static_cast<schema::TextureFormat>(texture.format));
@@ -97,10 +94,10 @@ Offset<schema::Texture> Encoder::texture(const Texture& texture) {
     return table.Finish();
 }
 
-Offset<schema::Mesh> Encoder::mesh(const Mesh& mesh) {
+Offset<schema::Mesh> Encoder::mesh(const StoredMesh& mesh) {
     const auto name = builder_.CreateString(mesh.name);
-    const schema::Blob positions = blob(mesh.positions), normals = blob(mesh.normals), tangents = blob(mesh.tangents);
-    const schema::Blob uv0 = blob(mesh.uv0), uv1 = blob(mesh.uv1), colors = blob(mesh.colors), indices = blob(mesh.indices);
+    const schema::Blob positions = named(mesh.positions), normals = named(mesh.normals), tangents = named(mesh.tangents);
+    const schema::Blob uv0 = named(mesh.uv0), uv1 = named(mesh.uv1), colors = named(mesh.colors), indices = named(mesh.indices);
     schema::MeshBuilder table(builder_);
     table.add_name(name);
     table.add_positions_m(&positions);
@@ -174,7 +171,7 @@ Offset<schema::Draw> Encoder::draw(const Draw& draw) {
 
 Offset<schema::Emitter> Encoder::emitter(const Emitter& emitter) {
     const auto name = builder_.CreateString(emitter.name);
-    const schema::Blob particles = blob(emitter.particles);
+    const schema::Blob particles = named(store(emitter.particles, blobs_));
     schema::EmitterBuilder table(builder_);
     table.add_name(name);
     table.add_texture(emitter.texture);
@@ -316,11 +313,11 @@ Offset<schema::StageChoice> Encoder::stage_choice(const StageChoice& choice) {
     return schema::CreateStageChoice(builder_, stage, technique, settings);
 }
 
-std::vector<std::byte> Encoder::encode(const Frame& frame) {
+std::vector<std::byte> Encoder::encode(const Frame& frame, const StoredResources& resources) {
     const auto view_table = view(frame.view);
-    const auto textures = list(frame.textures, &Encoder::texture);
-    const auto meshes = list(frame.meshes, &Encoder::mesh);
-    const auto materials = list(frame.materials, &Encoder::material);
+    const auto textures = list(resources.textures, &Encoder::texture);
+    const auto meshes = list(resources.meshes, &Encoder::mesh);
+    const auto materials = list(resources.materials, &Encoder::material);
     const auto draws = list(frame.draws, &Encoder::draw);
     const auto emitters = list(frame.emitters, &Encoder::emitter);
     const auto lights = list(frame.lights, &Encoder::light);
@@ -356,7 +353,13 @@ std::vector<std::byte> Encoder::encode(const Frame& frame) {
 
 }  // namespace
 
-std::vector<std::byte> encode_frame(const Frame& frame, BlobCollector& blobs) { return Encoder(blobs).encode(frame); }
+std::vector<std::byte> encode_frame(const Frame& frame, const StoredResources& resources, BlobCollector& blobs) {
+    return Encoder(blobs).encode(frame, resources);
+}
+
+std::vector<std::byte> encode_frame(const Frame& frame, BlobCollector& blobs) {
+    return encode_frame(frame, store_resources(frame, blobs), blobs);
+}
 
 std::int64_t echo_of(std::span<const std::byte> section) {
     const auto& draws = *schema::GetFrame(section.data())->draws();

@@ -13,6 +13,10 @@
 
 namespace strata {
 
+// An application that links the library with other types than these would hand over other structs.
+static_assert(alignof(glm::vec4) == alignof(float) && alignof(glm::dmat4) == alignof(double),
+              "frames need glm's packed types: compile without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+
 /// Marks an index that points at nothing (no texture, no shadow, no list).
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
@@ -41,6 +45,8 @@ struct Mesh {
 
 enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx };
 enum class AlphaMode : std::uint32_t { opaque, mask, blend, premultiplied, additive };
+/// Whether something behind it may be seen through a covered sample.
+inline bool is_transparent(AlphaMode mode) { return mode != AlphaMode::opaque && mode != AlphaMode::mask; }
 
 /// A texture with its uv set and affine uv transform: uv' = transform * (u, v, 1), row by row.
 struct TextureUse {

@@ -61,8 +61,6 @@ std::string called(std::string_view kind, std::string_view own_name, std::size_t
 
 bool any(const glm::vec3& color) { return color != glm::vec3(0); }
 
-bool is_transparent(AlphaMode mode) { return mode != AlphaMode::opaque && mode != AlphaMode::mask; }
-
 /// Layer and resolution mean the same for draws and emitters.
 template <typename Submission>
 void find_placement(Features& features, const Submission& submission, const std::string& subject) {

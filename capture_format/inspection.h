@@ -5,8 +5,10 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -79,8 +81,25 @@ bool known(Enum value, Enum last) {
 /// True for no_index and for an index into a list of the given size.
 inline bool optional_index(std::uint32_t index, std::size_t size) { return index == no_index || index < size; }
 
-/// Parts of check_frame(), one file each.
-void inspect_resources(Inspection&, const Frame&);  ///< textures, meshes, materials, draws, emitters
-void inspect_lights(Inspection&, const Frame&);     ///< lights, blockers, portals, sun, light volumes
+/// What the inspection of draws needs to know of a mesh. The name must live as long.
+struct MeshShape {
+    std::string_view name;
+    bool empty = true, has_uv0 = false, has_uv1 = false;
+};
+/// What the rest of a frame refers to, when its bytes are elsewhere.
+struct ResourceShapes {
+    std::size_t textures = 0;
+    std::vector<MeshShape> meshes;
+    std::span<const Material> materials;
+};
+
+/// Parts of check_frame().
+void inspect_texture(Inspection&, const Texture&);
+void inspect_mesh(Inspection&, const Mesh&);
+void inspect_submissions(Inspection&, const Frame&, const ResourceShapes&);  ///< materials, draws, emitters
+void inspect_lights(Inspection&, const Frame&, std::size_t textures);        ///< lights, blockers, portals, sun, light volumes
+
+/// check_frame() of all but textures and meshes, which must have passed before.
+Result<void> check_submissions(const Frame&, const ResourceShapes&);
 
 }  // namespace strata

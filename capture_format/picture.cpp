@@ -9,10 +9,8 @@
 namespace strata {
 namespace {
 
-constexpr std::uint32_t largest_edge = 1024;
-
 bool fits(std::uint32_t width, std::uint32_t height, std::size_t texel_bytes) {
-    return width >= 1 && height >= 1 && width <= largest_edge && height <= largest_edge &&
+    return width >= 1 && height >= 1 && width <= largest_picture_edge && height <= largest_picture_edge &&
            texel_bytes == std::size_t{4} * width * height;
 }
 
@@ -21,7 +19,7 @@ bool fits(std::uint32_t width, std::uint32_t height, std::size_t texel_bytes) {
 Result<std::vector<std::byte>> encode_picture(const Texture& picture) {
     const bool rgba8 = picture.format == TextureFormat::rgba8_unorm || picture.format == TextureFormat::rgba8_srgb;
     if (!rgba8 || picture.mips != 1 || !fits(picture.width, picture.height, picture.texels.size())) {
-        return fail(Fault::usage, "a thumbnail is RGBA8 with one mip and 1 to {} texels each way", largest_edge);
+        return fail(Fault::usage, "a thumbnail is RGBA8 with one mip and 1 to {} texels each way", largest_picture_edge);
     }
     const std::uint32_t extent[] = {picture.width, picture.height};
     const auto head = std::as_bytes(std::span(extent));
@@ -34,7 +32,7 @@ Result<Texture> decode_picture(std::span<const std::byte> payload) {
     std::uint32_t extent[2] = {};
     if (payload.size() >= sizeof(extent)) std::memcpy(extent, payload.data(), sizeof(extent));
     if (payload.size() < sizeof(extent) || !fits(extent[0], extent[1], payload.size() - sizeof(extent))) {
-        return fail(Fault::bad_input, "it is no picture of 1 to {} texels each way", largest_edge);
+        return fail(Fault::bad_input, "it is no picture of 1 to {} texels each way", largest_picture_edge);
     }
     const std::span<const std::byte> texels = payload.subspan(sizeof(extent));
     Texture picture;

@@ -18,7 +18,10 @@ inline constexpr std::uint32_t expect_images_version = 2;
 /// What a reader is willing to copy.
 inline constexpr std::size_t longest_notes = std::size_t{1} << 20, longest_expectation = std::size_t{1} << 26;
 
-/// Fails unless the picture is RGBA8 with one mip and up to 1024 texels each way.
+/// Texels of a picture, each way.
+inline constexpr std::uint32_t largest_picture_edge = 1024;
+
+/// Fails unless the picture is RGBA8 with one mip and up to largest_picture_edge texels each way.
 Result<std::vector<std::byte>> encode_picture(const Texture&);
 Result<Texture> decode_picture(std::span<const std::byte>);
 

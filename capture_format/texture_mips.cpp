@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 #include <glm/glm.hpp>
+
+#include "capture_format/srgb.h"
 
 namespace strata {
 namespace {
 
 enum class Encoding { srgb, linear };
-
-/// IEC 61966-2-1.
-float decode_srgb(float value) { return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f); }
-float encode_srgb(float value) { return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f; }
 
 /// Linear value of each byte.
 using ByteTable = std::array<float, 256>;
@@ -28,8 +25,6 @@ ByteTable byte_table(Encoding encoding) {
     }
     return table;
 }
-
-std::byte to_byte(float value) { return static_cast<std::byte>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f)); }
 
 /// A mip in linear floats.
 struct Level {
@@ -77,8 +72,8 @@ Level halved(std::uint32_t width, std::uint32_t height, const ReadTexel& texel) 
 
 void append(std::vector<std::byte>& texels, const Level& level, Encoding encoding) {
     for (const glm::vec4& texel : level.texels) {
-        for (int c = 0; c < 3; ++c) texels.push_back(to_byte(encoding == Encoding::srgb ? encode_srgb(texel[c]) : texel[c]));
-        texels.push_back(to_byte(texel.w));
+        for (int c = 0; c < 3; ++c) texels.push_back(unorm8(encoding == Encoding::srgb ? encode_srgb(texel[c]) : texel[c]));
+        texels.push_back(unorm8(texel.w));
     }
 }
 

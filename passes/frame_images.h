@@ -57,10 +57,20 @@ struct FrameImages {
     Image display;  ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
 };
 
+/// What an image's numbers are, and so how two of them are compared.
+enum class Content : std::uint32_t {
+    numbers,   ///< normals, factors, whatever else
+    radiance,  ///< linear light of any brightness
+    display,   ///< linear light from 0 to 1
+    depth,
+    coded,  ///< what is in it is the technique's own
+};
+
 /// A member of FrameImages by its name.
 struct FrameImageRow {
     std::string_view name;
     Image FrameImages::*member;
+    Content content = Content::numbers;
 };
 std::span<const FrameImageRow> frame_images();
 /// Null when there is no such image.

@@ -1,5 +1,7 @@
 #include "passes/texture_uses.h"
 
+#include "passes/reference/fragments.h"
+
 namespace strata {
 namespace {
 
@@ -9,26 +11,22 @@ void add(const Frame& frame, std::uint32_t texture, std::uint32_t kind, TextureU
     uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[texture].format);
 }
 
-Surfaces surfaces_of(const Material& material) {
-    const bool opaque = material.alpha_mode == AlphaMode::opaque || material.alpha_mode == AlphaMode::mask;
-    return opaque ? Surfaces::opaque : Surfaces::transparent;
-}
-
 }  // namespace
 
 TextureUses texture_uses(const Frame& frame, Surfaces surfaces) {
     TextureUses uses;
-    for (const Draw& draw : frame.draws) {
-        const Material& material = frame.materials[draw.material];
-        if (surfaces_of(material) != surfaces) continue;
+    for (const std::uint32_t index : surfaces == Surfaces::opaque ? opaque_draws(frame) : transparent_draws(frame)) {
+        if (index >= frame.draws.size()) {
+            add(frame, frame.emitters[index - frame.draws.size()].texture, 1, uses);
+            continue;
+        }
+        const Material& material = frame.materials[frame.draws[index].material];
         add(frame, material.base_color_texture.texture, 1, uses);
         add(frame, material.metallic_roughness_texture.texture, 2, uses);
         add(frame, material.normal_texture.texture, 4, uses);
         add(frame, material.emissive_texture.texture, 8, uses);
         add(frame, material.occlusion_texture.texture, 16, uses);
     }
-    if (surfaces == Surfaces::transparent)
-        for (const Emitter& emitter : frame.emitters) add(frame, emitter.texture, 1, uses);
     return uses;
 }
 

@@ -91,6 +91,7 @@ public:
         const std::size_t place = place_++;
         Graph& graph = d_->graph;
         const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
+        d_->act_keys.push_back(key);
         if (skip_[place]) return remember_counters(key, act);
         if (wanted_[place].empty()) return;
         if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
@@ -106,13 +107,15 @@ public:
         } else {
             std::vector<ImageRecord> records;
             for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
+            const KeptAct* room = memo_->reserve(key, records);
+            if (!room) return;
             graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
                         static_cast<std::uint32_t>(act.technique->stage));
-            for (const auto& image : memo_->reserve(key, records).images) {
+            for (const auto& image : room->images) {
                 Image to = graph.import("kept " + image.name, image.shape, image.id);
                 graph.copy(graph.find_image(image.name), to);
             }
-            d_->memo_writes.emplace_back(key, act.technique);
+            d_->memo_writes.emplace_back(key, act.scope);
         }
         refresh(graph, d_->images);
     }
@@ -122,9 +125,8 @@ private:
     void remember_counters(std::uint64_t key, const DeclaredAct& act) {
         if (const KeptAct* kept = memo_->find(key, {})) {
             d_->counters_if_idle[act.scope] = kept->counters;
-        } else {
-            memo_->reserve(key, {});
-            d_->memo_writes.emplace_back(key, act.technique);
+        } else if (memo_->reserve(key, {})) {
+            d_->memo_writes.emplace_back(key, act.scope);
         }
     }
 

@@ -26,9 +26,10 @@ struct Declaration {
     std::vector<CounterSource> counters;
     std::vector<CounterRecord> kept_counters;  ///< of acts that came from the memo
     std::map<std::uint32_t, std::vector<CounterRecord>>
-        counters_if_idle;  ///< by scope: when all who need the act came from the memo
-    std::vector<std::pair<std::uint64_t, const Technique*>> memo_writes;  ///< keys this run fills
+        counters_if_idle;                                              ///< by scope: when all who need the act came from the memo
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> memo_writes;  ///< keys this run fills, and the scopes of their acts
     std::set<std::uint32_t> scopes_from_memo;
+    std::vector<std::uint64_t> act_keys;  ///< what tells equal acts: see ActKeys; in the order of the acts, only with a memo
     Plan plan;
 };
 

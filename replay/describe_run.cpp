@@ -5,47 +5,38 @@
 #include <functional>
 
 namespace strata {
-namespace {
 
-/// Bytes of the images and buffers that a stage's steps are the first to touch, whether or not their memory is shared.
-std::map<std::string, std::uint64_t> bytes_by_stage(const Plan& plan) {
-    std::map<std::string, std::uint64_t> by_stage;
-    std::vector<bool> image_seen(plan.images.size()), buffer_seen(plan.buffers.size());
-    for (const PlannedStep& planned : plan.steps) {
-        std::uint64_t& sum = by_stage[std::string(name(static_cast<Stage>(plan.scopes[planned.step.scope].stage)))];
-        for (const Barrier& barrier : planned.barriers) {
-            if (barrier.image && !image_seen[barrier.image.id]) {
-                image_seen[barrier.image.id] = true;
-                if (!plan.images[barrier.image.id].import) sum += bytes(plan.images[barrier.image.id].shape);
-            }
-            if (barrier.buffer && !buffer_seen[barrier.buffer.id]) {
-                buffer_seen[barrier.buffer.id] = true;
-                if (!plan.buffers[barrier.buffer.id].import) sum += plan.buffers[barrier.buffer.id].bytes;
-            }
-        }
-    }
-    return by_stage;
-}
-
-}  // namespace
-
-std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution) {
+std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution, std::optional<std::uint32_t> scope) {
     std::vector<CounterRecord> records;
     for (const CounterSource& source : d.counters) {
+        if (scope && source.scope != *scope) continue;
         const auto bytes = execution.buffers.find(source.buffer.id);
         for (const Counter& counter : source.technique->counters) {
             std::uint32_t value = 0;
             if (bytes != execution.buffers.end()) std::memcpy(&value, bytes->second.data() + counter.offset, sizeof value);
-            const auto same = [&](const CounterRecord& r) {
-                return r.technique == source.technique->name && r.name == counter.name;
-            };
-            const auto known = std::ranges::find_if(records, same);
-            if (known == records.end())
-                records.push_back({std::string(source.technique->name), std::string(counter.name), value});
-            else known->value += value;  // a technique that acts at several stages counts in each
+            records.push_back({std::string(source.technique->name), std::string(counter.name), value});
         }
     }
     return records;
+}
+
+std::vector<CounterRecord> summed(std::vector<CounterRecord> records) {
+    std::vector<CounterRecord> sums;
+    for (CounterRecord& record : records) {
+        const auto same = [&](const CounterRecord& r) { return r.technique == record.technique && r.name == record.name; };
+        const auto known = std::ranges::find_if(sums, same);
+        if (known == sums.end()) sums.push_back(std::move(record));
+        else known->value += record.value;
+    }
+    return sums;
+}
+
+std::map<std::string, HostImage> images_of(const Declaration& d, const Execution& execution) {
+    std::map<std::string, HostImage> images;
+    for (const auto& [name, image] : d.outputs)
+        if (const auto found = execution.images.find(image.id); found != execution.images.end())
+            images.emplace(name, found->second);
+    return images;
 }
 
 std::string choice_line(const Choice& choice) {
@@ -65,9 +56,12 @@ Run describe_run(const Declaration& d) {
     for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope].name, step.step.name, {}});
     for (const DeclaredAct& act : d.frame.acts)
         run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
-    run.stage_bytes = bytes_by_stage(d.plan);
+    run.memory.over_time = memory_over_time(d.plan);
+    for (const auto& [stage, memory] : run.memory.over_time.stages) run.stage_bytes[stage] = memory.allocated;
     run.acts_from_memo = d.scopes_from_memo.size();
-    run.acts_executed = d.frame.acts.size() - run.acts_from_memo;
+    std::set<std::uint32_t> scopes;
+    for (const PlannedStep& step : d.plan.steps) scopes.insert(step.step.scope);
+    for (const DeclaredAct& act : d.frame.acts) run.acts_executed += scopes.contains(act.scope);
     return run;
 }
 

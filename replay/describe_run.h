@@ -9,8 +9,12 @@ namespace strata {
 
 /// Everything about a run that is known before it.
 Run describe_run(const Declaration&);
-/// What the techniques counted; one that acts at several stages counts in each.
-std::vector<CounterRecord> read_counters(const Declaration&, const Execution&);
+/// The outputs asked for, as far as the run got.
+std::map<std::string, HostImage> images_of(const Declaration&, const Execution&);
+/// What the techniques counted in this execution, or in the steps of one scope.
+std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, std::optional<std::uint32_t> scope = {});
+/// A technique that acts at several stages counts in each: equal counters are added up.
+std::vector<CounterRecord> summed(std::vector<CounterRecord>);
 /// Spreads over repeats of the milliseconds of each step.
 void add_times(Run&, const std::vector<std::vector<double>>& repeats);
 /// "technique key=value ..."

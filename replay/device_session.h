@@ -1,11 +1,13 @@
 // The session behind Session::open: one device, one capture, the frame that is loaded, the memo. What it does is spread over
-// session.cpp (opening, running, timing) and inspection.cpp (looking inside a frame, judging).
+// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging) and memory_budget.cpp.
 #pragma once
 
 #include <variant>
 
+#include "passes/reference/fragments.h"
 #include "replay/declaration.h"
 #include "replay/gpu/executor.h"
+#include "replay/memory_need.h"
 #include "replay/session.h"
 
 namespace strata {
@@ -15,7 +17,8 @@ public:
     /// Where frames come from: a file, or memory.
     using Source = std::variant<Capture, std::vector<Frame>>;
 
-    DeviceSession(std::unique_ptr<Device>, Source);
+    /// memory_budget: as in DeviceChoice.
+    DeviceSession(std::unique_ptr<Device>, Source, std::uint64_t memory_budget);
 
     const DeviceInfo& device() const override { return device_->info(); }
     const Capture* capture() const override { return std::get_if<Capture>(&source_); }
@@ -32,27 +35,56 @@ public:
     void forget_memo() override { memo_.clear(); }
 
 private:
-    /// Every image as a stage's technique (its last act) found it, and the stage's outputs as it left them.
+    /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
+    /// kept, and the transparent fragments before it as soon as a model wants them.
+    struct Found {
+        std::uint64_t frame = 0;          ///< LoadedFrame::key
+        std::vector<std::uint64_t> keys;  ///< of the acts before; empty: not known to be the same again
+        ImageSet images;
+        std::optional<FragmentLists> fragments;
+    };
+    /// The outputs of a stage as its technique left them; found_ is what it found.
     struct Inspected {
         Choice choice;
-        ImageSet before, result;
+        ImageSet result;
     };
     Result<Inspected> inspect(const Request&, Stage);
+    struct TimedRun {
+        Run run;
+        std::vector<double> step_ms;
+    };
+    Result<TimedRun> time_alone(const Request&);
     Result<Run> run_with_acts(const Request&);
 
     /// Loads the frame's variant when it is not the current one, and declares the request on it.
     Result<Declaration> prepare(const Request&, Memo*, Keep);
     /// Whether the device can bind every buffer whole.
     Result<void> check_buffers(const Plan&) const;
+    /// Declares with the memo, as far as the budget leaves it room.
+    Result<Declaration> prepare_with_memo(const Request&, const RunOptions&);
+    MemoryNeed need_of(const Plan&, const RunOptions&) const;
+    /// Refuses what the memory budget does not cover, before any of it is allocated.
+    Result<void> check_budget(const Plan&, const RunOptions&) const;
+    /// Makes room for a plan that uses nothing of the memo.
+    Result<void> make_room(const Plan&, const RunOptions&);
+    void upload_scene();
     /// The one place where a device's collapse becomes an Error.
+    template <typename Action>
+    std::invoke_result_t<Action> guarded(Action);
     Result<Execution> execute(const Declaration&, const RunOptions&);
-    void remember(const Declaration&, const std::vector<CounterRecord>&);
+    /// What is known of a run after it.
+    Run finished(const Declaration&, const Execution&);
+    void remember(const Declaration&, const Execution&);
 
     std::unique_ptr<Device> device_;
     std::unique_ptr<Executor> executor_;
     DeviceScene scene_;
     Memo memo_;
     std::unique_ptr<LoadedFrame> loaded_;
+    std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
+    std::uint64_t memory_budget_;
+    RunTimes times_;  ///< of the latest request
+    std::optional<Found> found_;
     Source source_;
 };
 

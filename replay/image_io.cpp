@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <optional>
 
 #include <ImfChannelList.h>
@@ -16,9 +17,11 @@
 #include <ImfPartType.h>
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
+#include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <xxhash.h>
 
+#include "capture_format/srgb.h"
 #include "capture_format/whole_file.h"
 
 namespace strata {
@@ -181,8 +184,6 @@ Result<void> add_part(std::map<std::string, HostImage>& images, const std::strin
     return {};
 }
 
-double srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
-
 }  // namespace
 
 Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPart> images, const Metadata& metadata) {
@@ -229,26 +230,47 @@ Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path& p
     }
 }
 
+std::byte display_byte(double light) { return unorm8(encode_srgb(std::isfinite(light) ? std::clamp(light, 0.0, 1.0) : 0.0)); }
+
 Result<void> write_png(const std::filesystem::path& path, const HostImage& image) {
-    const auto width = image.shape.extent.width, height = image.shape.extent.height;
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(std::size_t(width) * height * 3);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
+    const Extent& extent = image.shape.extent;
+    std::vector<std::byte> rgb;
+    rgb.reserve(std::size_t(extent.width) * extent.height * 3);
+    for (std::uint32_t y = 0; y < extent.height; ++y)
+        for (std::uint32_t x = 0; x < extent.width; ++x) {
             const glm::dvec4 color = texel(image, x, y);
-            for (int c = 0; c < 3; ++c) {
-                const double channel = std::isfinite(color[c]) ? std::clamp(color[c], 0.0, 1.0) : 0;
-                rgb.push_back(static_cast<std::uint8_t>(std::lround(srgb(channel) * 255)));
-            }
+            for (int c = 0; c < 3; ++c) rgb.push_back(display_byte(color[c]));
         }
+    return write_png(path, extent, rgb);
+}
+
+Result<void> write_png(const std::filesystem::path& path, const Extent& extent, std::span<const std::byte> rgb) {
     std::string png;
     const auto append = [](void* to, void* bytes, int count) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(count));
     };
-    if (!stbi_write_png_to_func(append, &png, static_cast<int>(width), static_cast<int>(height), 3, rgb.data(),
-                                static_cast<int>(width) * 3))
+    const auto width = static_cast<int>(extent.width), height = static_cast<int>(extent.height);
+    if (!stbi_write_png_to_func(append, &png, width, height, 3, rgb.data(), width * 3))
         return fail(Fault::usage, "cannot make a picture of {} x {} for {}", width, height, path.string());
     return write_whole_file(path, png);
+}
+
+Result<HostImage> read_png(const std::filesystem::path& path) {
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info(path.c_str(), &width, &height, &channels))
+        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), stbi_failure_reason());
+    const auto wide = static_cast<std::uint32_t>(width), high = static_cast<std::uint32_t>(height);
+    HostImage image{{.extent = {wide, high, 1}, .format = Format::rgba8_unorm}, {}};
+    if (std::max(wide, high) > largest_edge || bytes(image.shape) > largest_part_bytes)
+        return fail(Fault::bad_input, "cannot read {}: it claims {} x {} texels", path.string(), wide, high);
+    if (stbi_is_16_bit(path.c_str()))
+        return fail(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(path.c_str(), &width, &height, &channels, STBI_rgb_alpha),
+                                                           stbi_image_free);
+    if (!pixels) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), stbi_failure_reason());
+    const auto texels = std::as_bytes(std::span(pixels.get(), bytes(image.shape)));
+    image.texels.assign(texels.begin(), texels.end());
+    return image;
 }
 
 std::string hash_of(const HostImage& image) {

@@ -2,6 +2,7 @@
 // files, wherever and whenever they ran.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -28,8 +29,15 @@ Result<void> write_exr(const std::filesystem::path&, std::span<const ExrPart>, c
 /// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image".
 Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path&);
 
-/// Display light (0..1 linear) as 8-bit sRGB; rounded to nearest, alpha dropped.
+/// Display light (0..1 linear) as 8-bit sRGB, rounded to nearest; what is not finite is black.
+std::byte display_byte(double light);
+/// Every texel's display_byte()s; alpha dropped.
 Result<void> write_png(const std::filesystem::path&, const HostImage&);
+/// Bytes as they are, three a pixel, rows top to bottom.
+Result<void> write_png(const std::filesystem::path&, const Extent&, std::span<const std::byte> rgb);
+
+/// As rgba8_unorm, bytes as they are (sRGB); a file without alpha reads as opaque. Refuses 16 bits per channel.
+Result<HostImage> read_png(const std::filesystem::path&);
 
 /// 32 hex digits over shape and texels.
 std::string hash_of(const HostImage&);

@@ -57,6 +57,12 @@ std::vector<Place> places_of(const Declaration& d, const DeclaredAct& act, Peeks
     return places;
 }
 
+/// The last scope of an act: what the memo keeps of it, or puts in its place, is in one of its own.
+std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
+    const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].name.starts_with("memo: ");
+    return act.scope + (in_memo ? 1 : 0);
+}
+
 ActImages describe_act(const Declaration& d, const DeclaredAct& act) {
     const Stage stage = act.technique->stage;
     std::string label(name(stage));
@@ -81,34 +87,45 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
 }
 
 Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage) {
-    auto declared = prepare(request, nullptr, Keep::all_images);
+    // Under a memory budget what the memo may hold depends on the peeks, which depend on the plan: then everything is executed.
+    auto declared = prepare(request, memory_budget_ == 0 ? &memo_ : nullptr, Keep::all_images);
     if (!declared) return declared.error();
-    const auto acts = std::span(declared->frame.acts);
+    const Declaration& d = *declared;
     const auto own = [&](const DeclaredAct& act) { return act.technique->stage == stage; };
-    const auto last = std::ranges::find_if(acts.rbegin(), acts.rend(), own);
-    if (last == acts.rend()) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
-
-    const Plan& plan = declared->plan;
-    RunOptions options{.kept_images = KeptImages::left};
-    std::vector<std::pair<std::string_view, bool>> names;  // and whether it is a result
-    const auto want = [&](std::string_view image_name, Image image, std::size_t end, bool result) {
-        if (!image || declared->graph.shape(image).samples > 1) return;
-        if (const auto step = last_write(plan, image, end)) {
-            options.peeks.push_back({*step, image});
-            names.emplace_back(image_name, result);
-        }
+    const auto last = std::find_if(d.frame.acts.rbegin(), d.frame.acts.rend(), own);
+    if (last == d.frame.acts.rend()) {
+        memo_.drop_unfilled();
+        return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+    }
+    const std::size_t acts_before = static_cast<std::size_t>(d.frame.acts.rend() - last) - 1;
+    std::vector<std::uint64_t> keys(
+        d.act_keys.begin(),
+        d.act_keys.begin() + std::min<std::ptrdiff_t>(std::ssize(d.act_keys), static_cast<std::ptrdiff_t>(acts_before)));
+    const bool is_known = found_ && !d.act_keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    Peeks peeks;
+    std::vector<Place> before, result;
+    const auto want = [&](std::vector<Place>& places, std::string_view image_name, Image image, std::size_t end) {
+        if (!image || d.graph.shape(image).samples > 1) return;
+        if (const auto step = last_write(d.plan, image, end))
+            places.push_back({std::string(image_name), peeks.add(*step, image)});
     };
     for (const FrameImageRow& row : frame_images())
-        want(row.name, last->before.*row.member, first_step_after(plan, last->scope - 1), false);
+        if (!is_known) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
     for (const std::string_view output : info(stage).outputs)
-        want(output, declared->images.*find_frame_image(output)->member, first_step_after(plan, last->scope), true);
+        want(result, output, d.images.*find_frame_image(output)->member, first_step_after(d.plan, end_scope(d, *last)));
 
-    const auto execution = execute(*declared, options);
-    if (!execution) return execution.error();
-    Inspected inspected{.choice = declared->choices.at(stage)};
-    for (std::size_t i = 0; i < names.size(); ++i)
-        (names[i].second ? inspected.result : inspected.before)
-            .insert_or_assign(std::string(names[i].first), in_double(execution->peeked[i]));
+    const auto execution = execute(d, peeks.options());
+    if (!execution) {
+        memo_.drop_unfilled();
+        return execution.error();
+    }
+    remember(d, *execution);
+    if (!is_known) {
+        found_.emplace(Found{loaded_->key, std::move(keys), {}, {}});
+        for (const Place& place : before) found_->images.emplace(place.name, in_double(execution->peeked[place.peek]));
+    }
+    Inspected inspected{.choice = d.choices.at(stage), .result = {}};
+    for (const Place& place : result) inspected.result.emplace(place.name, in_double(execution->peeked[place.peek]));
     return inspected;
 }
 
@@ -124,13 +141,9 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
             outputs.push_back({output, peeks.add(*step, image)});
     for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(places_of(d, act, peeks));
 
-    const std::size_t pipelines = executor_->pipelines_created();
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
-    Run run = describe_run(d);
-    run.counters = read_counters(d, *execution);
-    run.pipelines_created = executor_->pipelines_created() - pipelines;
-    run.notes = loaded_->notes;
+    Run run = finished(d, *execution);
     for (const Place& place : outputs) run.images.emplace(place.name, execution->peeked[place.peek]);
     for (std::size_t i = 0; i < of_acts.size(); ++i) {
         run.acts.push_back(describe_act(d, d.frame.acts[i]));
@@ -171,14 +184,20 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    return info(stage).truth({loaded_->frame, inspected->before});
+    return info(stage).truth({loaded_->frame, found_->images});
 }
 
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    return judge_stage(
-        {loaded_->frame, loaded_->features, inspected->choice, inspected->before, inspected->result, against, truth});
+    return judge_stage({.frame = loaded_->frame,
+                        .features = loaded_->features,
+                        .choice = inspected->choice,
+                        .before = found_->images,
+                        .result = inspected->result,
+                        .against = against,
+                        .truth = truth,
+                        .fragments = &found_->fragments});
 }
 
 }  // namespace strata

@@ -2,25 +2,42 @@
 
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
+#include "passes/frame_images.h"
+#include "replay/measure/flip.h"
+
 namespace strata {
 namespace {
 
 // A texel of which every channel is below this is background: comparing it proves nothing.
 constexpr double trivial_below = 1e-6;
 
+/// The fragments before the stage, made when the first model wants them.
+const FragmentLists& fragments_of(const JudgedStage& stage, std::optional<FragmentLists>& own) {
+    std::optional<FragmentLists>& kept = stage.fragments ? *stage.fragments : own;
+    if (!kept) kept = transparent_fragments(stage.frame, stage.before.find("depth_layers")->second);
+    return *kept;
+}
+
 /// A pixel model on every sample of the frame.
 ImageSet run_pixels(PixelModel model, const JudgedStage& stage) {
     const ReferenceImage& behind = stage.before.find("color")->second;
-    const FragmentLists fragments = transparent_fragments(stage.frame, stage.before.find("depth_layers")->second);
+    std::optional<FragmentLists> own;
+    const FragmentLists& fragments = fragments_of(stage, own);
     ReferenceImage color(behind.width, behind.height, behind.layers);
     color.undecided.resize(color.texels.size());
-    for (std::uint32_t layer = 0; layer < color.layers; ++layer)
+    tbb::parallel_for(std::size_t(0), std::size_t(color.height) * color.layers, [&](std::size_t row) {
+        const auto y = static_cast<std::uint32_t>(row % color.height), layer = static_cast<std::uint32_t>(row / color.height);
+        for (std::uint32_t x = 0; x < color.width; ++x) {
+            const glm::dvec3 from = behind.at(x, y, layer);
+            color.at(x, y, layer) = glm::dvec4(model(fragments.at(x, y, layer), from, stage.choice.settings), 1);
+        }
+    });
+    for (std::uint32_t layer = 0; layer < color.layers; ++layer)  // one bit each: rows share words
         for (std::uint32_t y = 0; y < color.height; ++y)
-            for (std::uint32_t x = 0; x < color.width; ++x) {
-                const glm::dvec3 from = behind.at(x, y, layer);
-                color.at(x, y, layer) = glm::dvec4(model(fragments.at(x, y, layer), from, stage.choice.settings), 1);
+            for (std::uint32_t x = 0; x < color.width; ++x)
                 color.undecided[color.index(x, y, layer)] = fragments.undecided(x, y, layer);
-            }
     ImageSet set;
     set.emplace("color", std::move(color));
     return set;
@@ -62,6 +79,15 @@ void compare(std::string_view name, const ReferenceImage& got, const ReferenceIm
     }
 }
 
+/// How different the stage's picture looks from its truth; of stages that make radiance.
+std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, const ImageSet& truth) {
+    const std::string_view picture = stage.outputs.front();
+    const FrameImageRow* row = find_frame_image(picture);
+    const auto got = result.find(picture), wanted = truth.find(picture);
+    if (!row || row->content != Content::radiance || got == result.end() || wanted == truth.end()) return {};
+    return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
+}
+
 }  // namespace
 
 ImageSet run_model(const JudgedStage& stage) {
@@ -93,7 +119,9 @@ Accuracy judge_stage(const JudgedStage& stage) {
 
     const StageInfo& of_stage = info(technique.stage);
     const StageInput input{stage.frame, stage.before};
-    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : of_stage.truth(input), input);
+    const ImageSet truth = stage.truth ? ImageSet() : of_stage.truth(input);
+    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : truth, input);
+    accuracy.flip = flip_of(of_stage, stage.result, stage.truth ? *stage.truth : truth);
     return accuracy;
 }
 

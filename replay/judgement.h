@@ -1,6 +1,8 @@
 // A stage's result against its technique's model and the stage's truth. No device.
 #pragma once
 
+#include <optional>
+
 #include "passes/technique.h"
 #include "replay/session.h"
 
@@ -14,6 +16,8 @@ struct JudgedStage {
     const ImageSet& result;
     Against against = Against::model_and_truth;
     const ImageSet* truth = nullptr;  ///< null: computed here
+    /// Where the frame's transparent fragments before the stage are kept from one judgement to the next; null: nowhere.
+    std::optional<FragmentLists>* fragments = nullptr;
 };
 
 Accuracy judge_stage(const JudgedStage&);

@@ -1,7 +1,6 @@
 #include "replay/memo.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
 namespace strata {
@@ -25,30 +24,6 @@ private:
     std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
-/// Calls the visitors for every resource a step names, with its access.
-void each_use(const Step& step, const std::function<void(Image, Access)>& image,
-              const std::function<void(Buffer, Access)>& buffer) {
-    for (const Binding& binding : step.bindings) {
-        if (binding.image) image(binding.image, binding.access);
-        if (binding.buffer) buffer(binding.buffer, binding.access);
-    }
-    for (const Attachment& attachment : step.attachments) image(attachment.image, attachment.access);
-    if (const auto* draw = std::get_if<DrawWork>(&step.work)) {
-        if (draw->list.commands) buffer(draw->list.commands, Access::indirect);
-        if (draw->count) buffer(draw->count, Access::indirect);
-    } else if (const auto* compute = std::get_if<ComputeWork>(&step.work)) {
-        if (compute->arguments) buffer(compute->arguments, Access::indirect);
-    } else if (const auto* copy = std::get_if<CopyWork>(&step.work)) {
-        if (copy->from) image(copy->from, Access::copied_from);
-        if (copy->to) image(copy->to, Access::copied_to);
-        if (copy->buffer_from) buffer(copy->buffer_from, Access::copied_from);
-        if (copy->buffer_to) buffer(copy->buffer_to, Access::copied_to);
-    } else if (const auto* clear = std::get_if<ClearWork>(&step.work)) {
-        if (clear->image) image(clear->image, Access::copied_to);
-        if (clear->buffer) buffer(clear->buffer, Access::copied_to);
-    }
-}
-
 }  // namespace
 
 KeptAct* Memo::find(std::uint64_t key, std::span<const std::string> images) {
@@ -61,21 +36,33 @@ KeptAct* Memo::find(std::uint64_t key, std::span<const std::string> images) {
     return &found->second;
 }
 
-KeptAct& Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
-    if (const auto old = kept_.find(key); old != kept_.end()) drop(old);
-    KeptAct act{.last_used = ++clock_};
-    for (const ImageRecord& image : images) {
-        act.images.push_back({image.name, {next_id_++}, image.shape});
-        act.bytes += bytes(image.shape);
-    }
-    while (held_ + act.bytes > budget_ && !kept_.empty()) {
+void Memo::shrink(std::uint64_t bytes) {
+    while (held_ > bytes) {
         const auto oldest = std::ranges::min_element(kept_, {}, [](const auto& entry) { return entry.second.last_used; });
         if (oldest->second.last_used > run_began_) break;
         drop(oldest);
     }
+}
+
+void Memo::limit(std::uint64_t budget_bytes) {
+    budget_ = budget_bytes;
+    begin_run();
+    shrink(budget_);
+}
+
+KeptAct* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
+    if (const auto old = kept_.find(key); old != kept_.end()) drop(old);
+    KeptAct act{.last_used = ++clock_};
+    for (const ImageRecord& image : images) {
+        act.images.push_back({image.name, {next_id_++}, image.shape});
+        act.bytes += executor_->image_bytes(image.shape);
+    }
+    if (act.bytes > budget_) return nullptr;
+    shrink(budget_ - act.bytes);
+    if (held_ + act.bytes > budget_) return nullptr;
     held_ += act.bytes;
     for (const auto& image : act.images) executor_->create_image(image.id, image.shape);
-    return kept_.emplace(key, std::move(act)).first->second;
+    return &kept_.emplace(key, std::move(act)).first->second;
 }
 
 void Memo::commit(std::uint64_t key, std::vector<CounterRecord> counters) {
@@ -114,16 +101,10 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     std::set<std::uint32_t> images, buffers;
     for (const Step& step : graph.steps()) {
         if (step.scope != act.scope) continue;
-        each_use(
-            step,
-            [&](Image image, Access access) {
-                read(image_key_, image.id);
-                if (writes(access)) images.insert(image.id);
-            },
-            [&](Buffer buffer, Access access) {
-                read(buffer_key_, buffer.id);
-                if (writes(access)) buffers.insert(buffer.id);
-            });
+        for (const Use& use : uses(step)) {
+            use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
+            if (writes(use.access)) use.image ? images.insert(use.image.id) : buffers.insert(use.buffer.id);
+        }
     }
     for (const std::uint32_t id : images) image_key_[id] = hash.value();
     for (const std::uint32_t id : buffers) buffer_key_[id] = hash.value();
@@ -142,15 +123,12 @@ std::vector<std::vector<std::string>> images_read_later(const Graph& graph, std:
     for (const Step& step : graph.steps()) {
         const auto at = place.find(step.scope);
         const std::size_t act = at == place.end() ? acts.size() : at->second;
-        each_use(
-            step, [&](Image image, Access) { wants(image, act); }, [](Buffer, Access) {});
+        const std::vector<Use> all = uses(step);
+        for (const Use& use : all)
+            if (use.image) wants(use.image, act);
         if (act == acts.size()) continue;
-        each_use(
-            step,
-            [&](Image image, Access access) {
-                if (writes(access)) writer[image.id] = act;
-            },
-            [](Buffer, Access) {});
+        for (const Use& use : all)
+            if (use.image && writes(use.access)) writer[use.image.id] = act;
     }
     for (const Image image : graph.kept_images()) wants(image, acts.size());
     std::vector<std::vector<std::string>> names;
@@ -162,12 +140,11 @@ bool feeds_buffers(const Graph& graph, std::uint32_t scope) {
     std::set<std::uint32_t> written;
     bool feeds = false;
     for (const Step& step : graph.steps()) {
-        each_use(
-            step, [](Image, Access) {},
-            [&](Buffer buffer, Access access) {
-                if (step.scope == scope && writes(access)) written.insert(buffer.id);
-                if (step.scope > scope && written.contains(buffer.id)) feeds = true;
-            });
+        for (const Use& use : uses(step)) {
+            if (!use.buffer) continue;
+            if (step.scope == scope && writes(use.access)) written.insert(use.buffer.id);
+            if (step.scope > scope && written.contains(use.buffer.id)) feeds = true;
+        }
     }
     return feeds;
 }

@@ -35,12 +35,15 @@ class Memo {
 public:
     Memo(Executor& executor, std::uint64_t budget_bytes) : executor_(&executor), budget_(budget_bytes) {}
 
+    /// Keeps at most so much from here on; the oldest go first.
+    void limit(std::uint64_t budget_bytes);
+    std::uint64_t held() const { return held_; }
     /// What is used from here on stays until the next call.
     void begin_run() { run_began_ = clock_; }
     /// Null when the key is not there, not filled, or lacks one of the images.
     KeptAct* find(std::uint64_t key, std::span<const std::string> images);
-    /// Makes room and images for an act about to run.
-    KeptAct& reserve(std::uint64_t key, std::span<const ImageRecord> images);
+    /// Makes room and images for an act about to run; null where the budget has no room for them.
+    KeptAct* reserve(std::uint64_t key, std::span<const ImageRecord> images);
     /// The run that wrote them succeeded (or failed: then they are dropped).
     void commit(std::uint64_t key, std::vector<CounterRecord> counters);
     void drop_unfilled();
@@ -48,6 +51,8 @@ public:
 
 private:
     void drop(std::map<std::uint64_t, KeptAct>::iterator);
+    /// Drops the oldest that this run does not use until at most so much is held.
+    void shrink(std::uint64_t bytes);
 
     Executor* executor_;
     std::uint64_t budget_, held_ = 0, clock_ = 0, run_began_ = 0, next_id_ = first_free_import;

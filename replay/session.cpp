@@ -6,6 +6,8 @@
 #include "replay/counted.h"
 #include "replay/describe_run.h"
 #include "replay/device_session.h"
+#include "replay/measure/host_memory.h"
+#include "replay/measure/lap.h"
 #include "replay/scene/fit_textures.h"
 
 namespace strata {
@@ -23,18 +25,14 @@ Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
     return fail(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
 }
 
-void collect_images(const Declaration& d, const Execution& execution, Run& run) {
-    for (const auto& [name, image] : d.outputs)
-        if (const auto found = execution.images.find(image.id); found != execution.images.end()) run.images[name] = found->second;
-}
-
 }  // namespace
 
-DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source)
+DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source, std::uint64_t memory_budget)
     : device_(std::move(device)),
       executor_(Executor::create(*device_)),
       scene_(*executor_),
       memo_(*executor_, memo_budget_bytes),
+      memory_budget_(memory_budget),
       source_(std::move(source)) {}
 
 std::size_t DeviceSession::frame_count() const {
@@ -52,53 +50,25 @@ Result<Frame> DeviceSession::frame(std::size_t index) {
 
 Result<Run> DeviceSession::run(const Request& request) {
     if (request.acts == Acts::brought_back) return run_with_acts(request);
-    auto declared = prepare(request, &memo_, Keep::outputs);
+    RunOptions options;
+    auto declared = prepare_with_memo(request, options);
     if (!declared) return declared.error();
     Declaration& d = *declared;
-    RunOptions options;
     if (!request.until.empty()) {
         const auto until = find_step(d.plan, request.until);
         if (!until) return until.error();
         options.until = *until;
     }
-    const std::size_t pipelines = executor_->pipelines_created();
     const auto execution = execute(d, options);
     if (!execution) {
         memo_.drop_unfilled();
         return execution.error();
     }
-    Run run = describe_run(d);
-    run.counters = read_counters(d, *execution);
+    Run run = finished(d, *execution);
     if (options.until) memo_.drop_unfilled();
-    else remember(d, run.counters);
-    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
-    collect_images(d, *execution, run);
-    run.pipelines_created = executor_->pipelines_created() - pipelines;
-    run.notes = loaded_->notes;
+    else remember(d, *execution);
+    run.images = images_of(d, *execution);
     return run;
-}
-
-Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
-    std::vector<Run> runs;
-    std::vector<std::vector<std::vector<double>>> step_ms(requests.size());  // [request][repeat][step]
-    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {              // the first of each warms up
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            const auto declared = prepare(requests[i], nullptr, Keep::outputs);
-            if (!declared) return declared.error();
-            const auto execution = execute(*declared, {.timestamps = Timestamps::on});
-            if (!execution) return execution.error();
-            if (repeat > 0) {
-                step_ms[i].push_back(execution->step_ms);
-                continue;
-            }
-            runs.push_back(describe_run(*declared));
-            runs.back().counters = read_counters(*declared, *execution);
-            runs.back().notes = loaded_->notes;
-            collect_images(*declared, *execution, runs.back());
-        }
-    }
-    for (std::size_t i = 0; i < runs.size(); ++i) add_times(runs[i], step_ms[i]);
-    return runs;
 }
 
 Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
@@ -109,6 +79,8 @@ Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
 
 Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
     const FrameVariant variant = variant_of(request);
+    times_ = {};
+    Lap lap;
     if (!loaded_ || loaded_->variant != variant) {
         auto recorded = frame(request.frame);
         if (!recorded) return recorded.error();
@@ -116,9 +88,13 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
         if (!loaded) return loaded.error();
         loaded_ = std::make_unique<LoadedFrame>(*std::move(loaded));
         loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
-        scene_.upload(scene_records(loaded_->frame));
+        not_uploaded_ = scene_records(loaded_->frame);
+        scene_.describe(*not_uploaded_);
+        times_.load = lap();
     }
-    return declare(request, {*loaded_, scene_, device(), memo}, keep);
+    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), memo}, keep); });
+    times_.declare = lap();
+    return declared;
 }
 
 Result<void> DeviceSession::check_buffers(const Plan& plan) const {
@@ -131,22 +107,60 @@ Result<void> DeviceSession::check_buffers(const Plan& plan) const {
     return {};
 }
 
-Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
-    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
+template <typename Action>
+std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
     try {
-        return executor_->run(d.plan, options);
+        return action();
     } catch (const DeviceFailure& failure) {
         return fail(Fault::device_failed, "{}", failure.what());
     }
 }
 
-void DeviceSession::remember(const Declaration& d, const std::vector<CounterRecord>& counters) {
-    for (const auto& [key, technique] : d.memo_writes) {
-        std::vector<CounterRecord> own;
-        std::ranges::copy_if(counters, std::back_inserter(own),
-                             [&](const CounterRecord& c) { return c.technique == technique->name; });
-        memo_.commit(key, std::move(own));
+void DeviceSession::upload_scene() {
+    if (!not_uploaded_) return;
+    Lap lap;
+    if (memory_budget_ != 0) {  // the old frame's memory goes first
+        executor_->forget_plan();
+        scene_.forget();
     }
+    scene_.upload(*not_uploaded_);
+    not_uploaded_.reset();
+    times_.upload = lap();
+}
+
+Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
+    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
+    const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
+    if (!uses_memo)
+        if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
+    auto execution = guarded([&]() -> Result<Execution> {
+        upload_scene();
+        return executor_->run(d.plan, options);
+    });
+    if (execution) times_.device = execution->host_ms;
+    return execution;
+}
+
+Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
+    Run run = describe_run(d);
+    run.counters = read_counters(d, execution);
+    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
+    run.counters = summed(std::move(run.counters));
+    run.notes = loaded_->notes;
+    run.pipelines_created = execution.pipelines_created;
+    run.host_ms = times_;
+    const DeviceMemory memory = executor_->memory();
+    run.memory.plan = memory.plan;
+    run.memory.memo = memo_.held();
+    run.memory.scene = memory.imports - std::min(memory.imports, run.memory.memo);
+    run.memory.allocated = memory.allocated;
+    run.memory.peak_allocated = memory.peak_allocated;
+    run.memory.host_peak = host_peak_bytes();
+    return run;
+}
+
+void DeviceSession::remember(const Declaration& d, const Execution& execution) {
+    for (const auto& [key, scope] : d.memo_writes) memo_.commit(key, read_counters(d, execution, scope));
 }
 
 namespace {
@@ -154,7 +168,7 @@ namespace {
 Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, DeviceSession::Source source) {
     auto device = Device::open(choice);
     if (!device) return device.error();
-    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source)));
+    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source), choice.memory_budget));
 }
 
 }  // namespace

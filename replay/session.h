@@ -15,6 +15,7 @@
 #include "replay/host_image.h"
 #include "replay/measure/timing.h"
 #include "replay/memo.h"
+#include "replay/memory_need.h"
 
 namespace strata {
 
@@ -38,6 +39,20 @@ struct StepRecord {
     std::optional<Spread> ms;  ///< with timing
 };
 
+/// What a run held, in bytes.
+struct RunMemory {
+    std::uint64_t scene = 0, memo = 0, plan = 0;      ///< on the device when it was done
+    std::uint64_t allocated = 0, peak_allocated = 0;  ///< taken from the device now, and the most since the session opened
+    std::uint64_t host_peak = 0;                      ///< the process's, see host_peak_bytes()
+    MemoryOverTime over_time;                         ///< by stage and step
+};
+
+/// Where a run spent the host's time, in milliseconds.
+struct RunTimes {
+    double load = 0, declare = 0, upload = 0;  ///< frame decoded and turned into records; graph compiled; scene to the device
+    HostTimes device;
+};
+
 /// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
 struct ActImages {
     Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
@@ -59,6 +74,8 @@ struct Run {
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
+    RunMemory memory;
+    RunTimes host_ms;
     std::size_t acts_executed = 0, acts_from_memo = 0;
     std::size_t pipelines_created = 0;  ///< during this run
     std::vector<std::string> notes;     ///< what had to be reduced to fit the device
@@ -67,7 +84,7 @@ struct Run {
 
 /// What a step of the plan wrote, read back right after it.
 struct StepImages {
-    std::size_t step = 0;                     ///< in Plan::steps
+    std::size_t step = 0;                     ///< in the plan that keeps every image and so leaves nothing out
     std::string scope, name;                  ///< as in StepRecord
     std::map<std::string, HostImage> images;  ///< by their names in the graph
 };
@@ -82,6 +99,7 @@ struct WorstTexel {
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
 struct Accuracy {
     std::vector<Figure> method;                            ///< from the stage's judge
+    std::optional<double> flip;                            ///< mean of FLIP against the truth, of a stage that makes radiance
     double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;

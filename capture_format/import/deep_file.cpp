@@ -55,14 +55,20 @@ Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std
     return {};
 }
 
+Result<void> DeepFile::unpack_table(const Place& place, DeepBlock::Storage& storage) const {
+    // At the right and lower border OpenEXR writes the table of a whole tile; only its beginning means something.
+    const std::uint64_t pixels = std::uint64_t{place.window.width} * place.window.height;
+    for (const std::uint64_t size : {place.table_pixels * sizeof(std::uint32_t), pixels * sizeof(std::uint32_t)}) {
+        if (size > place.counts.size() * largest_expansion) continue;
+        storage.counts.resize(size);
+        if (unpack(place.counts, storage.counts, storage)) return {};
+    }
+    return damaged(place, fmt::format("has a table of counts that does not unpack to its {} pixels", pixels));
+}
+
 Result<void> DeepFile::unpack_counts(const Place& place, DeepBlock& block) const {
     const std::size_t pixels = std::size_t{place.window.width} * place.window.height;
-    DeepBlock::Storage& storage = block.storage;
-    if (pixels * sizeof(std::uint32_t) > place.counts.size() * largest_expansion)
-        return damaged(place, "has a table of counts that is too short for its pixels");
-    storage.counts.resize(pixels * sizeof(std::uint32_t));
-    if (const auto done = unpack(place.counts, storage.counts, storage); !done)
-        return damaged(place, "has a table of counts that " + done.error().sentence);
+    if (const auto done = unpack_table(place, block.storage); !done) return done;
     // Counts are running sums that begin anew in each line.
     block.window = place.window;
     block.begin.resize(pixels + 1);
@@ -70,7 +76,7 @@ Result<void> DeepFile::unpack_counts(const Place& place, DeepBlock& block) const
     std::uint64_t before = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         if (i % place.window.width == 0) before = block.begin[i];
-        const std::uint64_t end = before + read_uint(&storage.counts[i * 4]);
+        const std::uint64_t end = before + read_uint(&block.storage.counts[i * 4]);
         if (end < block.begin[i] || end > 0xffffffffu) return damaged(place, "counts its samples backwards");
         block.begin[i + 1] = static_cast<std::uint32_t>(end);
     }

@@ -69,6 +69,7 @@ private:
     /// Where a block lies in the file.
     struct Place {
         DeepWindow window;
+        std::uint64_t table_pixels = 0;  ///< of a whole line or tile
         std::span<const std::byte> counts, samples;
         std::uint64_t unpacked = 0;  ///< bytes of its samples, as the file says
     };
@@ -79,6 +80,7 @@ private:
     };
     struct Opening;
 
+    Result<void> unpack_table(const Place&, DeepBlock::Storage&) const;
     Result<void> unpack_counts(const Place&, DeepBlock&) const;
     Result<void> unpack(std::span<const std::byte> packed, std::vector<std::byte>& unpacked, DeepBlock::Storage&) const;
     void set_planes(DeepBlock&) const;

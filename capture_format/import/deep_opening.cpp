@@ -168,7 +168,8 @@ struct DeepFile::Opening {
             const exr_result_t found = exr_read_scanline_chunk_info(context.handle, part, y, &chunk);
             if (found != EXR_ERR_SUCCESS || chunk.height < 1) return said(found, fmt::format("line {} cannot be found", y));
             const auto height = std::min(static_cast<std::uint32_t>(chunk.height), file.data_.height - line);
-            if (const auto done = add({file.data_.x, y, file.data_.width, height}, chunk); !done) return done;
+            const DeepWindow window{file.data_.x, y, file.data_.width, height};
+            if (const auto done = add(window, std::uint64_t{window.width} * height, chunk); !done) return done;
             line += height;
         }
         return {};
@@ -189,12 +190,12 @@ struct DeepFile::Opening {
                 if (found != EXR_ERR_SUCCESS) return said(found, fmt::format("tile ({}, {}) cannot be found", column, row));
                 const DeepWindow window{data.x + static_cast<int>(x), data.y + static_cast<int>(y),
                                         std::min(tile_width, data.width - x), std::min(tile_height, data.height - y)};
-                if (const auto done = add(window, chunk); !done) return done;
+                if (const auto done = add(window, std::uint64_t{tile_width} * tile_height, chunk); !done) return done;
             }
         return {};
     }
 
-    Result<void> add(const DeepWindow& window, const exr_chunk_info_t& chunk) {
+    Result<void> add(const DeepWindow& window, std::uint64_t table_pixels, const exr_chunk_info_t& chunk) {
         const auto part_of_file = [&](std::uint64_t offset, std::uint64_t size) -> std::optional<std::span<const std::byte>> {
             if (offset > stream.bytes.size() || size > stream.bytes.size() - offset) return std::nullopt;
             return stream.bytes.subspan(offset, size);
@@ -203,7 +204,7 @@ struct DeepFile::Opening {
         const auto samples = part_of_file(chunk.data_offset, chunk.packed_size);
         if (!counts || !samples)
             return fail(Fault::bad_input, "the block of pixels at ({}, {}) lies beyond the end of the file", window.x, window.y);
-        file.blocks_.push_back({window, *counts, *samples, chunk.unpacked_size});
+        file.blocks_.push_back({window, table_pixels, *counts, *samples, chunk.unpacked_size});
         return {};
     }
 };

@@ -1,7 +1,11 @@
-// A glTF 2.0 scene (.gltf or .glb) becomes a frame.
+// A glTF 2.0 scene (.gltf or .glb) becomes frames, one at a time: an animation of many frames is never in memory as a whole.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,11 +14,44 @@
 
 namespace strata {
 
+namespace gltf {
+class Folder;
+}
+
 struct GltfOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
     std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
     /// Degrees from the front (+z) towards the right (+x), and above the horizon: where the framing camera stands.
     double azimuth = 22, elevation = 16;
+    double fps = 30;        ///< frames per second of the animation
+    std::string animation;  ///< by name or index; empty: the first one, if there is one
+    /// What the file, its buffers, vertices and pictures may take in memory together; hostile files claim more.
+    std::uint64_t memory_budget = std::uint64_t{4} << 30;
+};
+
+class GltfScene {
+public:
+    /// Reads a file and what it refers to below its own folder. Fails with the name of a required extension that is not
+    /// supported, or with what is wrong in the file.
+    static Result<GltfScene> open(const std::filesystem::path&, const GltfOptions&);
+    /// The same for a file in memory. Opens no files: only a .glb's chunk and data URIs are read. The name is for sentences.
+    static Result<GltfScene> open(std::span<const std::byte> bytes, const std::string& name, const GltfOptions&);
+    GltfScene(GltfScene&&) noexcept;
+    GltfScene& operator=(GltfScene&&) noexcept;
+    ~GltfScene();
+
+    /// The scene at index / fps seconds; an animation begins again after its last key. previous_to_world is the transform one
+    /// frame earlier, that of the frame itself at index 0. A framing camera stands still and sees the whole animation; the
+    /// exposure is that of frame 0. Meshes that skins or morph targets move are new in every frame, the others are the same.
+    Result<Frame> frame(std::uint32_t index);
+    /// What was ignored and why, of the file and of the frames made so far.
+    const std::vector<std::string>& warnings() const;
+
+private:
+    struct Contents;
+    static Result<GltfScene> read(std::vector<std::byte> bytes, const gltf::Folder&, std::string name, const GltfOptions&);
+    explicit GltfScene(std::unique_ptr<Contents>);
+    std::unique_ptr<Contents> contents_;
 };
 
 struct ImportedScene {
@@ -22,7 +59,7 @@ struct ImportedScene {
     std::vector<std::string> warnings;  ///< what was ignored and why
 };
 
-/// Fails with the name of a required extension that is not supported, or with what is wrong in the file.
+/// The first frame of a scene.
 Result<ImportedScene> import_gltf(const std::filesystem::path&, const GltfOptions&);
 
 }  // namespace strata

@@ -8,42 +8,26 @@
 namespace strata::gltf {
 namespace {
 
-/// An accessor without a buffer view is all zeros and costs its writer nothing, so its size is bounded here.
-constexpr std::size_t most_implicit_elements = std::size_t{1} << 24;
-
 /// Where elements of one kind lie: element i begins at bytes[i * stride].
 struct Elements {
-    std::span<const unsigned char> bytes;
+    std::span<const std::byte> bytes;
     std::size_t stride = 0, count = 0;
 };
 
 struct Layout {
     int view = -1;
-    std::size_t offset = 0, count = 0, element_bytes = 0;
+    std::uint64_t offset = 0, count = 0, element_bytes = 0;
 };
 
-Result<std::span<const unsigned char>> view_bytes(const tinygltf::Model& model, int index) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.bufferViews.size()) {
-        return fail(Fault::bad_input, "buffer view {} does not exist (there are {})", index, model.bufferViews.size());
+Result<Elements> locate(const Document& document, const Layout& layout) {
+    if (layout.view < 0 || static_cast<std::size_t>(layout.view) >= document.views.size()) {
+        return fail(Fault::bad_input, "buffer view {} does not exist (there are {})", layout.view, document.views.size());
     }
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
-    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
-        return fail(Fault::bad_input, "buffer view {} names buffer {}, which does not exist", index, view.buffer);
-    }
-    const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-        return fail(Fault::bad_input, "buffer view {} leaves its buffer of {} bytes", index, data.size());
-    }
-    return std::span<const unsigned char>(data).subspan(view.byteOffset, view.byteLength);
-}
-
-Result<Elements> locate(const tinygltf::Model& model, const Layout& layout) {
-    const auto bytes = view_bytes(model, layout.view);
-    if (!bytes) return bytes.error();
-    const std::size_t given = model.bufferViews[static_cast<std::size_t>(layout.view)].byteStride;
-    const std::size_t stride = given == 0 ? layout.element_bytes : given;
+    const BufferView& view = document.views[static_cast<std::size_t>(layout.view)];
+    if (!view.content.fault.empty()) return fail(Fault::bad_input, "{}", view.content.fault);
+    const std::size_t stride = view.stride == 0 ? layout.element_bytes : view.stride;
     if (layout.count == 0) return Elements{{}, stride, 0};
-    const std::size_t length = bytes->size();
+    const std::size_t length = view.content.bytes.size();
     const bool inside = stride >= layout.element_bytes && layout.offset <= length &&
                         length - layout.offset >= layout.element_bytes &&
                         layout.count - 1 <= (length - layout.offset - layout.element_bytes) / stride;
@@ -51,194 +35,193 @@ Result<Elements> locate(const tinygltf::Model& model, const Layout& layout) {
         return fail(Fault::bad_input, "{} elements of {} bytes, {} apart from byte {}, leave buffer view {} of {} bytes",
                     layout.count, layout.element_bytes, stride, layout.offset, layout.view, length);
     }
-    return Elements{bytes->subspan(layout.offset), stride, layout.count};
+    return Elements{view.content.bytes.subspan(layout.offset), stride, layout.count};
 }
 
 template <typename T>
-T load(const unsigned char* bytes) {
+T load(const std::byte* bytes) {
     T value;
     std::memcpy(&value, bytes, sizeof(T));  // unaligned in hostile files; glTF is little-endian like every host we build on
     return value;
 }
 
 /// glTF 2.0, 3.6.2.2: signed normalized integers map their lowest value to -1 as well.
-float component(const unsigned char* bytes, int type, bool normalized) {
+float component(const std::byte* bytes, std::uint64_t type, bool normalized) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: {
+        case int8: {
             const float value = load<std::int8_t>(bytes);
             return normalized ? std::max(value / 127.0f, -1.0f) : value;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return static_cast<float>(*bytes) / (normalized ? 255.0f : 1.0f);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: {
+        case uint8:
+            return static_cast<float>(load<std::uint8_t>(bytes)) / (normalized ? 255.0f : 1.0f);
+        case int16: {
             const float value = load<std::int16_t>(bytes);
             return normalized ? std::max(value / 32767.0f, -1.0f) : value;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case uint16:
             return static_cast<float>(load<std::uint16_t>(bytes)) / (normalized ? 65535.0f : 1.0f);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return static_cast<float>(load<std::uint32_t>(bytes));
+        case uint32: {
+            const auto value = static_cast<double>(load<std::uint32_t>(bytes));
+            return static_cast<float>(normalized ? value / 4294967295.0 : value);
+        }
         default:
             return load<float>(bytes);
     }
 }
 
-std::uint32_t index_value(const unsigned char* bytes, int type) {
+std::uint32_t index_value(const std::byte* bytes, std::uint64_t type) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return *bytes;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case uint8:
+            return load<std::uint8_t>(bytes);
+        case uint16:
             return load<std::uint16_t>(bytes);
         default:
             return load<std::uint32_t>(bytes);
     }
 }
 
-/// 0 for types that no vertex attribute or index has.
-std::size_t component_bytes(int type) {
+/// 0 for types that do not exist.
+std::size_t component_bytes(std::uint64_t type) {
     switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case int8:
+        case uint8:
             return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case int16:
+        case uint16:
             return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        case uint32:
+        case float32:
             return 4;
         default:
             return 0;
     }
 }
 
-bool is_index_type(int type) {
-    return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+bool is_index_type(std::uint64_t type) { return type == uint8 || type == uint16 || type == uint32; }
+
+std::uint32_t components_of(std::string_view type) {
+    if (type == "SCALAR") return 1;
+    if (type == "VEC2") return 2;
+    if (type == "VEC3") return 3;
+    if (type == "VEC4") return 4;
+    return type == "MAT4" ? 16 : 0;  // smaller matrices pad their columns, and nothing that we read has one
 }
 
-Result<const tinygltf::Accessor*> find_accessor(const tinygltf::Model& model, int index, std::uint32_t components) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
-        return fail(Fault::bad_input, "accessor {} does not exist (there are {})", index, model.accessors.size());
+Result<const Accessor*> find_accessor(const Document& document, int index, std::uint32_t components) {
+    if (index < 0 || static_cast<std::size_t>(index) >= document.accessors.size()) {
+        return fail(Fault::bad_input, "accessor {} does not exist (there are {})", index, document.accessors.size());
     }
-    const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
-    if (component_count(model, index) != components) {
-        return fail(Fault::bad_input, "accessor {} has {} components where {} are expected", index, component_count(model, index),
+    const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
+    if (components_of(accessor.type) != components) {
+        return fail(Fault::bad_input, "accessor {} is a '{:.20}', which has not the {} components expected", index, accessor.type,
                     components);
     }
-    if (component_bytes(accessor.componentType) == 0) {
-        return fail(Fault::bad_input, "accessor {} has unknown component type {}", index, accessor.componentType);
-    }
-    if (accessor.bufferView < 0 && accessor.count > most_implicit_elements) {
-        return fail(Fault::bad_input, "accessor {} has {} elements but no buffer view", index, accessor.count);
+    if (component_bytes(accessor.component_type) == 0) {
+        return fail(Fault::bad_input, "accessor {} has unknown component type {}", index, accessor.component_type);
     }
     return &accessor;
 }
 
-void unpack(const Elements& source, const tinygltf::Accessor& accessor, std::uint32_t components, std::span<float> target) {
-    const std::size_t size = component_bytes(accessor.componentType);
-    for (std::size_t i = 0; i < source.count; ++i) {
-        for (std::uint32_t c = 0; c < components; ++c) {
-            target[i * components + c] =
-                component(source.bytes.data() + i * source.stride + c * size, accessor.componentType, accessor.normalized);
-        }
-    }
-}
-
-/// The elements a sparse accessor replaces: values[i] goes to element indices[i].
+/// The elements a sparse accessor replaces: element `values`[i] goes to place `places`[i].
 struct Replacements {
-    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> places;
     Elements values;
 };
 
-Result<Replacements> read_replacements(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
-                                       std::size_t element_bytes) {
-    const auto& sparse = accessor.sparse;
-    if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
-        !is_index_type(sparse.indices.componentType)) {
-        return fail(Fault::bad_input, "accessor '{}' has a broken sparse part", accessor.name);
+Result<Replacements> read_replacements(const Document& document, const Accessor& accessor, std::size_t element_bytes,
+                                       Budget& budget) {
+    const Sparse& sparse = *accessor.sparse;
+    if (!is_index_type(sparse.indices_type)) {
+        return fail(Fault::bad_input, "its sparse indices have component type {}", sparse.indices_type);
     }
-    const auto count = static_cast<std::size_t>(sparse.count);
-    const auto where = locate(model, {sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
-                                      component_bytes(sparse.indices.componentType)});
+    if (sparse.count > accessor.count) {
+        return fail(Fault::bad_input, "it replaces {} of its {} elements", sparse.count, accessor.count);
+    }
+    const auto where =
+        locate(document, {sparse.indices_view, sparse.indices_offset, sparse.count, component_bytes(sparse.indices_type)});
     if (!where) return where.error();
-    const auto values =
-        locate(model, {sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count, element_bytes});
+    const auto values = locate(document, {sparse.values_view, sparse.values_offset, sparse.count, element_bytes});
     if (!values) return values.error();
+    if (const auto room = budget.take(where->count, 4, "a sparse accessor"); !room) return room.error();
     Replacements replacements{{}, *values};
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t index = index_value(where->bytes.data() + i * where->stride, sparse.indices.componentType);
-        if (index >= accessor.count) {
-            return fail(Fault::bad_input, "a sparse accessor replaces element {} of {}", index, accessor.count);
+    replacements.places.reserve(where->count);
+    for (std::size_t i = 0; i < where->count; ++i) {
+        replacements.places.push_back(index_value(where->bytes.data() + i * where->stride, sparse.indices_type));
+        if (replacements.places.back() >= accessor.count) {
+            return fail(Fault::bad_input, "a sparse accessor replaces element {} of {}", replacements.places.back(),
+                        accessor.count);
         }
-        replacements.indices.push_back(index);
     }
     return replacements;
 }
 
-}  // namespace
-
-std::uint32_t component_count(const tinygltf::Model& model, int accessor) {
-    if (accessor < 0 || static_cast<std::size_t>(accessor) >= model.accessors.size()) return 0;
-    switch (model.accessors[static_cast<std::size_t>(accessor)].type) {
-        case TINYGLTF_TYPE_SCALAR:
-            return 1;
-        case TINYGLTF_TYPE_VEC2:
-            return 2;
-        case TINYGLTF_TYPE_VEC3:
-            return 3;
-        case TINYGLTF_TYPE_VEC4:
-            return 4;
-        default:
-            return 0;  // matrices have column padding and no place in a vertex
+/// Calls put(place, bytes) for every element that has bytes, replaced ones last; the others are zero.
+template <typename Put>
+Result<void> for_each_element(const Document& document, const Accessor& accessor, Budget& budget, const Put& put) {
+    const std::size_t element_bytes = component_bytes(accessor.component_type) * components_of(accessor.type);
+    if (accessor.view >= 0) {
+        const auto base = locate(document, {accessor.view, accessor.offset, accessor.count, element_bytes});
+        if (!base) return base.error();
+        for (std::size_t i = 0; i < base->count; ++i) put(i, base->bytes.data() + i * base->stride);
     }
+    if (!accessor.sparse) return {};
+    const auto replaced = read_replacements(document, accessor, element_bytes, budget);
+    if (!replaced) return replaced.error();
+    for (std::size_t i = 0; i < replaced->places.size(); ++i) {
+        put(replaced->places[i], replaced->values.bytes.data() + i * replaced->values.stride);
+    }
+    return {};
 }
 
-Result<std::vector<float>> read_floats(const tinygltf::Model& model, int index, std::uint32_t components) {
-    const auto found = find_accessor(model, index, components);
-    if (!found) return found.error();
-    const tinygltf::Accessor& accessor = **found;
-    const std::size_t element_bytes = component_bytes(accessor.componentType) * components;
-    Elements base;
-    if (accessor.bufferView >= 0) {
-        const auto located = locate(model, {accessor.bufferView, accessor.byteOffset, accessor.count, element_bytes});
-        if (!located) return fail(Fault::bad_input, "accessor {}: {}", index, located.error().sentence);
-        base = *located;
+/// An accessor that claims more than its buffer view holds is told so before anything is allocated for it.
+Result<void> check_claim(const Document& document, const Accessor& accessor, std::uint64_t element_bytes, Budget& budget) {
+    if (accessor.view >= 0) {
+        const auto base = locate(document, {accessor.view, accessor.offset, accessor.count,
+                                            component_bytes(accessor.component_type) * components_of(accessor.type)});
+        if (!base) return base.error();
     }
-    std::vector<float> values(accessor.count * components, 0.0f);
-    unpack(base, accessor, components, values);
-    if (!accessor.sparse.isSparse) return values;
+    return budget.take(accessor.count, element_bytes, "its elements");
+}
 
-    const auto replaced = read_replacements(model, accessor, element_bytes);
-    if (!replaced) return fail(Fault::bad_input, "accessor {}: {}", index, replaced.error().sentence);
-    std::vector<float> fresh(replaced->indices.size() * components);
-    unpack(replaced->values, accessor, components, fresh);
-    for (std::size_t i = 0; i < replaced->indices.size(); ++i) {
-        std::copy_n(&fresh[i * components], components, &values[std::size_t{replaced->indices[i]} * components]);
+}  // namespace
+
+std::uint32_t component_count(const Document& document, int accessor) {
+    if (accessor < 0 || static_cast<std::size_t>(accessor) >= document.accessors.size()) return 0;
+    return components_of(document.accessors[static_cast<std::size_t>(accessor)].type);
+}
+
+Result<std::vector<float>> read_floats(const Document& document, int index, std::uint32_t components, Budget& budget) {
+    const auto found = find_accessor(document, index, components);
+    if (!found) return found.error();
+    const Accessor& accessor = **found;
+    if (const auto good = check_claim(document, accessor, sizeof(float) * components, budget); !good) {
+        return fail(Fault::bad_input, "accessor {}: {}", index, good.error().sentence);
     }
+    const std::size_t size = component_bytes(accessor.component_type);
+    std::vector<float> values(accessor.count * components, 0.0f);
+    const auto read = for_each_element(document, accessor, budget, [&](std::size_t place, const std::byte* bytes) {
+        for (std::uint32_t c = 0; c < components; ++c) {
+            values[place * components + c] = component(bytes + c * size, accessor.component_type, accessor.normalized);
+        }
+    });
+    if (!read) return fail(Fault::bad_input, "accessor {}: {}", index, read.error().sentence);
     return values;
 }
 
-Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, int index) {
-    const auto found = find_accessor(model, index, 1);
+Result<std::vector<std::uint32_t>> read_indices(const Document& document, int index, Budget& budget) {
+    const auto found = find_accessor(document, index, 1);
     if (!found) return found.error();
-    const tinygltf::Accessor& accessor = **found;
-    if (!is_index_type(accessor.componentType) || accessor.sparse.isSparse) {
-        return fail(Fault::bad_input, "accessor {} holds no plain unsigned indices", index);
+    const Accessor& accessor = **found;
+    if (!is_index_type(accessor.component_type)) return fail(Fault::bad_input, "accessor {} holds no unsigned integers", index);
+    if (const auto good = check_claim(document, accessor, sizeof(std::uint32_t), budget); !good) {
+        return fail(Fault::bad_input, "accessor {}: {}", index, good.error().sentence);
     }
-    const auto located =
-        locate(model, {accessor.bufferView, accessor.byteOffset, accessor.count, component_bytes(accessor.componentType)});
-    if (!located) return fail(Fault::bad_input, "accessor {}: {}", index, located.error().sentence);
-    std::vector<std::uint32_t> indices(located->count);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = index_value(located->bytes.data() + i * located->stride, accessor.componentType);
-    }
+    std::vector<std::uint32_t> indices(accessor.count, 0);
+    const auto read = for_each_element(document, accessor, budget, [&](std::size_t place, const std::byte* bytes) {
+        indices[place] = index_value(bytes, accessor.component_type);
+    });
+    if (!read) return fail(Fault::bad_input, "accessor {}: {}", index, read.error().sentence);
     return indices;
-}
-
-Result<std::vector<unsigned char>> read_view(const tinygltf::Model& model, int buffer_view) {
-    const auto bytes = view_bytes(model, buffer_view);
-    if (!bytes) return bytes.error();
-    return std::vector<unsigned char>(bytes->begin(), bytes->end());
 }
 
 }  // namespace strata::gltf

@@ -1,27 +1,24 @@
-// glTF accessors as plain vectors. tinygltf does not check that an accessor stays inside its buffer view; this does, with
-// arithmetic that cannot overflow.
+// glTF accessors as plain vectors: every component type, normalized or not, strided, sparse, or with no buffer at all. Nothing
+// an accessor claims is believed: it is held against its buffer view with arithmetic that cannot overflow.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include <tiny_gltf.h>
-
+#include "capture_format/import/gltf_budget.h"
+#include "capture_format/import/gltf_document.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
 
-/// Element after element, `components` floats each; integer types are normalized when the accessor says so; sparse
-/// replacements are applied. Fails when the accessor is missing, has another number of components or leaves its buffer.
-Result<std::vector<float>> read_floats(const tinygltf::Model&, int accessor, std::uint32_t components);
+/// Element after element, `components` floats each (16 for a matrix); integer types are normalized when the accessor says so.
+/// Fails when the accessor is missing, has another number of components, leaves its buffer view, or exceeds the budget.
+Result<std::vector<float>> read_floats(const Document&, int accessor, std::uint32_t components, Budget&);
 
-/// Vertex indices of any unsigned type.
-Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model&, int accessor);
+/// Scalars of any unsigned type.
+Result<std::vector<std::uint32_t>> read_indices(const Document&, int accessor, Budget&);
 
 /// The number of components of an accessor's elements; 0 when there is no such accessor.
-std::uint32_t component_count(const tinygltf::Model&, int accessor);
-
-/// The bytes of a buffer view (an image, say).
-Result<std::vector<unsigned char>> read_view(const tinygltf::Model&, int buffer_view);
+std::uint32_t component_count(const Document&, int accessor);
 
 }  // namespace strata::gltf

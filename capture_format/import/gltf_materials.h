@@ -1,26 +1,24 @@
-// glTF materials as ours: metallic-roughness, alpha modes, and the extensions KHR_materials_transmission, _unlit,
-// _emissive_strength and KHR_texture_transform.
+// glTF materials as ours: metallic-roughness, alpha modes, transmission with volume and index of refraction, unlit, emission.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include <tiny_gltf.h>
-
 #include "capture_format/frame.h"
-#include "capture_format/import/gltf_textures.h"
+#include "capture_format/import/gltf_budget.h"
+#include "capture_format/import/gltf_document.h"
 
 namespace strata::gltf {
 
 struct ImportedMaterials {
-    std::vector<Material> materials;  ///< as in the model, then one for primitives without a material
+    std::vector<Material> materials;  ///< as in the document, then one for primitives without a material
     std::vector<Texture> textures;
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;  ///< ignored extensions are named with the number of materials they would change
 };
 
-ImportedMaterials import_materials(const tinygltf::Model&);
+ImportedMaterials import_materials(const Document&, Budget&);
 
-/// A member of an extension object; the fallback when the extension, the member or its type is not there.
-double number_in(const tinygltf::ExtensionMap&, const std::string& extension, const std::string& member, double fallback);
+/// ((n - 1) / (n + 1))^2, the share of light that a surface of this index of refraction turns back head-on: 0.04 for 1.5.
+double head_on_reflectance(double ior);
 
 }  // namespace strata::gltf

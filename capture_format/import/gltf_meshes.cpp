@@ -1,47 +1,14 @@
 #include "capture_format/import/gltf_meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
-#include "capture_format/import/gltf_accessors.h"
+#include <fmt/core.h>
 
 namespace strata::gltf {
 namespace {
-
-int attribute(const tinygltf::Primitive& primitive, const char* name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? -1 : found->second;
-}
-
-bool all_finite(std::span<const float> values) {
-    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
-}
-
-template <typename Vector>
-std::vector<Vector> packed(std::span<const float> values) {
-    std::vector<Vector> vectors(values.size() / Vector::length());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        vectors[i / Vector::length()][static_cast<int>(i % Vector::length())] = values[i];
-    }
-    return vectors;
-}
-
-/// Triangle lists, strips and fans as triples; the odd triangles of a strip turn around (glTF 2.0, 3.7.2.1).
-std::vector<std::uint32_t> triangles(std::span<const std::uint32_t> order, int mode) {
-    std::vector<std::uint32_t> triples;
-    const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
-    for (std::size_t i = 0; i + 2 < order.size(); i += step) {
-        if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
-            triples.insert(triples.end(), {order[i + 1], order[i + 2], order[0]});
-        } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1) {
-            triples.insert(triples.end(), {order[i], order[i + 2], order[i + 1]});
-        } else {
-            triples.insert(triples.end(), {order[i], order[i + 1], order[i + 2]});
-        }
-    }
-    return triples;
-}
 
 glm::vec3 unit_or(glm::vec3 vector, glm::vec3 fallback) {
     const glm::dvec3 wide(vector);  // squares of small coordinates leave the range of float
@@ -73,106 +40,23 @@ std::vector<T> gathered(const std::vector<T>& stream, std::span<const std::uint3
     return result;
 }
 
-/// Reads the streams of one primitive.
-class PrimitiveImport {
+/// Makes what a mesh lacks for its material.
+class Finisher {
 public:
-    PrimitiveImport(const tinygltf::Model& model, const tinygltf::Primitive& primitive) : model_(model), primitive_(primitive) {}
+    explicit Finisher(Mesh mesh) : mesh_(std::move(mesh)) {}
 
-    Result<ImportedMesh> run(const Material& material) {
-        if (const auto read = read_positions(); !read) return read.error();
-        if (const auto read = read_triangles(); !read) return read.error();
-        if (const auto read = read_surface(); !read) return read.error();
-        if (const auto read = read_colors(material); !read) return read.error();
+    FinishedMesh run(const Material& material) {
+        // vertex alpha is coverage only where the material blends or masks
+        const bool covers = material.alpha_mode != AlphaMode::opaque;
+        for (glm::vec4& color : mesh_.colors) color.w = covers ? std::clamp(color.w, 0.0f, 1.0f) : 1.0f;
         check_normals();
         if (mesh_.normals.empty()) make_flat_normals(mesh_);
         supply_uvs(material);
         finish_tangents(material);
-        if (!primitive_.targets.empty()) warnings_.push_back("morph targets are ignored");
-        return ImportedMesh{std::move(mesh_), std::move(warnings_)};
+        return {std::move(mesh_), std::move(warnings_)};
     }
 
 private:
-    /// An optional stream: empty when it is missing or, with a warning, when it is of no use.
-    template <typename Vector>
-    Result<std::vector<Vector>> stream(const char* name) {
-        const int accessor = attribute(primitive_, name);
-        if (accessor < 0) return std::vector<Vector>();
-        const auto values = read_floats(model_, accessor, static_cast<std::uint32_t>(Vector::length()));
-        if (!values) return fail(Fault::bad_input, "{}: {}", name, values.error().sentence);
-        if (values->size() / Vector::length() != mesh_.positions.size()) {
-            return fail(Fault::bad_input, "{} has {} elements, POSITION has {}", name, values->size() / Vector::length(),
-                        mesh_.positions.size());
-        }
-        if (!all_finite(*values)) {
-            warnings_.push_back(fmt::format("{} is left out: it holds numbers that are not finite", name));
-            return std::vector<Vector>();
-        }
-        return packed<Vector>(*values);
-    }
-
-    Result<void> read_positions() {
-        const auto values = read_floats(model_, attribute(primitive_, "POSITION"), 3);
-        if (!values) return fail(Fault::bad_input, "POSITION: {}", values.error().sentence);
-        if (!all_finite(*values)) return fail(Fault::bad_input, "POSITION holds numbers that are not finite");
-        mesh_.positions = packed<glm::vec3>(*values);
-        return {};
-    }
-
-    Result<void> read_triangles() {
-        if (primitive_.mode != TINYGLTF_MODE_TRIANGLES && primitive_.mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
-            primitive_.mode != TINYGLTF_MODE_TRIANGLE_FAN) {
-            warnings_.push_back("points and lines are ignored");
-            return {};
-        }
-        std::vector<std::uint32_t> order;
-        if (primitive_.indices >= 0) {
-            auto indices = read_indices(model_, primitive_.indices);
-            if (!indices) return indices.error();
-            order = *std::move(indices);
-        } else {
-            for (std::uint32_t i = 0; i < mesh_.positions.size(); ++i) order.push_back(i);
-        }
-        for (const std::uint32_t index : order) {
-            if (index >= mesh_.positions.size()) {
-                return fail(Fault::bad_input, "a triangle uses vertex {} of {}", index, mesh_.positions.size());
-            }
-        }
-        mesh_.indices = triangles(order, primitive_.mode);
-        return {};
-    }
-
-    Result<void> read_surface() {
-        auto normals = stream<glm::vec3>("NORMAL");
-        auto tangents = stream<glm::vec4>("TANGENT");
-        auto uv0 = stream<glm::vec2>("TEXCOORD_0");
-        auto uv1 = stream<glm::vec2>("TEXCOORD_1");
-        for (const Error* error : {normals ? nullptr : &normals.error(), tangents ? nullptr : &tangents.error(),
-                                   uv0 ? nullptr : &uv0.error(), uv1 ? nullptr : &uv1.error()}) {
-            if (error) return *error;
-        }
-        mesh_.normals = *std::move(normals);
-        mesh_.tangents = *std::move(tangents);
-        mesh_.uv0 = *std::move(uv0);
-        mesh_.uv1 = *std::move(uv1);
-        return {};
-    }
-
-    /// Vertex alpha is coverage only where the material blends or masks.
-    Result<void> read_colors(const Material& material) {
-        if (component_count(model_, attribute(primitive_, "COLOR_0")) == 3) {
-            const auto colors = stream<glm::vec3>("COLOR_0");
-            if (!colors) return colors.error();
-            for (const glm::vec3& color : *colors) mesh_.colors.emplace_back(color, 1.0f);
-        } else {
-            auto colors = stream<glm::vec4>("COLOR_0");
-            if (!colors) return colors.error();
-            mesh_.colors = *std::move(colors);
-        }
-        const bool covers = material.alpha_mode != AlphaMode::opaque;
-        for (glm::vec4& color : mesh_.colors) color.w = covers ? std::clamp(color.w, 0.0f, 1.0f) : 1.0f;
-        return {};
-    }
-
     /// Normals become unit. One without a direction takes its triangle's.
     void check_normals() {
         std::vector<bool> broken(mesh_.normals.size());
@@ -209,8 +93,6 @@ private:
         if (mesh_.tangents.empty() && material.normal_texture.texture != no_index) make_tangents(mesh_, material.normal_texture);
     }
 
-    const tinygltf::Model& model_;
-    const tinygltf::Primitive& primitive_;
     Mesh mesh_;
     std::vector<std::string> warnings_;
 };
@@ -259,9 +141,6 @@ void make_tangents(Mesh& mesh, const TextureUse& use) {
     }
 }
 
-Result<ImportedMesh> import_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                      const Material& material) {
-    return PrimitiveImport(model, primitive).run(material);
-}
+FinishedMesh finish_mesh(Mesh mesh, const Material& material) { return Finisher(std::move(mesh)).run(material); }
 
 }  // namespace strata::gltf

@@ -1,24 +1,20 @@
-// glTF primitives as triangle meshes: strips and fans unrolled, normals and tangents made where they are missing.
+// Makes what a glTF mesh lacks: normals, tangents, and uvs that its material reads.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include <tiny_gltf.h>
-
 #include "capture_format/frame.h"
-#include "capture_format/result.h"
 
 namespace strata::gltf {
 
-struct ImportedMesh {
+struct FinishedMesh {
     Mesh mesh;
     std::vector<std::string> warnings;
 };
 
-/// The material decides whether tangents are needed, by which uv, and whether vertex alpha counts. Points and lines become a
-/// mesh without triangles.
-Result<ImportedMesh> import_primitive(const tinygltf::Model&, const tinygltf::Primitive&, const Material&);
+/// The material decides whether tangents are needed, by which uv, and whether vertex alpha counts.
+FinishedMesh finish_mesh(Mesh, const Material&);
 
 /// One normal per triangle, so vertices are no longer shared. Degenerate triangles get +y.
 void make_flat_normals(Mesh&);

@@ -3,38 +3,49 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include <stb_image.h>
 
-#include "capture_format/import/gltf_accessors.h"
 #include "capture_format/inspection.h"
 #include "capture_format/texture_mips.h"
 
 namespace strata::gltf {
-Result<Texture> TextureImport::decode(int index) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= model_.images.size()) {
+namespace {
+
+constexpr std::uint64_t nearest_filter = 9728, clamp_to_edge = 33071, mirrored_repeat = 33648;
+
+/// The two formats of glTF. stb reads others, too, with decoders that a hostile file should not reach.
+bool is_png_or_jpeg(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return text.starts_with("\x89PNG\r\n\x1a\n") || text.starts_with("\xff\xd8\xff");
+}
+
+}  // namespace
+
+Result<Texture> TextureImport::decode(int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= document_.images.size()) {
         return fail(Fault::bad_input, "image {} does not exist", index);
     }
-    const tinygltf::Image& image = model_.images[static_cast<std::size_t>(index)];
-    std::vector<unsigned char> encoded = image.image;
-    if (image.bufferView >= 0) {
-        auto viewed = read_view(model_, image.bufferView);
-        if (!viewed) return viewed.error();
-        encoded = *std::move(viewed);
-    }
+    const Image& image = document_.images[static_cast<std::size_t>(index)];
+    if (!image.content.fault.empty()) return fail(Fault::bad_input, "image {}: {}", index, image.content.fault);
+    const auto* encoded = reinterpret_cast<const stbi_uc*>(image.content.bytes.data());
+    const auto size = static_cast<int>(std::min<std::size_t>(image.content.bytes.size(), 0x7fffffff));
     int width = 0, height = 0, channels = 0;
-    const auto size = static_cast<int>(std::min<std::size_t>(encoded.size(), 0x7fffffff));
-    if (size == 0 || stbi_info_from_memory(encoded.data(), size, &width, &height, &channels) == 0) {
-        return fail(Fault::bad_input, "image {} '{}' is neither PNG nor JPEG, or its file is missing", index,
-                    image.name + image.uri);
+    if (!is_png_or_jpeg(image.content.bytes) || stbi_info_from_memory(encoded, size, &width, &height, &channels) == 0) {
+        return fail(Fault::bad_input, "image {} '{:.80}' is neither PNG nor JPEG", index, image.name + image.uri);
     }
     // before it is decompressed: a few bytes can ask for gigabytes
     if (static_cast<std::uint32_t>(std::max(width, height)) > largest_extent) {
         return fail(Fault::bad_input, "image {} has {} x {} texels; at most {} per edge are read", index, width, height,
                     largest_extent);
     }
+    constexpr std::uint64_t bytes_per_texel = 8;  // decoded once, copied once, mips: a bit more than 4 + 4 / 3
+    const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    if (const auto room = budget_.take(texels, bytes_per_texel, fmt::format("image {}", index)); !room) return room.error();
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(encoded.data(), size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);
+        stbi_load_from_memory(encoded, size, &width, &height, &channels, STBI_rgb_alpha), stbi_image_free);
     if (!pixels) return fail(Fault::bad_input, "image {} is damaged: {}", index, stbi_failure_reason());
     Texture texture;
     texture.name = image.name.empty() ? image.uri : image.name;
@@ -45,27 +56,27 @@ Result<Texture> TextureImport::decode(int index) const {
     return texture;
 }
 
-AddressMode TextureImport::address_mode(const tinygltf::Texture& texture) {
-    if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= model_.samplers.size()) return AddressMode::repeat;
-    const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(texture.sampler)];
-    if (sampler.wrapS != sampler.wrapT) warnings_.push_back("a sampler wraps its axes differently; both wrap as u does");
-    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) {
+AddressMode TextureImport::address_mode(const TextureSource& texture) {
+    if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= document_.samplers.size()) return AddressMode::repeat;
+    const Sampler& sampler = document_.samplers[static_cast<std::size_t>(texture.sampler)];
+    if (sampler.wrap_s != sampler.wrap_t) warnings_.push_back("a sampler wraps its axes differently; both wrap as u does");
+    if (sampler.mag_filter == nearest_filter) {
         warnings_.push_back("a sampler asks for nearest filtering; all textures are filtered trilinearly");
     }
-    if (sampler.wrapS == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return AddressMode::clamp;
-    return sampler.wrapS == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? AddressMode::mirror : AddressMode::repeat;
+    if (sampler.wrap_s == clamp_to_edge) return AddressMode::clamp;
+    return sampler.wrap_s == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
 }
 
 std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {
     if (index < 0) return no_index;
     const auto [known, fresh] = known_.try_emplace({index, encoding, alpha}, no_index);
     if (!fresh) return known->second;
-    if (static_cast<std::size_t>(index) >= model_.textures.size()) {
+    if (static_cast<std::size_t>(index) >= document_.textures.size()) {
         warnings_.push_back(fmt::format("texture {} does not exist", index));
         return no_index;
     }
-    const tinygltf::Texture& source = model_.textures[static_cast<std::size_t>(index)];
-    auto decoded = decode(source.source);
+    const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
+    auto decoded = decode(source.image);
     if (!decoded) {
         warnings_.push_back(fmt::format("texture {} is left out: {}", index, decoded.error().sentence));
         return no_index;

@@ -1,4 +1,4 @@
-// The images of a glTF model as textures with mips. One glTF texture may become several of ours: the texels of a color
+// The images of a glTF as textures with mips. One glTF texture may become several of ours: the texels of a color
 // texture are sRGB, those of a data texture are not.
 #pragma once
 
@@ -8,10 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include <tiny_gltf.h>
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
+#include "capture_format/import/gltf_budget.h"
+#include "capture_format/import/gltf_document.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -22,7 +23,7 @@ enum class AlphaUse : std::uint32_t { coverage, ignored };  ///< ignored: every 
 /// Decodes images when they are first asked for and remembers them.
 class TextureImport {
 public:
-    explicit TextureImport(const tinygltf::Model& model) : model_(model) {}
+    TextureImport(const Document& document, Budget& budget) : document_(document), budget_(budget) {}
 
     /// The index of a texture in textures(); no_index, with a warning, when it cannot be read.
     std::uint32_t add(int gltf_texture, Encoding, AlphaUse = AlphaUse::ignored);
@@ -33,10 +34,11 @@ public:
     const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
-    Result<Texture> decode(int image) const;
-    AddressMode address_mode(const tinygltf::Texture&);
+    Result<Texture> decode(int image);
+    AddressMode address_mode(const TextureSource&);
 
-    const tinygltf::Model& model_;
+    const Document& document_;
+    Budget& budget_;
     std::map<std::tuple<int, Encoding, AlphaUse>, std::uint32_t> known_;
     std::vector<Texture> textures_;
     std::vector<std::string> warnings_;

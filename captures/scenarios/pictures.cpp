@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "capture_format/srgb.h"
 #include "capture_format/texture_mips.h"
 #include "captures/scenarios/random.h"
 
@@ -14,10 +15,6 @@ namespace strata::scenario {
 namespace {
 
 constexpr std::uint32_t edge = 64;
-
-std::byte to_byte(float value) { return static_cast<std::byte>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); }
-
-float encode_srgb(float value) { return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f; }
 
 /// Paints every texel at its center; `paint` gets uv in 0..1 and returns linear color and alpha.
 Texture painted(std::string name, TextureFormat format, const std::function<glm::vec4(glm::vec2)>& paint) {
@@ -31,7 +28,7 @@ Texture painted(std::string name, TextureFormat format, const std::function<glm:
             if (format == TextureFormat::rgba8_srgb) {
                 color = glm::vec4(encode_srgb(color.x), encode_srgb(color.y), encode_srgb(color.z), color.w);
             }
-            for (int c = 0; c < 4; ++c) texture.texels.push_back(to_byte(color[c]));
+            for (int c = 0; c < 4; ++c) texture.texels.push_back(unorm8(color[c]));
         }
     }
     return with_mips(std::move(texture));

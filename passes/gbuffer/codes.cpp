@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "passes/reference/textures.h"
+
 namespace strata::gbuffer {
 namespace {
 
@@ -11,7 +13,6 @@ constexpr double smallest_normal = 0x1p-14, largest_half = 65504;
 constexpr std::uint32_t codes_per_sign = 30720, first_normal = 0x0400, first_negative_normal = 0x8400;
 
 double linear_to_srgb(double c) { return c <= 0.0031308 ? c * 12.92 : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
-double srgb_to_linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
 /// The nearest of levels + 1 equal steps of 0..1, as its number.
 std::uint32_t level(double value, std::uint32_t levels) {

@@ -9,6 +9,11 @@
 namespace strata {
 namespace {
 
+void add_binding(const Binding& binding, std::vector<Use>& all) {
+    if (!binding.image && !binding.buffer) return;
+    all.push_back({binding.name, binding.access, binding.image, binding.buffer, binding.part});
+}
+
 void add_work(const Work& work, std::vector<Use>& all) {
     if (const auto* clear = std::get_if<ClearWork>(&work))
         all.push_back({.as = "clear", .access = Access::copied_to, .image = clear->image, .buffer = clear->buffer});
@@ -83,19 +88,22 @@ Plan with_records(const Graph& graph) {
 
 }  // namespace
 
-std::vector<Use> uses(const PlannedStep& planned) {
+std::vector<Use> uses(const Step& step) {
     std::vector<Use> all;
-    for (const Binding& binding : planned.step.bindings)
-        if (binding.access == Access::indirect || binding.access == Access::indexed)
-            all.push_back({.as = binding.name, .access = binding.access, .buffer = binding.buffer});
-    for (const PlannedBinding& bound : planned.bindings) {
-        const Binding& binding = bound.binding;
-        if (!binding.image && !binding.buffer) continue;
-        all.push_back({binding.name, binding.access, binding.image, binding.buffer, binding.part});
-    }
-    for (const Attachment& attachment : planned.step.attachments)
+    for (const Binding& binding : step.bindings) add_binding(binding, all);
+    for (const Attachment& attachment : step.attachments)
         all.push_back({.as = "attachment", .access = attachment.access, .image = attachment.image, .part = attachment.part});
-    add_work(planned.step.work, all);
+    add_work(step.work, all);
+    return all;
+}
+
+std::vector<Use> uses(const PlannedStep& planned) {
+    std::vector<Use> all = uses(planned.step);
+    for (const PlannedBinding& bound : planned.bindings) {
+        const bool declared =
+            std::ranges::find(planned.step.bindings, bound.binding.name, &Binding::name) != planned.step.bindings.end();
+        if (!declared) add_binding(bound.binding, all);  // an offer
+    }
     return all;
 }
 

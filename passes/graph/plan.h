@@ -50,7 +50,8 @@ struct Use {
     Buffer buffer = {};
     Part part = {};
 };
-std::vector<Use> uses(const PlannedStep&);
+std::vector<Use> uses(const Step&);         ///< as declared: bindings in their order, attachments, what is cleared or copied
+std::vector<Use> uses(const PlannedStep&);  ///< ... and the offers its shaders take
 /// What the step does to the part of the image at once: its layout during the step follows from it.
 AccessSet accesses(const PlannedStep&, Image, Part);
 

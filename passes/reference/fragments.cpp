@@ -142,7 +142,7 @@ std::vector<std::uint32_t> opaque_draws(const Frame& frame) {
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
         const AlphaMode mode = material_of(frame, i)->alpha_mode;
-        if (mode == AlphaMode::opaque || mode == AlphaMode::mask) result.push_back(i);
+        if (!is_transparent(mode)) result.push_back(i);
     }
     return result;
 }
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> transparent_draws(const Frame& frame) {
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
         const AlphaMode mode = material_of(frame, i)->alpha_mode;
-        if (mode != AlphaMode::opaque && mode != AlphaMode::mask) result.push_back(i);
+        if (is_transparent(mode)) result.push_back(i);
     }
     const std::size_t meshes = result.size();
     result.resize(meshes + frame.emitters.size());

@@ -67,8 +67,12 @@ vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
     const uint x0 = uint(wrapped(low.x, size.x, t.address)), x1 = uint(wrapped(low.x + 1, size.x, t.address));
     const uint y0 = base + uint(wrapped(low.y, size.y, t.address) * size.x);
     const uint y1 = base + uint(wrapped(low.y + 1, size.y, t.address) * size.x);
-    const vec4 upper = mix(texel(t, y0 + x0), texel(t, y0 + x1), f.x);
-    const vec4 lower = mix(texel(t, y1 + x0), texel(t, y1 + x1), f.x);
+    vec4 upper = vec4(0.0), lower = vec4(0.0);
+    for (uint row = 0u; row < 2u; ++row) {
+        const uint y = row == 0u ? y0 : y1;
+        upper = lower;
+        lower = mix(texel(t, y + x0), texel(t, y + x1), f.x);
+    }
     return mix(upper, lower, f.y);
 }
 
@@ -89,9 +93,13 @@ float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
 
 vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
     const float finer = floor(lod);
-    const vec4 fine = bilinear(t, uint(finer), uv);
-    if (lod == finer) return fine;
-    return mix(fine, bilinear(t, uint(finer) + 1u, uv), lod - finer);
+    vec4 fine = vec4(0.0), coarse = vec4(0.0);
+    const uint mips = lod == finer ? 1u : 2u;
+    for (uint i = 0u; i < mips; ++i) {
+        fine = coarse;
+        coarse = bilinear(t, uint(finer) + i, uv);
+    }
+    return mips == 1u ? coarse : mix(fine, coarse, lod - finer);
 }
 
 // The texture of a use at (uv0, uv1), its transform applied; white where there is none.

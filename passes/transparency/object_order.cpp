@@ -5,11 +5,12 @@
 #include <span>
 
 #include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
 
 namespace strata {
 namespace {
 
-double view_depth(const Frame& frame, const glm::dvec3& world) { return (frame.view.to_view * (world - frame.view.origin)).z; }
+double view_depth(const Frame& frame, const glm::dvec3& world) { return to_view(frame, world).z; }
 
 /// Middle of the box around the points, or the origin of nothing.
 template <typename Element, typename Point>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
 
 namespace strata {
 namespace {
@@ -16,8 +17,6 @@ constexpr double margin = .25;
 class RowSum {
 public:
     RowSum(const View& view, Extent extent) : view_(view), extent_(extent), rows_(extent.height, 0) {}
-
-    glm::dvec3 to_view(const glm::dvec3& world) const { return view_.to_view * (world - view_.origin); }
 
     /// A convex polygon in view space.
     void add(std::span<const glm::dvec3> corners) {
@@ -80,7 +79,7 @@ void add_draw(const Frame& frame, const Draw& draw, RowSum& sum) {
     std::vector<glm::dvec3> positions;
     positions.reserve(mesh.positions.size());
     for (const glm::vec3& p : mesh.positions)
-        positions.push_back(sum.to_view(glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(p), 1))));
+        positions.push_back(to_view(frame, glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(p), 1))));
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::array corners{positions[mesh.indices[i]], positions[mesh.indices[i + 1]], positions[mesh.indices[i + 2]]};
         sum.add(corners);
@@ -88,8 +87,8 @@ void add_draw(const Frame& frame, const Draw& draw, RowSum& sum) {
 }
 
 /// The two triangles of a quad share no sample, so the quad counts once.
-void add_particle(const Particle& particle, RowSum& sum) {
-    const glm::dvec3 center = sum.to_view(particle.center);
+void add_particle(const Frame& frame, const Particle& particle, RowSum& sum) {
+    const glm::dvec3 center = to_view(frame, particle.center);
     const double c = std::cos(double(particle.rotation)) * double(particle.size);
     const double s = std::sin(double(particle.rotation)) * double(particle.size);
     const glm::dvec3 u(c, s, 0), v(-s, c, 0);
@@ -104,7 +103,8 @@ std::vector<std::uint64_t> transparent_row_bounds(const Frame& frame, Extent ext
         if (index < frame.draws.size()) {
             add_draw(frame, frame.draws[index], sum);
         } else {
-            for (const Particle& particle : frame.emitters[index - frame.draws.size()].particles) add_particle(particle, sum);
+            for (const Particle& particle : frame.emitters[index - frame.draws.size()].particles)
+                add_particle(frame, particle, sum);
         }
     }
     return sum.take();

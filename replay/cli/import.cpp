@@ -1,4 +1,5 @@
-// strata import: a glTF scene, or a deep image, becomes a capture.
+// strata import: a glTF scene becomes a capture, of one frame or of an animation's; so does a deep image.
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ namespace {
 struct Options {
     std::filesystem::path scene, output;
     std::string size = "640x360";
+    std::uint32_t frames = 1;
     GltfOptions gltf;
     bool deep = false;
     DeepOptions of_deep;
@@ -26,23 +28,36 @@ std::filesystem::path output_of(const Options& options) {
     return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
 }
 
-Result<void> record_frame(const Options& options, const Frame& frame) {
-    if (const auto good = check_frame(frame); !good) return good;
+/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns the last one.
+Result<Frame> record_frames(const Options& options, std::uint32_t count,
+                            const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
+    auto frame = frame_at(0);
+    if (!frame) return frame;
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
     auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
-    if (const auto done = add_thumbnail(*recorder, frame, options.device); !done) return done;
-    if (const auto done = recorder->record(frame); !done) return done;
-    if (const auto done = recorder->finish(); !done) return done;
-    return file->commit();
+    if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
+    for (std::uint32_t index = 0; index < count; ++index) {
+        if (index > 0) frame = frame_at(index);
+        if (!frame) return frame;
+        if (const auto done = recorder->record(*frame); !done) return done.error();
+    }
+    if (const auto done = recorder->finish(); !done) return done.error();
+    if (const auto done = file->commit(); !done) return done.error();
+    return frame;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
 }
 
 Result<void> import_deep_image(const Options& options) {
-    const auto image = import_deep(options.scene, options.of_deep);
+    auto image = import_deep(options.scene, options.of_deep);
     if (!image) return image.error();
-    for (const std::string& warning : image->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
-    if (const auto done = record_frame(options, image->frame); !done) return done;
+    print_warnings(image->warnings);
+    const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
+    if (!recorded) return recorded.error();
     const DeepCensus& census = image->census;
     fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", counted(census.samples, "sample"),
                options.scene.filename().string(), counted(census.fragments, "fragment"), counted(census.pixels, "pixel"),
@@ -57,14 +72,14 @@ Result<void> import(const Options& options) {
     GltfOptions gltf = options.gltf;
     std::tie(gltf.width, gltf.height) = *extent;
     if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
-    const auto scene = import_gltf(options.scene, gltf);
+    auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
-    for (const std::string& warning : scene->warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
-    if (const auto done = record_frame(options, scene->frame); !done) return done;
-    const Frame& frame = scene->frame;
-    fmt::print(stderr, "imported {}, {}, {}, {} into {}\n", counted(frame.draws.size(), "draw"),
-               counted(frame.materials.size(), "material"), counted(frame.textures.size(), "texture"),
-               counted(frame.lights.size(), "light"), output_of(options).string());
+    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
+    print_warnings(scene->warnings());
+    if (!last) return last.error();
+    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", counted(options.frames, "frame"),
+               counted(last->draws.size(), "draw"), counted(last->materials.size(), "material"),
+               counted(last->textures.size(), "texture"), counted(last->lights.size(), "light"), output_of(options).string());
     return {};
 }
 
@@ -83,6 +98,10 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--azimuth", options->gltf.azimuth,
                    "degrees from the front towards the right of a framing camera, default 22");
     app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
+    app.add_option("--frames", options->frames, "how many frames; an animation begins again after its end")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");
+    app.add_option("--animation", options->gltf.animation, "name or index of the animation; default the first");
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return import(*options); };
 }

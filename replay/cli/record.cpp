@@ -16,6 +16,7 @@ struct Options {
     std::string scenario, size;
     std::filesystem::path output;
     ScenarioOptions frames;
+    RecorderOptions recorder;
     DeviceChoice device;
 };
 
@@ -35,13 +36,14 @@ Result<void> record(const Options& options) {
         options.output.empty() ? std::filesystem::path(options.scenario + ".strata") : options.output;
     auto file = WholeFile::begin(output);
     if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), fmt::format("scenario {} seed {}", options.scenario, wanted.seed));
+    auto recorder =
+        Recorder::create(file->temporary(), fmt::format("scenario {} seed {}", options.scenario, wanted.seed), options.recorder);
     if (!recorder) return recorder.error();
     for (std::uint32_t index = 0; index < wanted.frames; ++index) {
-        const Frame frame = (*scenario)->build(index, wanted);
+        Frame frame = (*scenario)->build(index, wanted);
         if (index == 0)
             if (const auto done = add_thumbnail(*recorder, frame, options.device); !done) return done;
-        if (const auto done = recorder->record(frame); !done) return done;
+        if (const auto done = recorder->record(std::move(frame)); !done) return done;
     }
     if (const auto done = recorder->finish(); !done) return done;
     if (const auto done = file->commit(); !done) return done;
@@ -60,6 +62,8 @@ std::function<Result<void>()> declare_record(CLI::App& app) {
     app.add_option("--size", options->size, "WIDTHxHEIGHT instead of the scenario's own");
     app.add_option("--samples", options->frames.samples, "samples per pixel: 1 or 4");
     app.add_option("--seed", options->frames.seed, "of everything random");
+    app.add_option("--budget", options->recorder.budget_bytes, "most memory for frames that wait to be written, as 64MiB")
+        ->transform(CLI::AsSizeValue(true));
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return record(*options); };
 }

@@ -59,6 +59,33 @@ ordered_json json_of(const ExpectationVerdict& verdict) {
     return json;
 }
 
+ordered_json json_of(const RunMemory& memory) {
+    ordered_json json{{"plan_bytes", memory.plan},
+                      {"scene_bytes", memory.scene},
+                      {"memo_bytes", memory.memo},
+                      {"device_allocated_bytes", memory.allocated},
+                      {"device_peak_bytes", memory.peak_allocated},
+                      {"host_peak_bytes", memory.host_peak},
+                      {"fullest_step",
+                       {{"scope", memory.over_time.fullest_scope},
+                        {"name", memory.over_time.fullest_step},
+                        {"alive_bytes", memory.over_time.peak}}}};
+    for (const auto& [stage, of_stage] : memory.over_time.stages)
+        json["stages"][stage] = {{"allocated_bytes", of_stage.allocated}, {"peak_bytes", of_stage.peak}};
+    return json;
+}
+
+ordered_json json_of(const RunTimes& times) {
+    return {{"load", times.load},
+            {"declare", times.declare},
+            {"upload", times.upload},
+            {"allocate", times.device.allocate},
+            {"pipelines", times.device.pipelines},
+            {"record", times.device.record},
+            {"render", times.device.render},
+            {"read_back", times.device.read_back}};
+}
+
 }  // namespace
 
 Metadata provenance(const Session& session, const Request& request, const Run& run) {
@@ -90,6 +117,8 @@ ordered_json json_of(const Session& session, const Request& request, const Run& 
     for (const std::string& note : run.notes) json["notes"].push_back(note);
     json["image_bytes"] = run.image_bytes;
     json["buffer_bytes"] = run.buffer_bytes;
+    json["memory"] = json_of(run.memory);
+    json["host_ms"] = json_of(run.host_ms);
     return json;
 }
 

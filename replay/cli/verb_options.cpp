@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
+#include "capture_format/picture.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
+#include "replay/image_io.h"
 
 namespace strata {
 namespace {
 
-constexpr std::uint32_t thumbnail_width = 160;
+constexpr std::uint32_t thumbnail_width = 160;  // at the most
 
 template <typename Number>
 bool parse(std::string_view text, Number& number) {
@@ -22,20 +23,14 @@ bool parse(std::string_view text, Number& number) {
     return problem == std::errc() && end == text.data() + text.size();
 }
 
-/// Display light as sRGB bytes, at most thumbnail_width wide, nearest texel.
 Texture thumbnail_of(const HostImage& display) {
-    const std::uint32_t step = std::max(1u, (display.shape.extent.width + thumbnail_width - 1) / thumbnail_width);
     Texture texture{.name = "thumbnail", .format = TextureFormat::rgba8_srgb};
-    texture.width = std::max(1u, display.shape.extent.width / step);
-    texture.height = std::max(1u, display.shape.extent.height / step);
+    texture.width = display.shape.extent.width;
+    texture.height = display.shape.extent.height;
     for (std::uint32_t y = 0; y < texture.height; ++y)
         for (std::uint32_t x = 0; x < texture.width; ++x) {
-            const glm::dvec4 color = texel(display, x * step, y * step);
-            for (int c = 0; c < 3; ++c) {
-                const double v = std::isfinite(color[c]) ? std::clamp(color[c], 0.0, 1.0) : 0;
-                const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-                texture.texels.push_back(static_cast<std::byte>(std::lround(encoded * 255)));
-            }
+            const glm::dvec4 color = texel(display, x, y);
+            for (int c = 0; c < 3; ++c) texture.texels.push_back(display_byte(color[c]));
             texture.texels.push_back(std::byte{255});
         }
     return texture;
@@ -43,6 +38,16 @@ Texture thumbnail_of(const HostImage& display) {
 
 void say_what_is_left_out(const Capture& capture) {
     for (const std::string& sentence : capture.summary().left_out) fmt::print(stderr, "strata: {}\n", sentence);
+}
+
+/// The frame at an extent that fits a thumbnail; an edge shorter than the divisor stays one pixel.
+Frame small(Frame frame) {
+    View& view = frame.view;
+    const std::uint32_t divisor = std::max({1u, (view.width + thumbnail_width - 1) / thumbnail_width,
+                                            (view.height + largest_picture_edge - 1) / largest_picture_edge});
+    view.width = std::max(1u, view.width / divisor);
+    view.height = std::max(1u, view.height / divisor);
+    return frame;
 }
 
 }  // namespace
@@ -54,6 +59,9 @@ void add_options(CLI::App& app, OpenOptions& options) {
                    "treat the device as lacking this Vulkan feature or capability; repeatable")
         ->allow_extra_args(false);
     app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
+    app.add_option("--memory-budget", options.device.memory_budget,
+                   "most memory to take from the device, like 256MiB; what needs more is refused (4)")
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
     app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
 }
 
@@ -113,6 +121,26 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
     return indices;
 }
 
+std::string command_line(const CLI::App& verb) {
+    const auto quoted = [](const std::string& word) {
+        constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
+        if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+        std::string safe = "'";
+        for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        return safe + "'";
+    };
+    std::string line = "strata " + verb.get_name();
+    for (const CLI::Option* option : verb.get_options()) {
+        if (option->count() == 0) continue;
+        const bool flag = option->get_items_expected_max() == 0;
+        for (const std::string& value : option->results()) {
+            if (!option->get_positional()) line += " " + option->get_name();
+            if (!flag) line += " " + quoted(value);
+        }
+    }
+    return line;
+}
+
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text) {
     const std::size_t cross = text.find('x');
     std::pair<std::uint32_t, std::uint32_t> extent;
@@ -125,10 +153,8 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
 
 Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceChoice& device) {
     // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
-    const std::uint32_t divisor = (frame.view.width + thumbnail_width - 1) / thumbnail_width;
-    const Request small{.extent_divisor = std::clamp(divisor, 1u, std::max(1u, frame.view.height)), .samples = 1};
-    auto session = Session::open(std::vector<Frame>{frame}, device);
-    const auto run = session ? (*session)->run(small) : Result<Run>(session.error());
+    auto session = Session::open(std::vector<Frame>{small(frame)}, device);
+    const auto run = session ? (*session)->run({.samples = 1}) : Result<Run>(session.error());
     if (!run) {
         fmt::print(stderr, "strata: no thumbnail: {}\n", run.error().sentence);
         return {};

@@ -35,6 +35,8 @@ Result<Request> request_of(const ChoiceOptions&);
 
 /// "0,4-8" as frame indices below count; empty means all. Fails for frames that do not exist.
 Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count);
+/// What was typed, as a line for a shell: a verb with its options in the order of the help.
+std::string command_line(const CLI::App& verb);
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 

@@ -20,6 +20,12 @@ vk::BufferUsageFlags usage_for(MemoryUse use) {
 
 }  // namespace
 
+std::uint64_t device_bytes(const OpenedDevice& device, std::uint64_t bytes, MemoryUse use) {
+    const vk::BufferCreateInfo info({}, whole_words(bytes), usage_for(use));
+    const vk::DeviceBufferMemoryRequirements wanted(&info);
+    return device.handle().getBufferMemoryRequirements(wanted).memoryRequirements.size;
+}
+
 DeviceBuffer::DeviceBuffer(OpenedDevice& device, std::uint64_t bytes, std::string_view name, MemoryUse use)
     : bytes_(whole_words(bytes)),
       buffer_(device.handle(), vk::BufferCreateInfo({}, bytes_, usage_for(use))),

@@ -10,6 +10,9 @@ namespace strata {
 
 class OpenedDevice;
 
+/// What a buffer of so many bytes takes of the device, without making it.
+std::uint64_t device_bytes(const OpenedDevice&, std::uint64_t bytes, MemoryUse);
+
 /// Storage, index, indirect and copies: whatever a plan may want of it.
 class DeviceBuffer {
 public:

@@ -143,13 +143,14 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
         auto chosen = strata::choose(described, choice.gpu);
         if (!chosen) return chosen.error();
         auto physical = std::move(devices[chosen->index]);
-        return std::unique_ptr<Device>(std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen));
+        return std::unique_ptr<Device>(
+            std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen, choice.memory_budget));
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_failed, "the device cannot be opened: {}", problem.what());
     }
 }
 
-OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical, DeviceInfo info)
+OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical, DeviceInfo info, std::uint64_t memory_budget)
     : instance_(std::move(instance)),
       info_(std::move(info)),
       physical_(std::move(physical)),
@@ -157,7 +158,7 @@ OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical,
       device_(make_device(physical_, info_.capabilities)),
       queue_(device_, *queue_family(physical_), 0),
       commands_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, *queue_family(physical_))),
-      memory_(physical_, device_) {}
+      memory_(physical_, device_, memory_budget) {}
 
 OpenedDevice::~OpenedDevice() = default;
 

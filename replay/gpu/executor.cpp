@@ -1,7 +1,6 @@
 #include "replay/gpu/executor.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/plan_memory.h"
@@ -9,6 +8,7 @@
 #include "replay/gpu/sample_layers.h"
 #include "replay/gpu/step_recorder.h"
 #include "replay/gpu/stopwatch.h"
+#include "replay/measure/lap.h"
 
 namespace strata {
 namespace {
@@ -49,7 +49,18 @@ public:
         return execution;
     }
     std::size_t pipelines_created() const override { return pipelines_.created(); }
-    std::uint64_t bytes_held() const override { return imports_.bytes_held() + (memory_ ? memory_->bytes_held() : 0); }
+    DeviceMemory memory() const override {
+        const PoolBytes& pool = device_->memory().bytes();
+        return {memory_ ? memory_->bytes_held() : 0,
+                imports_.bytes_held(),
+                pool.in_use,
+                pool.allocated,
+                pool.peak_in_use,
+                pool.peak_allocated};
+    }
+    std::uint64_t image_bytes(const Shape& shape) const override { return device_bytes(*device_, shape); }
+    std::uint64_t buffer_bytes(std::uint64_t bytes) const override { return device_bytes(*device_, bytes, MemoryUse::buffers); }
+    void forget_plan() override { memory_.reset(); }
 
 private:
     /// What one run needs besides the plan.
@@ -107,6 +118,8 @@ void VulkanExecutor::fail_on_messages() {
 }
 
 Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
+    Execution execution;
+    Lap lap;
     if (!memory_ || !memory_->serves(plan)) {
         memory_.reset();
         memory_.emplace(*device_, plan);
@@ -119,7 +132,11 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
                 Stopwatch(*device_, intervals),
                 {Readback(*device_), {}},
                 std::vector<HostCopies::Copy>(options.peeks.size())};
+    execution.host_ms.allocate = lap();
+    const double pipelines_ms = pipelines_.milliseconds();
+    const std::size_t pipelines_before = pipelines_.created();
 
+    pipelines_.make(plan, std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size()));
     auto commands = device_->begin_commands();
     const auto layouts = imports_.layouts();
     try {
@@ -129,17 +146,19 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
         throw;
     }
     commands.end();
+    execution.pipelines_created = pipelines_.created() - pipelines_before;
+    execution.host_ms.pipelines = pipelines_.milliseconds() - pipelines_ms;
+    execution.host_ms.record = lap() - execution.host_ms.pipelines;
 
-    Execution execution;
     place_ = "run the frame";
-    const auto start = std::chrono::steady_clock::now();
     device_->submit(commands);
-    execution.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    execution.host_ms.render = lap();
     fail_on_messages();
 
     execution.step_ms = frame.stopwatch.milliseconds();
     for (const HostCopies::Copy& copy : frame.peeked) execution.peeked.push_back(frame.peeks.take(copy));
     read_kept(frame, execution);
+    execution.host_ms.read_back = lap();
     return execution;
 }
 

@@ -40,9 +40,22 @@ struct RunOptions {
     KeptImages kept_images = KeptImages::read;
 };
 
+/// Device memory in bytes, by the allocator's own count.
+struct DeviceMemory {
+    std::uint64_t plan = 0, imports = 0;      ///< of the latest plan's images and buffers; of what outlives plans
+    std::uint64_t in_use = 0, allocated = 0;  ///< by all of them and what is read back; taken from the device for them
+    std::uint64_t peak_in_use = 0, peak_allocated = 0;
+};
+
+/// Where a run spent the host's time, in milliseconds.
+struct HostTimes {
+    double allocate = 0, pipelines = 0, record = 0, render = 0, read_back = 0;  ///< render: submit to fence
+};
+
 struct Execution {
     std::vector<double> step_ms;  ///< one per executed step with timestamps on
-    double wall_ms = 0;           ///< submit to fence
+    HostTimes host_ms;
+    std::size_t pipelines_created = 0;
     // Images with several samples come back as layers, their depth as r32f. A shortened run gives what it made.
     std::map<std::uint32_t, HostImage> images;                ///< kept images by id, imports excluded
     std::map<std::uint32_t, std::vector<std::byte>> buffers;  ///< kept buffers by id
@@ -64,8 +77,12 @@ public:
 
     /// Pipelines made so far: what "only what the scene calls for" counts.
     virtual std::size_t pipelines_created() const = 0;
-    /// Device bytes held for plans and for imports.
-    virtual std::uint64_t bytes_held() const = 0;
+    virtual DeviceMemory memory() const = 0;
+    /// What an image of a shape and a buffer take of the device.
+    virtual std::uint64_t image_bytes(const Shape&) const = 0;
+    virtual std::uint64_t buffer_bytes(std::uint64_t bytes) const = 0;
+    /// Gives back what the latest plan holds.
+    virtual void forget_plan() = 0;
 };
 
 }  // namespace strata

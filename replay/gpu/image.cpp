@@ -42,6 +42,12 @@ PartRange range_of(const Shape& shape, const Part& part) {
             .layers = part.layer ? 1 : shape.layers};
 }
 
+std::uint64_t device_bytes(const OpenedDevice& device, const Shape& shape) {
+    const vk::ImageCreateInfo info = image_info(shape);
+    const vk::DeviceImageMemoryRequirements wanted(&info);
+    return device.handle().getImageMemoryRequirements(wanted).memoryRequirements.size;
+}
+
 DeviceImage::DeviceImage(OpenedDevice& device, const Shape& shape, std::string_view name)
     : device_(&device.handle()),
       shape_(shape),

@@ -22,6 +22,9 @@ struct PartRange {
 /// What the part means for the shape: all mips and layers where nothing is said.
 PartRange range_of(const Shape&, const Part&);
 
+/// What an image of the shape takes of the device, without making it.
+std::uint64_t device_bytes(const OpenedDevice&, const Shape&);
+
 class DeviceImage {
 public:
     DeviceImage(OpenedDevice&, const Shape&, std::string_view name);

@@ -21,10 +21,20 @@ bool is_mapped(MemoryUse use) { return use == MemoryUse::upload || use == Memory
 /// One vk::DeviceMemory and its free ranges, offset to size.
 class MemoryBlock {
 public:
-    MemoryBlock(const vk::raii::Device& device, std::uint64_t bytes, std::uint32_t type, MemoryUse use)
-        : memory_(device, vk::MemoryAllocateInfo(bytes, type)), bytes_(bytes), type_(type), use_(use), free_{{0, bytes}} {
+    MemoryBlock(const vk::raii::Device& device, const vk::MemoryAllocateInfo& info, MemoryUse use, PoolBytes& of_pool)
+        : memory_(device, info),
+          bytes_(info.allocationSize),
+          type_(info.memoryTypeIndex),
+          use_(use),
+          free_{{0, bytes_}},
+          of_pool_(&of_pool) {
         if (is_mapped(use)) mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+        of_pool.allocated += bytes_;
+        of_pool.peak_allocated = std::max(of_pool.peak_allocated, of_pool.allocated);
     }
+
+    MemoryBlock(const MemoryBlock&) = delete;
+    ~MemoryBlock() { of_pool_->allocated -= bytes_; }
 
     bool fits(std::uint32_t type, MemoryUse use) const { return type == type_ && use == use_; }
     bool is_empty() const { return free_.size() == 1 && free_.begin()->second == bytes_; }
@@ -40,12 +50,15 @@ public:
             free_.erase(range);
             if (offset > begin) free_[begin] = offset - begin;
             if (offset + bytes < begin + size) free_[offset + bytes] = begin + size - offset - bytes;
+            of_pool_->in_use += bytes;
+            of_pool_->peak_in_use = std::max(of_pool_->peak_in_use, of_pool_->in_use);
             return offset;
         }
         return std::nullopt;
     }
 
     void give_back(std::uint64_t offset, std::uint64_t bytes) {
+        of_pool_->in_use -= bytes;
         auto place = free_.emplace(offset, bytes).first;
         if (const auto next = std::next(place); next != free_.end() && offset + bytes == next->first) {
             place->second += next->second;
@@ -64,6 +77,7 @@ private:
     std::uint32_t type_;
     MemoryUse use_;
     std::map<std::uint64_t, std::uint64_t> free_;
+    PoolBytes* of_pool_;
     std::byte* mapped_ = nullptr;
 };
 
@@ -83,21 +97,24 @@ std::byte* Memory::mapped() const {
     return block_->mapped() + offset_;
 }
 
-MemoryPool::MemoryPool(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device)
-    : device_(&device), properties_(physical.getMemoryProperties()) {}
+MemoryPool::MemoryPool(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, std::uint64_t budget)
+    : device_(&device), properties_(physical.getMemoryProperties()), budget_(budget), bytes_(std::make_unique<PoolBytes>()) {}
 
 MemoryPool::~MemoryPool() = default;
 
 Memory MemoryPool::allocate(const vk::MemoryRequirements& needed, MemoryUse use) {
     const std::uint32_t type = type_for(needed.memoryTypeBits, use);
+    const bool shares_blocks = budget_ == 0 && needed.size <= block_bytes / 2;
     // Large blocks that nobody uses any more are returned before the next is asked for.
-    std::erase_if(blocks_, [](const auto& block) { return block->is_empty() && !block->is_shared(); });
+    std::erase_if(blocks_, [&](const auto& block) { return block->is_empty() && (!block->is_shared() || budget_ != 0); });
     for (const auto& block : blocks_) {
-        if (!block->fits(type, use)) continue;
+        if (!shares_blocks || !block->fits(type, use)) continue;
         if (const auto offset = block->take(needed.size, needed.alignment)) return {*block, *offset, needed.size};
     }
-    const std::uint64_t bytes = needed.size > block_bytes / 2 ? needed.size : block_bytes;
-    MemoryBlock& block = *blocks_.emplace_back(std::make_unique<MemoryBlock>(*device_, bytes, type, use));
+    const std::uint64_t bytes = shares_blocks ? block_bytes : needed.size;
+    if (budget_ != 0 && bytes_->allocated + bytes > budget_) throw vk::OutOfDeviceMemoryError("the memory budget is exceeded");
+    MemoryBlock& block =
+        *blocks_.emplace_back(std::make_unique<MemoryBlock>(*device_, vk::MemoryAllocateInfo(bytes, type), use, *bytes_));
     return {block, *block.take(needed.size, needed.alignment), needed.size};
 }
 

@@ -1,5 +1,6 @@
 // A small sub-allocator of device memory: blocks of 64 MiB per use and memory type, first fit; what is larger gets a block of
-// its own. Images and buffers never share a block, so bufferImageGranularity does not matter.
+// its own, and so does everything under a budget, which is a hard one. Images and buffers never share a block, so
+// bufferImageGranularity does not matter.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,12 @@ enum class MemoryUse : std::uint32_t {
     buffers,  ///< on the device
     upload,
     readback,  ///< mapped and coherent; readback cached where there is such memory
+};
+
+/// Bytes of a pool: in use by images and buffers, and taken from the device for them.
+struct PoolBytes {
+    std::uint64_t in_use = 0, allocated = 0;
+    std::uint64_t peak_in_use = 0, peak_allocated = 0;  ///< the most there ever were
 };
 
 class MemoryBlock;
@@ -42,17 +49,21 @@ private:
 
 class MemoryPool {
 public:
-    MemoryPool(const vk::raii::PhysicalDevice&, const vk::raii::Device&);
+    /// budget: the most to take from the device, in bytes; 0: as much as it gives.
+    MemoryPool(const vk::raii::PhysicalDevice&, const vk::raii::Device&, std::uint64_t budget);
     ~MemoryPool();
 
-    /// Throws vk::OutOfDeviceMemoryError.
+    /// Throws vk::OutOfDeviceMemoryError, also where the budget is exceeded.
     Memory allocate(const vk::MemoryRequirements&, MemoryUse);
+    const PoolBytes& bytes() const { return *bytes_; }
 
 private:
     std::uint32_t type_for(std::uint32_t allowed, MemoryUse) const;
 
     const vk::raii::Device* device_;
     vk::PhysicalDeviceMemoryProperties properties_;
+    std::uint64_t budget_;
+    std::unique_ptr<PoolBytes> bytes_;  // its address is with the blocks
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
 };
 

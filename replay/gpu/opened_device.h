@@ -12,7 +12,7 @@ namespace strata {
 
 class OpenedDevice final : public Device {
 public:
-    OpenedDevice(Instance, vk::raii::PhysicalDevice, DeviceInfo);
+    OpenedDevice(Instance, vk::raii::PhysicalDevice, DeviceInfo, std::uint64_t memory_budget);
     ~OpenedDevice() override;
 
     const DeviceInfo& info() const override { return info_; }

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <optional>
+#include <span>
+#include <thread>
 
 #include "passes/graph/shader.h"
 #include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/raster_state.h"
+#include "replay/measure/lap.h"
 
 namespace strata {
 namespace {
@@ -161,6 +166,18 @@ vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep
     return {device, nullptr, info};
 }
 
+bool is_compute(const PlannedStep& planned) { return std::holds_alternative<ComputeWork>(planned.step.work); }
+
+RasterState state_of(const PlannedStep& planned, const std::vector<ImageRecord>& images, bool software) {
+    return is_compute(planned) ? RasterState{} : raster_state(planned, images, software);
+}
+
+std::size_t code_bytes(const PlannedStep& planned) {
+    std::size_t bytes = 0;
+    for (const Shader* shader : planned.shaders) bytes += shader->code.size_bytes();
+    return bytes;
+}
+
 }  // namespace
 
 vk::DescriptorType descriptor_type(BindingKind kind) {
@@ -185,18 +202,59 @@ vk::ShaderStageFlags shader_stages(const Step& step) {
 
 PipelineStore::PipelineStore(OpenedDevice& device) : device_(&device) {}
 
-const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {
-    const bool is_compute = std::holds_alternative<ComputeWork>(planned.step.work);
-    const RasterState state = is_compute ? RasterState{} : raster_state(planned, images, device_->info().software);
-    std::string key = key_of(planned, state);
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
-
+Pipeline PipelineStore::made(const PlannedStep& planned, const RasterState& state) const {
     const vk::raii::Device& device = device_->handle();
     auto sets = set_layouts(device, planned);
     auto layout = pipeline_layout(device, planned.step, sets);
-    auto handle = is_compute ? make_compute(device, planned, *layout) : make_raster(device, planned, state, *layout);
+    auto handle = is_compute(planned) ? make_compute(device, planned, *layout) : make_raster(device, planned, state, *layout);
     device_->label(*handle, planned.step.name);
-    return pipelines_.emplace(std::move(key), Pipeline{std::move(sets), std::move(layout), std::move(handle)}).first->second;
+    return {std::move(sets), std::move(layout), std::move(handle)};
+}
+
+void PipelineStore::make(const Plan& plan, std::size_t steps) {
+    struct Missing {
+        const PlannedStep* step;
+        RasterState state;
+        std::optional<Pipeline> pipeline;
+    };
+    std::map<std::string, Missing> missing;
+    for (const PlannedStep& planned : std::span(plan.steps).first(steps)) {
+        if (planned.shaders.empty()) continue;
+        const RasterState state = state_of(planned, plan.images, device_->info().software);
+        std::string key = key_of(planned, state);
+        if (!pipelines_.contains(key)) missing.try_emplace(std::move(key), Missing{&planned, state, {}});
+    }
+    if (missing.empty()) return;
+    std::vector<Missing*> order;  // the largest first, so that none is left over at the end
+    for (auto& [key, one] : missing) order.push_back(&one);
+    std::ranges::sort(order, std::ranges::greater(), [](const Missing* one) { return code_bytes(*one->step); });
+    Lap lap;
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < order.size(); i = next++) try {
+                order[i]->pipeline = made(*order[i]->step, order[i]->state);
+            } catch (const vk::SystemError&) {  // find() meets it again and says at which step
+            }
+    };
+    {
+        const std::size_t workers = std::min<std::size_t>(order.size(), std::max(1u, std::thread::hardware_concurrency()));
+        std::vector<std::jthread> others;
+        for (std::size_t i = 1; i < workers; ++i) others.emplace_back(work);
+        work();
+    }
+    milliseconds_ += lap();
+    for (auto& [key, one] : missing)
+        if (one.pipeline) pipelines_.emplace(key, *std::move(one.pipeline));
+}
+
+const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {
+    const RasterState state = state_of(planned, images, device_->info().software);
+    std::string key = key_of(planned, state);
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
+    Lap lap;
+    const auto made_now = pipelines_.emplace(std::move(key), made(planned, state)).first;
+    milliseconds_ += lap();
+    return made_now->second;
 }
 
 }  // namespace strata

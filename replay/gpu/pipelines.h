@@ -14,6 +14,7 @@
 namespace strata {
 
 class OpenedDevice;
+struct RasterState;
 
 struct Pipeline {
     std::vector<vk::raii::DescriptorSetLayout> sets;  ///< by set number, empty layouts for gaps
@@ -25,13 +26,21 @@ class PipelineStore {
 public:
     explicit PipelineStore(OpenedDevice&);
 
+    /// Makes what the first `steps` steps of a plan need and is not there yet, on all cores: on a CPU driver that is most of the
+    /// time to the first picture. What cannot be made is left for find() to fail at.
+    void make(const Plan&, std::size_t steps);
     /// The pipeline of a compute or raster step. Images are those of the plan.
     const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
     std::size_t created() const { return pipelines_.size(); }
+    /// What making them took so far.
+    double milliseconds() const { return milliseconds_; }
 
 private:
+    Pipeline made(const PlannedStep&, const RasterState&) const;
+
     OpenedDevice* device_;
     std::map<std::string, Pipeline> pipelines_;
+    double milliseconds_ = 0;
 };
 
 vk::DescriptorType descriptor_type(BindingKind);

@@ -21,7 +21,7 @@ ordered_json json_of(const Measurement& row) {
         json["not_supported"] = row.accuracy.not_supported;
         return json;
     }
-    for (const Figure& figure : row.accuracy.method)
+    for (const Figure& figure : errors_of(row))
         json["method_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
     const WorstTexel& worst = row.accuracy.worst;
     json["implementation_error"] = {{"rmse", row.accuracy.model_rmse},
@@ -71,15 +71,15 @@ std::string as_json(const Report& report) {
 std::string as_csv(const Report& report) {
     std::string csv = "technique,settings";
     if (!report.rows.empty())
-        for (const Figure& figure : report.rows.front().accuracy.method) csv += "," + figure.name;
+        for (const Figure& figure : errors_of(report.rows.front())) csv += "," + figure.name;
     csv += ",implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,stage_bytes,on_pareto_front,not_supported\n";
     for (const Measurement& row : report.rows) {
         csv += row.technique + "," + row.settings;
         if (!row.accuracy.not_supported.empty()) {
-            csv += std::string(report.rows.front().accuracy.method.size() + 7, ',') + "\"" + row.accuracy.not_supported + "\"\n";
+            csv += std::string(errors_of(report.rows.front()).size() + 7, ',') + "\"" + row.accuracy.not_supported + "\"\n";
             continue;
         }
-        for (const Figure& figure : row.accuracy.method) csv += fmt::format(",{:.9g}", figure.value);
+        for (const Figure& figure : errors_of(row)) csv += fmt::format(",{:.9g}", figure.value);
         csv += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{},{},\n", row.accuracy.model_rmse, row.stage_ms.median,
                            row.stage_ms.mad, row.frame_ms.median, row.frame_ms.mad, row.stage_bytes, row.on_front ? 1 : 0);
     }

@@ -33,7 +33,7 @@ std::string as_text(const Report& report) {
     for (const Measurement& row : report.rows) width = std::max(width, label(row).size());
     text += fmt::format("  {:<{}}", "technique", width);
     if (!report.rows.empty())
-        for (const Figure& figure : report.rows.front().accuracy.method)
+        for (const Figure& figure : errors_of(report.rows.front()))
             text += fmt::format("  {:>14}", figure.unit.empty() ? figure.name : figure.name + " [" + figure.unit + "]");
     text +=
         fmt::format("  {:>10}  {:>8}  {:>7}  {:>9}  {:>8}  {}\n", "impl. rmse", "ms", "+- mad", "frame ms", "MiB", "counters");
@@ -43,7 +43,7 @@ std::string as_text(const Report& report) {
             text += fmt::format("  not supported: {}\n", row.accuracy.not_supported);
             continue;
         }
-        for (const Figure& figure : row.accuracy.method) text += fmt::format("  {:>14.6g}", figure.value);
+        for (const Figure& figure : errors_of(row)) text += fmt::format("  {:>14.6g}", figure.value);
         text +=
             fmt::format("  {:>10.2e}  {:>8.3f}  {:>7.3f}  {:>9.3f}  {:>8}  {}\n", row.accuracy.model_rmse, row.stage_ms.median,
                         row.stage_ms.mad, row.frame_ms.median, bytes_text(row.stage_bytes), counters_text(row));

@@ -124,6 +124,12 @@ void mark_front(std::vector<Measurement>& rows) {
     }
 }
 
+std::vector<Figure> errors_of(const Measurement& row) {
+    std::vector<Figure> errors = row.accuracy.method;
+    if (row.accuracy.flip) errors.push_back({"FLIP", "", *row.accuracy.flip});
+    return errors;
+}
+
 Result<Report> make_report(Session& session, const ReportRequest& wanted, const Progress& progress) {
     const auto tell = [&](std::string_view what, double done) {
         if (progress) progress(what, done);

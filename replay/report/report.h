@@ -51,6 +51,9 @@ Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {})
 /// Marks the rows that no other row beats in both error and time.
 void mark_front(std::vector<Measurement>&);
 
+/// The figures of the stage's judge, and FLIP's mean behind them where there is one.
+std::vector<Figure> errors_of(const Measurement&);
+
 std::string as_text(const Report&);
 std::string as_json(const Report&);
 std::string as_csv(const Report&);

@@ -37,20 +37,28 @@ constexpr std::size_t commands_row = 8, indices_row = 9;
 // A buffer of nothing still has to exist: a storage buffer of zero bytes is no buffer.
 constexpr std::array<std::byte, 16> nothing{};
 
+std::span<const std::byte> contents(const BufferRow& row, const SceneRecords& scene) {
+    const auto bytes = row.bytes(scene);
+    return bytes.empty() ? std::span<const std::byte>(nothing) : bytes;
+}
+
 }  // namespace
 
-void DeviceScene::upload(const SceneRecords& scene) {
+void DeviceScene::describe(const SceneRecords& scene) {
     bytes_.clear();
-    for (std::size_t i = 0; i < std::size(rows); ++i) {
-        std::span<const std::byte> bytes = rows[i].bytes(scene);
-        if (bytes.empty()) bytes = nothing;
-        executor_->upload({i + 1}, bytes);
-        bytes_.push_back(bytes.size());
-    }
+    for (const BufferRow& row : rows) bytes_.push_back(contents(row, scene).size());
     opaque_ = scene.opaque;
     casters_ = scene.casters;
     transparent_ = scene.transparent;
     back_to_front_ = scene.back_to_front;
+}
+
+void DeviceScene::upload(const SceneRecords& scene) {
+    for (std::size_t i = 0; i < std::size(rows); ++i) executor_->upload({i + 1}, contents(rows[i], scene));
+}
+
+void DeviceScene::forget() {
+    for (std::size_t i = 0; i < std::size(rows); ++i) executor_->forget({i + 1});
 }
 
 void DeviceScene::import_into(Graph& graph, FrameImages& images) const {

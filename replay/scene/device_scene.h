@@ -11,8 +11,14 @@ class DeviceScene {
 public:
     explicit DeviceScene(Executor& executor) : executor_(&executor) {}
 
-    /// Replaces what was there.
+    /// What import_into() speaks of, before any of it is on the device.
+    void describe(const SceneRecords&);
+    /// Puts what was described on the device, in the place of what was there.
     void upload(const SceneRecords&);
+    /// Takes everything off the device.
+    void forget();
+    /// Sizes of the buffers described.
+    const std::vector<std::uint64_t>& bytes() const { return bytes_; }
     /// Imports the buffers, offers them by their block names, and fills in the draw lists.
     void import_into(Graph&, FrameImages&) const;
 

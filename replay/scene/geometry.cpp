@@ -1,6 +1,5 @@
 // Meshes and particles as vertices, indices, draws and indirect commands. Meshes are stored once however many draws use them;
 // particles become camera-facing quads in view space, in the corner order of passes/reference/fragments.h.
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -8,6 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/culling/opaque_draws.h"
+#include "passes/reference/bounds.h"
+#include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
 #include "passes/transparency/object_order.h"
 #include "replay/scene/scene_records.h"
 
@@ -18,7 +20,7 @@ namespace {
 struct Place {
     std::uint32_t first_index = 0, index_count = 0;
     std::int32_t vertex_offset = 0;
-    glm::dvec3 low{0}, high{0};
+    Box box = {};  ///< of a mesh
 };
 
 template <typename T>
@@ -27,14 +29,11 @@ T element(const std::vector<T>& stream, std::size_t i, T missing) {
 }
 
 Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
-    Place place{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
-                .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
-                .vertex_offset = static_cast<std::int32_t>(scene.vertices.size()),
-                .low = mesh.positions.empty() ? glm::vec3(0) : mesh.positions[0],
-                .high = mesh.positions.empty() ? glm::vec3(0) : mesh.positions[0]};
+    const Place place{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+                      .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                      .vertex_offset = static_cast<std::int32_t>(scene.vertices.size()),
+                      .box = bounding_box(mesh.positions)};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        place.low = glm::min(place.low, glm::dvec3(mesh.positions[i]));
-        place.high = glm::max(place.high, glm::dvec3(mesh.positions[i]));
         scene.vertices.push_back({
             .position = mesh.positions[i],
             .normal = element(mesh.normals, i, glm::vec3(0)),    // 0: the face's own
@@ -58,8 +57,6 @@ std::uint32_t add_reversed(const Place& place, SceneRecords& scene) {
         for (const std::uint32_t corner : {0u, 2u, 1u}) scene.indices.push_back(scene.indices[place.first_index + i + corner]);
     return first;
 }
-
-glm::dvec3 to_view(const Frame& frame, const glm::dvec3& world) { return frame.view.to_view * (world - frame.view.origin); }
 
 void add_particle(const Frame& frame, const Particle& p, SceneRecords& scene) {
     constexpr glm::dvec2 corners[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -89,16 +86,10 @@ std::uint32_t add_quads(std::span<const std::uint32_t> order, SceneRecords& scen
     return first;
 }
 
-DrawRecord draw_record(const Frame& frame, const Draw& draw, const Place& place) {
+DrawRecord draw_record(const Frame& frame, const Draw& draw, const Box& box) {
     glm::dmat4 view(frame.view.to_view);
     const glm::dmat4 to_view = glm::translate(view, -frame.view.origin) * draw.to_world;
-    const glm::dvec3 center = to_view * glm::dvec4((place.low + place.high) * .5, 1);
-    double radius = 0;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? place.high.x : place.low.x, i & 2 ? place.high.y : place.low.y,
-                                i & 4 ? place.high.z : place.low.z);
-        radius = std::max(radius, glm::length(glm::dvec3(to_view * glm::dvec4(corner, 1)) - center));
-    }
+    const Sphere bound = bounding_sphere(frame, draw, box);
     // A flattened object has no inverse; its normals then come from the matrix itself.
     const glm::dmat3 linear(to_view);
     const bool flat = std::abs(glm::determinant(linear)) < 1e-30;
@@ -109,8 +100,8 @@ DrawRecord draw_record(const Frame& frame, const Draw& draw, const Place& place)
         .submission = 0,
         .soft_fade = 0,
         .layer = draw.layer,
-        .bound_center = glm::vec3(center),
-        .bound_radius = float(radius),
+        .bound_center = glm::vec3(bound.center),
+        .bound_radius = float(bound.radius),
     };
 }
 
@@ -128,11 +119,6 @@ DrawRecord emitter_record(const Frame& frame, std::size_t index) {
     };
 }
 
-bool is_transparent(const Frame& frame, const Draw& draw) {
-    const AlphaMode mode = frame.materials[draw.material].alpha_mode;
-    return mode != AlphaMode::opaque && mode != AlphaMode::mask;
-}
-
 /// Appends one command per listed draw.
 CommandRange add_commands(std::span<const std::uint32_t> listed, std::span<const DrawCommand> of_draw, SceneRecords& scene) {
     const CommandRange range{static_cast<std::uint32_t>(scene.commands.size()), static_cast<std::uint32_t>(listed.size())};
@@ -147,7 +133,7 @@ void add_geometry(const Frame& frame, SceneRecords& scene) {
     for (const Mesh& mesh : frame.meshes) meshes.push_back(add_mesh(mesh, scene));
 
     std::vector<DrawCommand> submitted, sorted;
-    std::vector<std::uint32_t> reversed(meshes.size(), no_index), transparent;
+    std::vector<std::uint32_t> reversed(meshes.size(), no_index);
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
         const Draw& draw = frame.draws[i];
         const Place& place = meshes[draw.mesh];
@@ -156,9 +142,8 @@ void add_geometry(const Frame& frame, SceneRecords& scene) {
             if (reversed[draw.mesh] == no_index) reversed[draw.mesh] = add_reversed(place, scene);
             first = reversed[draw.mesh];
         }
-        scene.draws.push_back(draw_record(frame, draw, place));
+        scene.draws.push_back(draw_record(frame, draw, place.box));
         submitted.push_back({place.index_count, 1, first, place.vertex_offset, i});
-        if (is_transparent(frame, draw)) transparent.push_back(i);
     }
     sorted = submitted;
     for (std::size_t e = 0; e < frame.emitters.size(); ++e) {
@@ -172,13 +157,12 @@ void add_geometry(const Frame& frame, SceneRecords& scene) {
         submitted.push_back({count, 1, add_quads(order, scene), vertex_offset, index});
         sorted.push_back({count, 1, add_quads(back_to_front_particles(frame, emitter), scene), vertex_offset, index});
         scene.draws.push_back(emitter_record(frame, e));
-        transparent.push_back(index);
     }
     for (std::uint32_t i = 0; i < scene.draws.size(); ++i) scene.draws[i].submission = i;
 
     scene.opaque = add_commands(opaque_draws(frame), submitted, scene);
     scene.casters = add_commands(caster_draws(frame), submitted, scene);
-    scene.transparent = add_commands(transparent, submitted, scene);
+    scene.transparent = add_commands(transparent_draws(frame), submitted, scene);
     scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
 }
 

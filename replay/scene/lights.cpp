@@ -1,6 +1,7 @@
 // The view, the lights and their shadow maps as records.
 #include <cmath>
 
+#include "passes/reference/shade.h"
 #include "passes/shadows/shadow_views.h"
 #include "replay/scene/scene_records.h"
 
@@ -9,7 +10,7 @@ namespace {
 
 LightRecord record(const Frame& frame, const Light& light) {
     return {
-        .position = glm::vec3(frame.view.to_view * (light.position - frame.view.origin)),
+        .position = glm::vec3(to_view(frame, light.position)),
         .type = static_cast<uint>(light.type),
         .direction = glm::vec3(frame.view.to_view * glm::dvec3(light.direction)),
         .range = light.range,
@@ -56,12 +57,7 @@ ViewRecord view_record(const Frame& frame) {
 }  // namespace
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
-    if (frame.sun.irradiance != glm::vec3(0)) {
-        Light sun{
-            .name = "sun", .type = LightType::directional, .direction = frame.sun.direction, .intensity = frame.sun.irradiance};
-        scene.lights.push_back(record(frame, sun));
-    }
-    for (const Light& light : frame.lights) scene.lights.push_back(record(frame, light));
+    for (const Light& light : shadow_lights(frame)) scene.lights.push_back(record(frame, light));
 
     std::uint32_t shadowed = 0;
     for (const ShadowView& view : shadow_views(frame)) {

@@ -36,11 +36,6 @@ int conform(const fs::path& released, const fs::path& current) {
     return WEXITSTATUS(std::system(command.c_str()));
 }
 
-std::string text_of(const fs::path& path) {
-    const std::vector<std::byte> bytes = read_file(path);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 TEST(Evolution, TheSchemaConformsToEveryReleasedOne) {
     const auto released = files_in(source / "capture_format/schema/released");
     ASSERT_GE(released.size(), 1u);
@@ -50,7 +45,7 @@ TEST(Evolution, TheSchemaConformsToEveryReleasedOne) {
 
 TEST(Evolution, AChangedTypeIsNoticed) {
     const TemporaryFile changed("changed.fbs");
-    std::string text = text_of(schema);
+    std::string text = read_text(schema);
     text.replace(text.find("mips:uint"), 9, "mips:long");
     write_file(changed.path(), bytes_of(text));
     EXPECT_NE(conform(source / "capture_format/schema/released/capture_1.fbs", changed.path()), 0);

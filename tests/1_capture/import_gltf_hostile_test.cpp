@@ -62,6 +62,7 @@ TEST(HostileGltf, DanglingReferencesAreRefused) {
 TEST(HostileGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
     const ImportedScene scene = imported(with_image(R"("bufferView":0,"mimeType":"image/png")", ""));
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("neither PNG nor JPEG")));
+    EXPECT_THAT(imported(with_image(R"("bufferView":9)", "")).warnings, Contains(HasSubstr("buffer view 9 does not exist")));
     std::string text = with_image(R"("bufferView":0,"mimeType":"image/png")", "");
     const std::string view = R"({"buffer":0,"byteOffset":0,"byteLength":36})";
     text.insert(text.find(view), R"({"buffer":0,"byteOffset":16,"byteLength":1000000},)");
@@ -76,6 +77,61 @@ TEST(HostileGltf, WhatIsNoGltfIsRefused) {
     EXPECT_THAT(refusal(""), HasSubstr("no readable glTF"));
     EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), HasSubstr("no readable glTF"));
     EXPECT_FALSE(import_gltf("/nowhere/at_all.gltf", {}));
+}
+
+TEST(HostileGltf, NestingWithoutEndIsRefused) {
+    const auto nested = [](std::size_t depth) {
+        std::string text = Gltf().with_triangle().text(showing(triangle, R"(,"extras":)"));
+        return text.insert(text.size() - 1, std::string(depth, '[') + std::string(depth, ']'));
+    };
+    EXPECT_EQ(refusal(nested(60)), "it was imported");
+    EXPECT_THAT(refusal(nested(70)), HasSubstr("nests deeper than 64 levels"));
+    EXPECT_THAT(refusal(nested(1000000)), HasSubstr("nests deeper than 64 levels"));
+}
+
+TEST(HostileGltf, MoreObjectsThanTheBudgetHoldsAreRefused) {
+    std::string nodes = "{}";
+    for (int i = 0; i < 5000; ++i) nodes += ",{}";
+    const auto scene = import_text(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}", {.memory_budget = 1 << 20});
+    ASSERT_FALSE(scene);
+    EXPECT_THAT(scene.error().sentence, HasSubstr("lists of the JSON would take"));
+}
+
+TEST(HostileGltf, NodesMayNestHoweverDeep) {
+    std::string nodes = R"({"mesh":0})";
+    for (int i = 0; i < 100000; ++i) nodes += fmt::format(R"(,{{"children":[{}]}})", i);
+    const std::string text =
+        Gltf().with_triangle().text(fmt::format(R"("meshes":[{{"primitives":[{}]}}],"nodes":[{}])", triangle, nodes));
+    EXPECT_EQ(imported(text).frame.draws.size(), 1u);
+}
+
+TEST(HostileGltf, MembersOfAWrongTypeAreNamed) {
+    const auto with = [](const std::string& members) { return refusal(Gltf().with_triangle().text(members)); };
+    EXPECT_THAT(with(R"("nodes":[{},{"children":[0,"x"]}])"), HasSubstr("glTF.nodes[1].children is not a list of indices"));
+    EXPECT_THAT(with(R"("nodes":[{"translation":[1,2]}])"), HasSubstr("nodes[0].translation is not a list of 3 numbers"));
+    EXPECT_THAT(with(R"("nodes":[{"mesh":-1}])"), HasSubstr("nodes[0].mesh is not an index"));
+    EXPECT_THAT(with(R"("nodes":[7])"), HasSubstr("nodes[0] is no object"));
+    EXPECT_THAT(with(R"("nodes":{})"), HasSubstr("nodes is not a list"));
+    EXPECT_THAT(with(R"("nodes":[{"scale":[1e999,1,1]}])"), HasSubstr("JSON"));
+    EXPECT_THAT(refusal(R"({"asset":{"version":"1.0"}})"), HasSubstr("its asset version is '1.0'"));
+}
+
+TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
+    std::string png(33, '\0');  // a header that claims 16384 x 16384
+    png.replace(0, 16, std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+    png.replace(16, 10, std::string("\0\0\x40\0\0\0\x40\0\x08\x06", 10));
+    const std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", base64(png)), "");
+    const auto scene = import_text(text, {.memory_budget = 1 << 20});
+    ASSERT_TRUE(scene) << scene.error().sentence;
+    EXPECT_THAT(scene->warnings, Contains(HasSubstr("image 0 would take 268435456 x 8 bytes")));
+}
+
+TEST(HostileGltf, OtherPicturesThanPngAndJpegNeverReachADecoder) {
+    const std::string gif = "GIF89a\1\0\1\0\0\0\0;", bmp = "BM" + std::string(60, '\1');
+    for (const std::string& picture : {gif, bmp}) {
+        EXPECT_THAT(imported(with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", base64(picture)), "")).warnings,
+                    Contains(HasSubstr("neither PNG nor JPEG")));
+    }
 }
 
 TEST(HostileGltf, TruncatedFilesNeverCrash) {

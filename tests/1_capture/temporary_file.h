@@ -41,6 +41,11 @@ inline std::vector<std::byte> read_file(const std::filesystem::path& path) {
     return {bytes.begin(), bytes.end()};
 }
 
+inline std::string read_text(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = read_file(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 inline void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

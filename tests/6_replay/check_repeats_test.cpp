@@ -45,7 +45,7 @@ Request with_acts() { return {.acts = Acts::brought_back}; }
 TEST(CheckRepeats, NamesTheFirstActThatVariesAndWhereItRan) {
     const auto steady = scenario_session("three_panes");
     Flickering flickering(*steady, "transparency", 3);
-    const Run first = must(flickering.run(with_acts()));
+    const auto first = must(flickering.run(with_acts()));
     EXPECT_TRUE(check_repeats(flickering, with_acts(), first, 3));
     const auto checked = check_repeats(flickering, with_acts(), first, 5);
     ASSERT_FALSE(checked);
@@ -58,7 +58,7 @@ TEST(CheckRepeats, NamesTheFirstActThatVariesAndWhereItRan) {
 TEST(CheckRepeats, LooksAtEveryActNotAtThePictureAlone) {
     const auto steady = scenario_session("three_panes");
     Flickering flickering(*steady, "gbuffer", 1);  // nothing after it sees the flip
-    const Run first = must(flickering.run(with_acts()));
+    const auto first = must(flickering.run(with_acts()));
     const auto checked = check_repeats(flickering, with_acts(), first, 2);
     ASSERT_FALSE(checked);
     EXPECT_THAT(checked.error().sentence, testing::HasSubstr("gbuffer is the first act that varies"));

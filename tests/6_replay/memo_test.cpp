@@ -1,5 +1,6 @@
 // Changing one technique executes it and what follows, nothing before it, and the picture is the one a fresh run gives.
 #include <algorithm>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -22,18 +23,85 @@ TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
     EXPECT_EQ(hash_of(first.images.at("display")), hash_of(second.images.at("display")));
 }
 
-TEST(Memo, AnotherTransparencyKeepsEveryStageBeforeIt) {
+/// Scopes of the steps a run executed that are acts standing before a stage, the memo's own copies aside.
+std::vector<std::string> executed_before(Stage stage, const Run& run) {
+    std::vector<std::string> scopes;
+    for (const StepRecord& step : run.steps) {
+        const auto at = find_stage(step.scope.substr(0, step.scope.find(": ")));
+        if (at && *at < stage) scopes.push_back(step.scope + " / " + step.name);
+    }
+    return scopes;
+}
+
+std::string text(const std::vector<CounterRecord>& counters) {
+    std::string text;
+    for (const CounterRecord& c : counters) text += fmt::format(" {} {} {}", c.technique, c.name, c.value);
+    return text;
+}
+
+TEST(Memo, AnotherTransparencyExecutesNoStepOfAnyStageBeforeIt) {
+    const auto session = scenario_session("glass_and_smoke");
+    std::optional<std::vector<CounterRecord>> earlier;
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        const auto run = must(session->run({.uses = {std::string(technique->name)}}));
+        EXPECT_EQ(executed_before(Stage::transparency, run).empty(), earlier.has_value()) << technique->name;
+        std::vector<CounterRecord> now;  // they are reported as if the stages had run again
+        for (const CounterRecord& counter : run.counters)
+            if (must(find_technique(counter.technique))->stage < Stage::transparency) now.push_back(counter);
+        const auto equal = [](const CounterRecord& a, const CounterRecord& b) {
+            return a.technique == b.technique && a.name == b.name && a.value == b.value;
+        };
+        if (earlier) {
+            EXPECT_TRUE(std::ranges::is_permutation(*earlier, now, equal))
+                << technique->name << text(*earlier) << " became" << text(now);
+        }
+        earlier = now;
+    }
+}
+
+TEST(Memo, APictureMadeWithItIsThePictureOfAFreshRun) {
     const auto session = scenario_session("three_panes");
     must(session->run({.uses = {technique_of(Stage::transparency, 0)}}));
     const auto other = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
-    for (const StepRecord& step : other.steps) {
-        EXPECT_EQ(step.scope.find("gbuffer: "), step.scope.starts_with("memo") ? step.scope.find("gbuffer: ") : std::string::npos)
-            << step.scope;
-        EXPECT_FALSE(step.scope.starts_with("lighting: ")) << step.scope;
-    }
     session->forget_memo();
     const auto fresh = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
+    EXPECT_EQ(other.acts_executed, 2u);  // transparency and what stands after it
     EXPECT_EQ(hash_of(other.images.at("display")), hash_of(fresh.images.at("display")));
+}
+
+TEST(Memo, TimingExecutesWhatRequestsShareOncePerRepeat) {
+    const auto session = scenario_session("glass_and_smoke");
+    std::vector<Request> requests;
+    for (const Technique* technique : techniques_of(Stage::transparency))
+        requests.push_back({.uses = {std::string(technique->name)}});
+    const auto runs = must(session->time(requests, 3));
+    ASSERT_EQ(runs.size(), requests.size());
+    const auto gbuffer = [](const auto& run) { return run.stage_ms.at("gbuffer"); };
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        for (const StepRecord& step : runs[i].steps) ASSERT_TRUE(step.ms && step.ms->repeats == 3) << step.name;
+        EXPECT_EQ(gbuffer(runs[i]).median, gbuffer(runs[0]).median);  // one measurement, not one each
+        session->forget_memo();
+        const auto fresh = must(session->run(requests[i]));
+        EXPECT_EQ(hash_of(runs[i].images.at("display")), hash_of(fresh.images.at("display")));
+        EXPECT_EQ(runs[i].counters.size(), fresh.counters.size());
+    }
+    EXPECT_NE(runs[0].stage_ms.at("transparency").median, runs[1].stage_ms.at("transparency").median);
+}
+
+TEST(Memo, AJudgementIsTheSameWhateverWasJudgedBefore) {
+    const auto fresh = scenario_session("three_panes"), used = scenario_session("three_panes");
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        const Request request{.uses = {std::string(technique->name)}};
+        fresh->forget_memo();
+        const auto a = must(fresh->judge(request, Stage::transparency)), b = must(used->judge(request, Stage::transparency));
+        const auto again = must(used->judge(request, Stage::transparency));
+        EXPECT_EQ(a.compared, b.compared) << technique->name;
+        EXPECT_EQ(a.model_rmse, b.model_rmse) << technique->name;
+        EXPECT_EQ(a.model_rmse, again.model_rmse) << technique->name;
+        ASSERT_EQ(a.method.size(), b.method.size());
+        for (std::size_t i = 0; i < a.method.size(); ++i) EXPECT_EQ(a.method[i].value, b.method[i].value) << technique->name;
+        must(used->judge(request, Stage::gbuffer));
+    }
 }
 
 TEST(Memo, ASettingIsPartOfTheKey) {

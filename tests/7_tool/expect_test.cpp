@@ -145,6 +145,19 @@ TEST(Expect, AnExpectationThatIsNoneIsExitThree) {
     EXPECT_EQ(strata("replay panes.strata --no-expect").code, 0);
 }
 
+TEST(MemoryBudget, IsGivenWithItsUnitAndRefusedWithNumbers) {
+    record_panes();
+    const Finished kept = strata("replay panes.strata --json --memory-budget 256MiB");
+    ASSERT_EQ(kept.code, 0) << kept.err;
+    const json memory = json::parse(kept.out)["frames"][0]["memory"];
+    EXPECT_LE(memory["device_peak_bytes"], 256 << 20);
+    EXPECT_GT(memory["stages"]["gbuffer"]["peak_bytes"], 0);
+    EXPECT_GT(memory["host_peak_bytes"], 0);
+    const Finished refused = strata("report panes.strata --memory-budget 64KiB");
+    EXPECT_EQ(refused.code, 4);
+    EXPECT_THAT(refused.err, HasSubstr("the memory budget is 0.1 MiB"));
+}
+
 TEST(ReplayJson, NamesStepsByIndexAndHashesEveryAct) {
     record_panes();
     const Finished replayed = strata("replay panes.strata --json --time 3");

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/reader.h"
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/gltf_text.h"
 
 namespace strata {
 namespace {
@@ -14,7 +16,8 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* verb_names[] = {"list", "record", "import", "info", "validate", "replay", "accept", "graph", "report"};
+constexpr const char* verb_names[] = {"list",   "record", "import", "info", "validate", "replay",
+                                      "accept", "export", "graph",  "diff", "report"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
@@ -58,6 +61,17 @@ TEST(Record, AnUnknownScenarioIsAUsageError) {
     EXPECT_EQ(failed.code, 2);
     EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+}
+
+TEST(Record, FramesOfAnyShapeHaveASmallThumbnail) {
+    for (const char* size : {"4x2000", "2000x4", "320x180"}) {
+        const Finished recorded = strata(std::string("record three_panes -o thin.strata --size ") + size);
+        ASSERT_EQ(recorded.code, 0) << size << ": " << recorded.err;
+        const auto capture = Capture::open(folder() / "thin.strata");
+        ASSERT_TRUE(capture) << capture.error().sentence;
+        EXPECT_GT(capture->thumbnail().width, 0u) << size << ": " << recorded.err;
+        EXPECT_LE(capture->thumbnail().width, 160u) << size;
+    }
 }
 
 TEST(Info, SaysWhatAFrameCallsForAndWhy) {
@@ -141,6 +155,7 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
     EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
     const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name)));
@@ -148,6 +163,21 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     }
     EXPECT_EQ(strata("report panes.strata --stage nothing").code, 2);
     EXPECT_EQ(strata("report panes.strata --sweep nothing=1,2").code, 2);
+}
+
+TEST(Import, AnAnimationBecomesFrames) {
+    Gltf gltf = Gltf().with_triangle();
+    gltf.floats({0, 1}, "SCALAR", 1);
+    gltf.floats({0, 0, 0, 1, 0, 0}, "VEC3", 3);
+    std::ofstream(folder() / "moving.gltf") << gltf.text(showing(triangle, R"(,"animations":[{"name":"slide","samplers":[
+        {"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}])"));
+    const Finished imported = strata("import moving.gltf --frames 3 --fps 4 --size 32x18");
+    ASSERT_EQ(imported.code, 0) << imported.err;
+    EXPECT_THAT(imported.err, HasSubstr("imported 3 frames, 1 draw"));
+    EXPECT_EQ(json::parse(strata("info moving.strata --json").out)["frames"], 3);
+    for (const char* wrong : {"--animation fly", "--fps 0", "--frames 0"}) {
+        EXPECT_EQ(strata(std::string("import moving.gltf ") + wrong).code, 2) << wrong;
+    }
 }
 
 TEST(Import, ABrokenSceneIsExitThree) {

@@ -24,7 +24,11 @@ struct Loaded {
     DeviceScene scene{*executor};
     LoadedFrame frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
 
-    Loaded() { scene.upload(scene_records(frame.frame)); }
+    Loaded() {
+        const SceneRecords records = scene_records(frame.frame);
+        scene.describe(records);
+        scene.upload(records);
+    }
     Sources sources() const { return {frame, scene, device->info()}; }
 };
 

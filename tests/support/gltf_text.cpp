@@ -1,10 +1,7 @@
 #include "tests/support/gltf_text.h"
 
-#include <filesystem>
-#include <fstream>
+#include <span>
 #include <stdexcept>
-
-#include <gtest/gtest.h>
 
 namespace strata {
 
@@ -35,13 +32,18 @@ std::string with_image(const std::string& image, const std::string& texture_info
                     image, texture_info));
 }
 
+GltfScene opened(const std::string& text, const GltfOptions& options) {
+    auto scene = GltfScene::open(std::as_bytes(std::span(text)), "test.gltf", options);
+    if (!scene) throw std::runtime_error(scene.error().sentence);
+    return *std::move(scene);
+}
+
 Result<ImportedScene> import_text(const std::string& text, const GltfOptions& options) {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("strata_" + test + ".gltf");
-    std::ofstream(path, std::ios::binary) << text;
-    auto result = import_gltf(path, options);
-    std::filesystem::remove(path);
-    return result;
+    auto scene = GltfScene::open(std::as_bytes(std::span(text)), "test.gltf", options);
+    if (!scene) return scene.error();
+    auto frame = scene->frame(0);
+    if (!frame) return frame.error();
+    return ImportedScene{*std::move(frame), scene->warnings()};
 }
 
 ImportedScene imported(const std::string& text, const GltfOptions& options) {

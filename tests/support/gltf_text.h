@@ -73,7 +73,9 @@ std::string with_image(const std::string& image, const std::string& texture_info
 /// A primitive of Gltf::with_triangle.
 inline constexpr const char* triangle = R"({"attributes":{"POSITION":0}})";
 
-/// Through a temporary file.
+/// The scene of a text in memory, without any file; throws the sentence of an error.
+GltfScene opened(const std::string& text, const GltfOptions& options = {});
+/// Its first frame.
 Result<ImportedScene> import_text(const std::string& text, const GltfOptions& options = {});
 /// What was imported; throws the sentence of an error.
 ImportedScene imported(const std::string& text, const GltfOptions& options = {});

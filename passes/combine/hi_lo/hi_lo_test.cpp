@@ -5,6 +5,7 @@
 
 #include "passes/combine/formulas.h"
 #include "passes/technique.h"
+#include "tests/support/one_pixel.h"
 
 namespace strata::combine {
 
@@ -13,14 +14,6 @@ ImageSet hi_lo_model(const StageInput&, const Settings&);
 namespace {
 
 constexpr double depth = 2;
-
-Frame one_pixel(std::uint32_t samples) {
-    Frame frame;
-    frame.view.width = frame.view.height = 1;
-    frame.view.samples = samples;
-    frame.view.projection = perspective(1, 1, 0.1);
-    return frame;
-}
 
 /// A white Lambert surface two metres before the eye.
 ImageSet white_surface(const glm::dvec3& normal) {

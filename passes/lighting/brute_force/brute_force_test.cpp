@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "passes/technique.h"
+#include "tests/support/one_pixel.h"
 
 namespace strata::lighting {
 
@@ -13,14 +14,6 @@ ImageSet brute_force_model(const StageInput&, const Settings&);
 namespace {
 
 constexpr double depth = 2;
-
-Frame one_pixel(std::uint32_t samples) {
-    Frame frame;
-    frame.view.width = frame.view.height = 1;
-    frame.view.samples = samples;
-    frame.view.projection = perspective(1, 1, 0.1);
-    return frame;
-}
 
 /// Base color 1, so that the Lambert radiance is irradiance / pi.
 ImageSet white_wall(std::uint32_t samples) {

@@ -1,0 +1,88 @@
+#include "capture_format/import/gltf_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace strata::gltf {
+namespace {
+
+/// glTF lights without a range reach infinitely far; ours end where less than this irradiance, in W/m^2, is left.
+constexpr double unnoticed_irradiance = 1.0 / 256;
+/// Half angles from here on are no spot: the tangent of a shadow map's frustum grows without bound.
+constexpr double widest_spot = 0.49 * std::numbers::pi;
+
+glm::vec3 any_perpendicular(glm::vec3 axis) {
+    return glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+}
+
+Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
+    Light light;
+    light.name = source.name;
+    light.position = glm::dvec3(to_world[3]);
+    const glm::dvec3 forward = -glm::dvec3(to_world[2]);
+    if (glm::length(forward) > 0) light.direction = glm::vec3(glm::normalize(forward));
+    light.axis_u = any_perpendicular(light.direction);
+    const glm::dvec3 intensity = source.color * source.intensity;
+    light.intensity = glm::vec3(intensity);
+    const double brightest = std::max({intensity.x, intensity.y, intensity.z, 1e-6});
+    light.range = static_cast<float>(source.range > 0 ? source.range : std::sqrt(brightest / unnoticed_irradiance));
+    if (source.type == "directional") light.type = LightType::directional;
+    if (source.type == "spot") {
+        light.type = LightType::round_spot;
+        const double outer = std::clamp(source.outer_angle, 1e-3, widest_spot);
+        light.outer_angle = static_cast<float>(outer);
+        light.inner_angle = static_cast<float>(std::clamp(source.inner_angle, 0.0, outer));
+        light.shadow.casts = true;
+    }
+    return light;
+}
+
+}  // namespace
+
+std::vector<std::string> add_lights(Frame& frame, const Document& document, const Hierarchy& hierarchy,
+                                    const std::vector<glm::dmat4>& to_world) {
+    std::vector<std::string> warnings;
+    bool has_sun = false;
+    for (std::size_t step = 0; step < hierarchy.shown; ++step) {
+        const auto index = static_cast<std::size_t>(hierarchy.steps[step].node);
+        const Node& node = document.nodes[index];
+        if (node.light < 0) continue;
+        if (static_cast<std::size_t>(node.light) >= document.lights.size()) {
+            warnings.push_back(fmt::format("node '{}' has light {}, which does not exist", node.name, node.light));
+            continue;
+        }
+        const Light light = convert_light(document.lights[static_cast<std::size_t>(node.light)], to_world[index]);
+        if (light.type == LightType::directional && !has_sun) {
+            has_sun = true;
+            frame.sun.direction = light.direction;
+            frame.sun.irradiance = light.intensity;
+            frame.sun.shadow.casts = true;
+        } else {
+            frame.lights.push_back(light);
+        }
+    }
+    return warnings;
+}
+
+void add_default_light(Frame& frame) {
+    frame.sun.direction = glm::normalize(glm::vec3(-0.5f, -1, -0.6f));
+    frame.sun.irradiance = glm::vec3(2.6f, 2.5f, 2.3f);  // a white Lambert surface facing it reflects about 0.8
+    frame.sun.shadow.casts = true;
+    frame.hemisphere = {.sky = glm::vec3(0.45f, 0.5f, 0.6f), .ground = glm::vec3(0.2f, 0.18f, 0.16f)};
+    frame.background = glm::vec3(0.25f, 0.3f, 0.38f);
+}
+
+double white_radiance(const Frame& frame, const Bounds& scene) {
+    const auto brightest = [](glm::vec3 color) { return static_cast<double>(std::max({color.x, color.y, color.z})); };
+    double irradiance = brightest(frame.sun.irradiance);
+    for (const Light& light : frame.lights) {
+        const double distance = std::max(glm::length(light.position - scene.center()), scene.radius() * 0.5);
+        const bool reaches = light.type == LightType::directional || distance < static_cast<double>(light.range);
+        const double falloff = light.type == LightType::directional ? 1 : distance * distance;
+        if (reaches) irradiance += brightest(light.intensity) / falloff;
+    }
+    return irradiance / std::numbers::pi;
+}
+
+}  // namespace strata::gltf

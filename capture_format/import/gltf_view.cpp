@@ -1,0 +1,84 @@
+#include "capture_format/import/gltf_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::gltf {
+
+View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up) {
+    forward = glm::normalize(forward);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    View view;
+    view.origin = eye;
+    view.to_view = glm::transpose(glm::dmat3(right, glm::cross(right, forward), forward));
+    return view;
+}
+
+namespace {
+
+/// A view that has been turned until what it sees lies in its middle, and what it then sees: x / z and y / z.
+struct Aim {
+    View view;
+    glm::dvec2 low{0}, high{0};
+    double nearest = 0;
+
+    bool fits(double slope, double width_over_height) const {
+        const glm::dvec2 widest = glm::max(-low, high);
+        return nearest > 0 && widest.x <= slope * width_over_height && widest.y <= slope;
+    }
+};
+
+Aim aimed_view(std::span<const glm::dvec3> points, glm::dvec3 eye, glm::dvec3 forward) {
+    Aim aim;
+    for (int turn = 0; turn < 4; ++turn) {  // the middle moves a little as the view turns; it has settled after two or three
+        aim = {look_along(eye, forward, {0, 1, 0}), glm::dvec2(1e300), glm::dvec2(-1e300), 1e300};
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 p = aim.view.to_view * (point - eye);
+            aim.nearest = std::min(aim.nearest, p.z);
+            aim.low = glm::min(aim.low, glm::dvec2(p) / p.z);
+            aim.high = glm::max(aim.high, glm::dvec2(p) / p.z);
+        }
+        if (!(aim.nearest > 0)) return aim;
+        const glm::dvec2 middle = (aim.low + aim.high) * 0.5;
+        if (turn < 3) forward = glm::transpose(aim.view.to_view) * glm::normalize(glm::dvec3(middle, 1));
+    }
+    return aim;
+}
+
+}  // namespace
+
+Result<View> camera_view(const CameraSource& camera, const glm::dmat4& to_world, double width_over_height) {
+    if (camera.type != "perspective") return fail(Fault::bad_input, "orthographic cameras are not supported");
+    const glm::dvec3 forward = -glm::dvec3(to_world[2]), up(to_world[1]);
+    if (!(camera.yfov > 0 && camera.yfov < 3.1 && camera.znear > 0) || !(glm::length(glm::cross(forward, up)) > 0)) {
+        return fail(Fault::bad_input, "camera '{:.60}' is degenerate", camera.name);
+    }
+    View view = look_along(glm::dvec3(to_world[3]), forward, up);
+    view.near = static_cast<float>(camera.znear);
+    view.projection = perspective(camera.yfov, width_over_height, camera.znear);
+    return view;
+}
+
+View framing_view(std::span<const glm::dvec3> points, const Bounds& bounds, const GltfOptions& options) {
+    constexpr double vertical_fov = 0.7;  // radians, near that of a 35 mm lens on 35 mm film
+    constexpr double margin = 1.05;
+    const double aspect = static_cast<double>(options.width) / options.height;
+    const double slope = std::tan(vertical_fov / 2) / margin;
+    const double azimuth = glm::radians(options.azimuth), elevation = glm::radians(options.elevation);
+    const glm::dvec3 towards_eye(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                                 std::cos(azimuth) * std::cos(elevation));
+    // From the far distance every point is inside a sphere that fits; then as near as all points still fit.
+    double near_end = 0, far_end = 1e-6 + bounds.radius() * (1 + 1 / std::min(slope, slope * aspect));
+    for (int halving = 0; halving < 20; ++halving) {
+        const double distance = (near_end + far_end) / 2;
+        const bool fits = aimed_view(points, bounds.center() + towards_eye * distance, -towards_eye).fits(slope, aspect);
+        (fits ? far_end : near_end) = distance;
+    }
+    const Aim aim = aimed_view(points, bounds.center() + towards_eye * far_end, -towards_eye);
+    View view = aim.view;
+    view.near = static_cast<float>(std::clamp(aim.nearest * 0.5, far_end * 1e-6, 0.1));
+    view.projection = perspective(vertical_fov, aspect, static_cast<double>(view.near));
+    return view;
+}
+
+}  // namespace strata::gltf

@@ -1,0 +1,278 @@
+// strata diff: two captures, two ways to replay one, two devices, a capture and images, or two images: what differs, where, by
+// how much.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "capture_format/whole_file.h"
+#include "replay/cli/revision.h"
+#include "replay/cli/verb_options.h"
+#include "replay/counted.h"
+#include "replay/difference/comparison.h"
+#include "replay/difference/picture.h"
+#include "replay/image_io.h"
+
+namespace strata {
+namespace {
+
+/// What one side may say for itself.
+struct SideOptions {
+    std::filesystem::path file;
+    std::string gpu;
+    std::vector<std::string> uses, sets;
+};
+
+struct Options {
+    SideOptions a, b;
+    ChoiceOptions both;  ///< but for --use and --set, which are B's
+    DeviceChoice device;
+    bool allow_partial = false, json = false;
+    std::string frames, rerun;
+    ErrorLimits limits;
+    std::filesystem::path junit, folder;
+};
+
+enum class FileKind { capture, exr, png };
+
+FileKind kind_of(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    return ending == ".exr" || ending == ".EXR"   ? FileKind::exr
+           : ending == ".png" || ending == ".PNG" ? FileKind::png
+                                                  : FileKind::capture;
+}
+
+Result<NamedImages> read_images(const std::filesystem::path& file) {
+    if (kind_of(file) == FileKind::exr) return read_exr(file);
+    auto image = read_png(file);
+    if (!image) return image.error();
+    NamedImages images;
+    images.emplace("image", *std::move(image));
+    return images;
+}
+
+/// Writes the pictures of what differs and removes those of what no longer does.
+class Pictures {
+public:
+    explicit Pictures(const Options& options) : options_(options) {}
+
+    Result<void> see(std::size_t frame, const ActComparison& act, const ImageComparison& made, const HostImage& a,
+                     const HostImage& b) {
+        if (options_.folder.empty()) return {};
+        const std::string name = case_name(frame, act, made);
+        const auto path = options_.folder / fmt::format("{}.{}.diff.png", options_.a.file.stem().string(), name);
+        if (made.verdict < Verdict::warning) {
+            std::error_code problem;
+            if (std::filesystem::remove(path, problem)) fmt::print(stderr, "removed {}\n", path.string());
+            return problem ? Result<void>(fail(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
+                           : Result<void>();
+        }
+        const auto side = [](const SideOptions& of, const std::string& choice) {
+            return choice.empty() ? of.file.filename().string() : choice;
+        };
+        const Canvas canvas =
+            difference_picture(made, a, b,
+                               {fmt::format("frame {}  {}: {}  {}", frame, act.label, made.image, strata::name(made.verdict)),
+                                side(options_.a, act.choice_a), side(options_.b, act.choice_b)});
+        const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
+        if (const auto done = write_png(path, extent, std::as_bytes(std::span(canvas.pixels()))); !done) return done;
+        fmt::print(stderr, "wrote {}\n", path.string());
+        artefacts_[name] = path.string();
+        return {};
+    }
+
+    const std::map<std::string, std::string>& artefacts() const { return artefacts_; }
+
+private:
+    const Options& options_;
+    std::map<std::string, std::string> artefacts_;
+};
+
+SeeImages seeing(Pictures& pictures, std::size_t frame) {
+    return [&pictures, frame](const ActComparison& act, const ImageComparison& made, const HostImage& a, const HostImage& b) {
+        return pictures.see(frame, act, made, a, b);
+    };
+}
+
+Result<std::unique_ptr<Session>> open_side(const Options& options, const SideOptions& side) {
+    DeviceChoice device = options.device;
+    if (!side.gpu.empty()) device.gpu = side.gpu;
+    return open(OpenOptions{side.file, device, options.allow_partial});
+}
+
+Result<Request> request_of_side(const Options& options, const SideOptions& side) {
+    ChoiceOptions choices = options.both;
+    choices.uses = side.uses;
+    choices.sets = side.sets;
+    return request_of(choices);
+}
+
+Side describe(const SideOptions& side, const Session& session) {
+    const DeviceInfo& device = session.device();
+    return {side.file.filename().string(), session.capture_id(), device.name, device.driver + " " + device.driver_version,
+            device.cpu};
+}
+
+/// Both captures, or one capture two ways. One session serves both where file and device are the same.
+Result<void> compare_captures(const Options& options, Pictures& pictures, Comparison& comparison) {
+    auto request_a = request_of_side(options, options.a), request_b = request_of_side(options, options.b);
+    if (!request_a) return request_a.error();
+    if (!request_b) return request_b.error();
+    const auto session_a = open_side(options, options.a);
+    if (!session_a) return session_a.error();
+    const bool shared = options.a.file == options.b.file && options.a.gpu == options.b.gpu;
+    auto opened_b = shared ? Result<std::unique_ptr<Session>>(std::unique_ptr<Session>()) : open_side(options, options.b);
+    if (!opened_b) return opened_b.error();
+    Session &a = **session_a, &b = shared ? a : **opened_b;
+    comparison.a = describe(options.a, a);
+    comparison.b = describe(options.b, b);
+    if (options.frames.empty() && a.frame_count() != b.frame_count())
+        return fail(Fault::usage, "A has {} and B {}; choose with --frames", counted(a.frame_count(), "frame"), b.frame_count());
+    const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
+    if (!frames) return frames.error();
+    for (const std::size_t frame : *frames) {
+        request_a->frame = request_b->frame = frame;
+        auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
+        if (!made) return fail(made.error().fault, "frame {}: {}", frame, made.error().sentence);
+        comparison.frames.push_back(*std::move(made));
+    }
+    return {};
+}
+
+/// The images of a file against the capture's own of the same names, made now.
+Result<void> compare_with_images(const Options& options, Pictures& pictures, Comparison& comparison) {
+    if (kind_of(options.b.file) == FileKind::png)
+        return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG",
+                    options.b.file.string());
+    const auto images = read_images(options.b.file);
+    if (!images) return images.error();
+    auto request = request_of_side(options, options.a);
+    if (!request) return request.error();
+    const auto session = open_side(options, options.a);
+    if (!session) return session.error();
+    const auto frames = frame_indices(options.frames, (*session)->frame_count());
+    if (!frames) return frames.error();
+    if (frames->size() != 1)
+        return fail(Fault::usage, "{} is of one frame and the capture has {}; choose with --frames", options.b.file.string(),
+                    frames->size());
+    request->frame = frames->front();
+    request->outputs.clear();
+    for (const auto& [name, image] : *images) request->outputs.push_back(name);
+    const auto run = (*session)->run(*request);
+    if (!run) return run.error();
+    comparison.a = describe(options.a, **session);
+    comparison.b = {.name = options.b.file.filename().string()};
+    auto made = compare_image_sets(run->images, *images, options.limits, seeing(pictures, request->frame));
+    if (!made) return made.error();
+    made->frame = request->frame;
+    comparison.frames.push_back(*std::move(made));
+    return {};
+}
+
+Result<void> compare_files(const Options& options, Pictures& pictures, Comparison& comparison) {
+    if (kind_of(options.a.file) != kind_of(options.b.file))
+        return fail(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
+    const auto a = read_images(options.a.file), b = read_images(options.b.file);
+    if (!a) return a.error();
+    if (!b) return b.error();
+    comparison.a = {.name = options.a.file.filename().string()};
+    comparison.b = {.name = options.b.file.filename().string()};
+    auto made = compare_image_sets(*a, *b, options.limits, seeing(pictures, 0));
+    if (!made) return made.error();
+    comparison.frames.push_back(*std::move(made));
+    return {};
+}
+
+Result<void> compare(const Options& options, Pictures& pictures, Comparison& comparison) {
+    const bool a_is_capture = kind_of(options.a.file) == FileKind::capture,
+               b_is_capture = kind_of(options.b.file) == FileKind::capture;
+    if (a_is_capture && b_is_capture) return compare_captures(options, pictures, comparison);
+    if (a_is_capture) return compare_with_images(options, pictures, comparison);
+    if (b_is_capture) return fail(Fault::usage, "name the capture first and the images it is compared with second");
+    return compare_files(options, pictures, comparison);
+}
+
+/// The first thing that is over tolerance, as a sentence.
+Error over_tolerance(const Comparison& comparison) {
+    for (const FrameComparison& frame : comparison.frames)
+        for (const ActComparison& act : frame.acts)
+            for (const ImageComparison& image : act.images)
+                if (image.verdict == Verdict::over)
+                    return fail(Fault::over_tolerance, "frame {}: {}: {}: {}", frame.frame, act.label, image.image, image.reason);
+    return fail(Fault::over_tolerance, "over tolerance");
+}
+
+Result<void> diff(Options options) {
+    if (options.b.file.empty()) {
+        const bool same = options.a.uses == options.b.uses && options.a.sets == options.b.sets && options.a.gpu == options.b.gpu;
+        if (same)
+            return fail(Fault::usage,
+                        "A is compared with what? Name a second file, or what B does otherwise: --use, --set, --gpu-b");
+        options.b.file = options.a.file;
+    }
+    if (!options.folder.empty()) {
+        std::error_code problem;
+        std::filesystem::create_directories(options.folder, problem);
+        if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
+    }
+    Pictures pictures(options);
+    Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
+    if (const auto done = compare(options, pictures, comparison); !done) return done;
+    fmt::print("{}", options.json ? as_json(comparison) : as_text(comparison));
+    if (!options.junit.empty())
+        if (const auto done = write_whole_file(options.junit, as_junit(comparison, pictures.artefacts())); !done) return done;
+    return verdict(comparison) == Verdict::over ? Result<void>(over_tolerance(comparison)) : Result<void>();
+}
+
+void add_sides(CLI::App& app, Options& options) {
+    app.add_option("A", options.a.file, "a .strata capture, or an .exr or .png image: what is right")->required();
+    app.add_option("B", options.b.file, "what is compared with it; default A itself, done otherwise");
+    const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
+        app.add_option(name, to, help)->allow_extra_args(false);
+    };
+    list("--use,--use-b", options.b.uses, "stage/technique of B; may be repeated");
+    list("--set,--set-b", options.b.sets, "key=value or stage/technique:key=value of B; may be repeated");
+    list("--use-a", options.a.uses, "stage/technique of A");
+    list("--set-a", options.a.sets, "key=value of A");
+    list("--force", options.both.force, "feature or 'all', of both: switch it on though the frame lacks it");
+    app.add_option("--samples", options.both.samples, "samples per pixel of both instead of the recorded ones: 1 or 4");
+    app.add_option("--gpu", options.device.gpu, "device of both by index or part of its name; see strata --list-gpus");
+    app.add_option("--gpu-a", options.a.gpu, "device of A");
+    app.add_option("--gpu-b", options.b.gpu, "device of B");
+    app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
+    app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
+    app.add_option("--frames", options.frames, "which frames, like 0,4-8; default all");
+}
+
+void add_limits(CLI::App& app, ErrorLimits& limits) {
+    app.add_option("--limit", limits.limit, "a pixel may differ by so much in each channel; default 0")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--percent", limits.percent, "of the pixels may differ by more than --limit; default 0")
+        ->check(CLI::Range(0., 100.));
+    app.add_option("--hard-limit", limits.hard_limit, "no pixel may differ by more; default: any may")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--warn-limit", limits.warn_limit, "like --limit, for a warning; default: none")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--warn-percent", limits.warn_percent, "like --percent, for a warning; default 0")
+        ->check(CLI::Range(0., 100.));
+    app.add_option("--ulps", limits.ulps, "depth may differ by so many floats; default 0. Ids are always exact");
+    app.add_option("--flip-limit", limits.flip_mean,
+                   "mean of FLIP, of images of light; without --limit it alone decides about them")
+        ->check(CLI::Range(0., 1.));
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_diff(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    add_sides(app, *options);
+    add_limits(app, options->limits);
+    app.add_option("--junit", options->junit, "write JUnit XML to a file: a suite per frame, a case per act and image");
+    app.add_option("-o,--output", options->folder, "folder for pictures of what differs; old ones of what does not are removed");
+    app.add_flag("--json", options->json, "one JSON object on stdout");
+    return [options, &app] {
+        options->rerun = command_line(app);
+        return diff(*options);
+    };
+}
+
+}  // namespace strata

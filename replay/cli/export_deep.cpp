@@ -1,0 +1,97 @@
+// strata export --deep: rasterized in double, tested against the depth that the replay gave.
+#include <algorithm>
+
+#include "capture_format/whole_file.h"
+#include "passes/transparency/truth.h"
+#include "replay/cli/export_kinds.h"
+#include "replay/cli/run_json.h"
+#include "replay/counted.h"
+#include "replay/deep_image.h"
+#include "replay/flatten_deep.h"
+#include "replay/loaded_frame.h"
+#include "replay/scene/fit_textures.h"
+
+namespace strata {
+namespace {
+
+/// Floats in the file, and 1 - A of them, keep this much of a sum of radiance; more is worth a warning.
+constexpr double expected_difference = 1e-5;
+
+constexpr std::pair<std::string_view, Transmittance> transmittances[] = {
+    {"refused", Transmittance::refused}, {"mean", Transmittance::mean}, {"channels", Transmittance::channels}};
+
+Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samples) {
+    if (options.sample == no_index && samples > 1)
+        return fail(Fault::usage,
+                    "a pixel of this frame has {} samples and a deep image one list: choose --sample 0 to {}, or "
+                    "--samples 1",
+                    samples, samples - 1);
+    if (options.sample == no_index) return 0u;
+    if (options.sample >= samples)
+        return fail(Fault::usage, "a pixel of this frame has {}, counted from 0; there is no sample {}",
+                    counted(samples, "sample"), options.sample);
+    return options.sample;
+}
+
+/// How far the file, flattened again, is from the exact blend of the fragments over black, relative to the larger of 1 and it.
+Result<double> worst_difference(std::string_view exr, const FragmentLists& lists, std::uint32_t sample) {
+    const auto flat = flatten_deep(std::as_bytes(std::span(exr)), "the exported image");
+    if (!flat) return flat.error();
+    double worst = 0;
+    for (std::uint32_t y = 0; y < lists.height(); ++y)
+        for (std::uint32_t x = 0; x < lists.width(); ++x) {
+            const glm::dvec3 wanted = exact_blend(lists.at(x, y, sample), glm::dvec3(0)), got(texel(flat->image, x, y));
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(got[c] - wanted[c]) / std::max(1.0, std::abs(wanted[c])));
+        }
+    return worst;
+}
+
+}  // namespace
+
+Result<void> export_deep(const ExportOptions& options) {
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->frame = options.frame;
+    request->outputs = {"depth_layers"};
+    auto session = open(options.open);
+    if (!session) return session.error();
+    auto recorded = (*session)->frame(options.frame);
+    if (!recorded) return recorded.error();
+    auto loaded = load_frame(*std::move(recorded), variant_of(*request));
+    if (!loaded) return loaded.error();
+    Frame& frame = loaded->frame;
+    fit_textures(frame, (*session)->device().max_buffer_bytes);
+    const auto sample = sample_of(options, frame.view.samples);
+    if (!sample) return sample.error();
+    const auto run = (*session)->run(*request);
+    if (!run) return run.error();
+
+    const auto depth = run->images.find("depth_layers");
+    const FragmentLists lists = transparent_fragments(
+        frame, depth == run->images.end() ? ReferenceImage(frame.view.width, frame.view.height, frame.view.samples)
+                                          : in_double(depth->second));
+    const auto transmittance =
+        std::ranges::find(transmittances, options.transmittance, [](const auto& row) { return row.first; });
+    const auto image = deep_image(lists, *sample, transmittance->second, frame);
+    if (!image) return image.error();
+    Metadata metadata = provenance(**session, *request, *run);
+    metadata["strata.sample"] = fmt::format("{} of {}", *sample, frame.view.samples);
+    metadata["strata.transmittance"] = options.transmittance;
+    const auto exr = deep_exr(*image, metadata);
+    if (!exr) return exr.error();
+    if (const auto done = write_whole_file(options.output, *exr); !done) return done;
+
+    fmt::print(stderr, "exported {}", counted(image->begin.back(), "fragment"));
+    if (transmittance->second == Transmittance::mean) {
+        fmt::print(stderr, "\n");
+        return {};
+    }
+    const auto worst = worst_difference(*exr, lists, *sample);
+    if (!worst) return worst.error();
+    fmt::print(stderr, "; flattened again they are within {:.1e} of their exact blend{}\n", *worst,
+               *worst > expected_difference ? ": light shines through more layers than a float's alpha can tell" : "");
+    return {};
+}
+
+}  // namespace strata

@@ -1,0 +1,63 @@
+// A comparison as JUnit's XML, which every CI system reads.
+#include "replay/difference/comparison.h"
+
+namespace strata {
+namespace {
+
+/// Text in an attribute or an element. Control characters have no place in XML 1.0.
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&') safe += "&amp;";
+        else if (c == '<') safe += "&lt;";
+        else if (c == '>') safe += "&gt;";
+        else if (c == '"') safe += "&quot;";
+        else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') safe += c;
+    }
+    return safe;
+}
+
+std::string case_xml(const ActComparison& act, const ImageComparison& image, const std::string& artefacts) {
+    std::string xml = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(act.label), escaped(image.image));
+    if (image.verdict == Verdict::over)
+        xml += fmt::format("      <failure type=\"over tolerance\" message=\"{}\"/>\n", escaped(image.reason));
+    if (image.verdict == Verdict::not_compared) xml += fmt::format("      <skipped message=\"{}\"/>\n", escaped(image.reason));
+    std::string out = image.verdict == Verdict::warning || image.verdict == Verdict::within ? image.reason + "\n" : "";
+    if (image.flip) out += fmt::format("flip mean {:.6f}\n", image.flip->mean);
+    if (!artefacts.empty()) out += artefacts + "\n";
+    if (!out.empty()) xml += fmt::format("      <system-out>{}</system-out>\n", escaped(out));
+    return xml + "    </testcase>\n";
+}
+
+std::string suite_xml(const Comparison& comparison, const FrameComparison& frame,
+                      const std::map<std::string, std::string>& artefacts) {
+    std::string cases;
+    std::size_t tests = 0, failures = 0, skipped = 0;
+    for (const ActComparison& act : frame.acts)
+        for (const ImageComparison& image : act.images) {
+            const auto files = artefacts.find(case_name(frame.frame, act, image));
+            cases += case_xml(act, image, files == artefacts.end() ? "" : files->second);
+            ++tests;
+            failures += image.verdict == Verdict::over;
+            skipped += image.verdict == Verdict::not_compared;
+        }
+    std::string xml = fmt::format("  <testsuite name=\"{} frame {}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
+                                  escaped(comparison.a.name), frame.frame, tests, failures, skipped);
+    xml += fmt::format("    <properties>\n      <property name=\"rerun\" value=\"{}\"/>\n", escaped(comparison.rerun));
+    for (const auto& [name, value] : {std::pair{"device a", comparison.a.device}, {"device b", comparison.b.device}})
+        if (!value.empty()) xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+    if (!frame.divergence.act.empty())
+        xml += fmt::format("      <property name=\"first difference\" value=\"{}\"/>\n",
+                           escaped(frame.divergence.act + ": " + frame.divergence.image + ": " + frame.divergence.step));
+    return xml + "    </properties>\n" + cases + "  </testsuite>\n";
+}
+
+}  // namespace
+
+std::string as_junit(const Comparison& comparison, const std::map<std::string, std::string>& artefacts) {
+    std::string suites;
+    for (const FrameComparison& frame : comparison.frames) suites += suite_xml(comparison, frame, artefacts);
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"strata diff\">\n" + suites + "</testsuites>\n";
+}
+
+}  // namespace strata

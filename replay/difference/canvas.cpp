@@ -1,0 +1,53 @@
+#include "replay/difference/canvas.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <stb/stb_easy_font.h>
+
+namespace strata {
+
+Canvas::Canvas(int width, int height, Rgb paper)
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), paper) {}
+
+void Canvas::fill(Box box, Rgb color) {
+    const int right = std::min(box.x + box.width, width_), bottom = std::min(box.y + box.height, height_);
+    for (int y = std::max(0, box.y); y < bottom; ++y)
+        for (int x = std::max(0, box.x); x < right; ++x)
+            pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] = color;
+}
+
+void Canvas::outline(Box box, Rgb color) {
+    fill({box.x, box.y, box.width, 1}, color);
+    fill({box.x, box.y + box.height - 1, box.width, 1}, color);
+    fill({box.x, box.y, 1, box.height}, color);
+    fill({box.x + box.width - 1, box.y, 1, box.height}, color);
+}
+
+int text_width(std::string_view text) {
+    std::string copy(text);
+    return stb_easy_font_width(copy.data()) * Canvas::scale;
+}
+
+int Canvas::text(std::string_view text, Box at, Rgb ink) {
+    std::string copy(text);
+    while (!copy.empty() && text_width(copy) > at.width) copy.pop_back();
+    // Every letter is a few rectangles of four corners each; the longest text of a picture has some 3000.
+    struct Corner {
+        float x, y, z;
+        std::array<unsigned char, 4> color;
+    };
+    std::vector<Corner> corners(4 * 40 * (copy.size() + 1));
+    const int boxes =
+        stb_easy_font_print(0, 0, copy.data(), nullptr, corners.data(), static_cast<int>(corners.size() * sizeof(Corner)));
+    for (int i = 0; i < boxes; ++i) {
+        const Corner &from = corners[static_cast<std::size_t>(4 * i)], &to = corners[static_cast<std::size_t>(4 * i + 2)];
+        const int x = static_cast<int>(from.x), y = static_cast<int>(from.y);
+        fill({at.x + x * scale, at.y + y * scale, (static_cast<int>(to.x) - x) * scale, (static_cast<int>(to.y) - y) * scale},
+             ink);
+    }
+    return text_width(copy);
+}
+
+}  // namespace strata

@@ -1,0 +1,44 @@
+// A picture to draw on: rectangles, other pictures, and text in stb_easy_font's letters. Bytes are sRGB.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace strata {
+
+using Rgb = glm::u8vec3;
+
+struct Box {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+class Canvas {
+public:
+    Canvas(int width, int height, Rgb paper);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    const std::vector<Rgb>& pixels() const { return pixels_; }
+
+    /// What lies outside is cut off.
+    void fill(Box, Rgb);
+    /// One pixel wide, inside the box.
+    void outline(Box, Rgb);
+    /// Letters 7 `scale` high whose upper left corner is x, y; cut off at `width`. Returns the width of what was drawn.
+    int text(std::string_view, Box at, Rgb ink);
+
+    static constexpr int scale = 2;          ///< of letters
+    static constexpr int line = 13 * scale;  ///< from line to line
+
+private:
+    int width_, height_;
+    std::vector<Rgb> pixels_;
+};
+
+/// Pixels that `text` takes.
+int text_width(std::string_view);
+
+}  // namespace strata

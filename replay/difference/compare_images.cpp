@@ -1,0 +1,94 @@
+#include "replay/difference/compare_images.h"
+
+#include <algorithm>
+
+#include "replay/counted.h"
+
+namespace strata {
+namespace {
+
+constexpr std::string_view verdict_names[] = {"same", "not compared", "within", "warning", "over"};
+
+/// "r, channel 0 of an id": what people call it.
+std::string_view channel_name(const ImageError& error) {
+    constexpr std::string_view letters[] = {"r", "g", "b", "a"};
+    if (error.channels == 1) return error.kind == ImageError::Kind::depth ? "z" : "value";
+    return letters[error.worst_pixel.channel];
+}
+
+std::string at_text(const ImageError& error) {
+    const WorstPixel& worst = error.worst_pixel;
+    std::string place = fmt::format("({}, {})", worst.x, worst.y);
+    if (worst.layer > 0) place += fmt::format(" layer {}", worst.layer);
+    return fmt::format("{} at {}: {:.9g} against {:.9g}", channel_name(error), place, worst.a, worst.b);
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) { return 100 * double(part) / double(std::max<std::uint64_t>(1, whole)); }
+
+/// The limits in force with their values.
+std::vector<Judged> judged(const ImageComparison& made, const ErrorLimits& limits) {
+    const ImageError& error = made.error;
+    std::vector<Judged> all;
+    const bool flip_alone = made.flip && limits.flip_mean && !limits.limit;
+    if (error.kind == ImageError::Kind::values) {
+        if (!flip_alone)
+            all.push_back({fmt::format("percent of pixels over {:g}", limits.limit.value_or(0)),
+                           percent(error.over_limit, error.pixels), limits.percent});
+        if (limits.hard_limit < ErrorLimits::none) all.push_back({"worst", error.worst, limits.hard_limit});
+    } else {
+        const bool depth = error.kind == ImageError::Kind::depth;
+        all.push_back({depth ? "worst in ULPs" : "worst", error.worst, depth ? double(limits.ulps) : 0});
+    }
+    all.push_back({"NaN or Inf in one alone", double(error.disagreeing), 0});
+    if (made.flip && limits.flip_mean) all.push_back({"flip mean", made.flip->mean, *limits.flip_mean});
+    return all;
+}
+
+void decide(ImageComparison& made, const ErrorLimits& limits) {
+    made.judged = judged(made, limits);
+    const auto broken = std::ranges::find_if(made.judged, [](const Judged& j) { return j.value > j.threshold; });
+    if (broken != made.judged.end()) {
+        std::rotate(made.judged.begin(), broken, broken + 1);
+        const Judged& first = made.judged.front();
+        made.verdict = Verdict::over;
+        made.reason =
+            fmt::format("{}: {:.6g}, allowed {:.6g}; {}", first.metric, first.value, first.threshold, at_text(made.error));
+        return;
+    }
+    const double warned = percent(made.error.over_warn_limit, made.error.pixels);
+    made.verdict = warned > limits.warn_percent ? Verdict::warning : Verdict::within;
+    made.reason = made.verdict == Verdict::warning
+                      ? fmt::format("{:.3g} % of pixels are over {:g}, a warning above {:g} %; {}", warned, limits.warn_limit,
+                                    limits.warn_percent, at_text(made.error))
+                      : at_text(made.error);
+}
+
+}  // namespace
+
+std::string_view name(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
+
+Content content_of(std::string_view image, Format format) {
+    if (const FrameImageRow* known = find_frame_image(image)) return known->content;
+    const FormatRow& f = row(format);
+    if (f.kind == FormatKind::depth) return Content::depth;
+    if (f.kind == FormatKind::integer || f.channels < 3) return Content::numbers;
+    return f.bytes == f.channels ? Content::display : Content::radiance;
+}
+
+Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits& limits) {
+    if (const auto comparable = check_comparable(name, a, b); !comparable) return comparable.error();
+    const Content content = content_of(name, a.shape.format);
+    const auto values_are = content == Content::depth ? ImageError::Kind::depth : ImageError::Kind::values;
+    ImageComparison made{.image = std::move(name), .error = image_error(a, b, limits, values_are)};
+    const bool is_light = content == Content::radiance || content == Content::display;
+    if (is_light && made.error.identical) {
+        made.flip = Flip{};
+    } else if (is_light) {
+        const ColorPlanes of_a = color_planes(a), of_b = color_planes(b);
+        made.flip = content == Content::radiance ? radiance_flip(of_a, of_b) : display_flip(of_a, of_b);
+    }
+    if (!made.error.identical) decide(made, limits);
+    return made;
+}
+
+}  // namespace strata

@@ -1,0 +1,47 @@
+// One image of A against the same image of B: the measures that fit what it holds, and whether that is allowed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passes/frame_images.h"
+#include "replay/measure/flip.h"
+#include "replay/measure/image_error.h"
+
+namespace strata {
+
+/// From good to bad.
+enum class Verdict {
+    same,          ///< bit for bit
+    not_compared,  ///< the two are not the same thing: the reason says why
+    within,        ///< different, and allowed
+    warning,       ///< allowed, but over the limits of a warning
+    over,          ///< not allowed
+};
+std::string_view name(Verdict);
+
+/// A measure that a limit is on, as CI systems want it.
+struct Judged {
+    std::string metric;  ///< "pixels over 0.01", "worst", "flip mean", ...
+    double value = 0, threshold = 0;
+};
+
+struct ImageComparison {
+    std::string image;
+    Verdict verdict = Verdict::same;
+    std::string reason;          ///< why it is not `same`, in words
+    std::vector<Judged> judged;  ///< the limits in force; the first is the one that decided
+    ImageError error;
+    std::optional<Flip> flip;  ///< of light only
+};
+
+/// What an image of this name holds; an image of a file that has no name of a frame image is display light in bytes, radiance in
+/// three or four reals, depth in d32f.
+Content content_of(std::string_view image, Format);
+
+/// The measures and the verdict. Fails when the two cannot be compared.
+Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits&);
+
+}  // namespace strata

@@ -1,0 +1,162 @@
+#include "replay/difference/comparison.h"
+
+#include <algorithm>
+
+namespace strata {
+namespace {
+
+ImageComparison not_compared(const std::string& image, std::string reason) {
+    return {.image = image, .verdict = Verdict::not_compared, .reason = std::move(reason)};
+}
+
+/// An image that only one run made: over tolerance, for the frames are not made of the same things.
+ImageComparison in_one_alone(const std::string& image, std::string_view side) {
+    return {.image = image, .verdict = Verdict::over, .reason = fmt::format("only {} has it", side)};
+}
+
+Result<ImageComparison> compare_outputs(const std::string& image, const ActImages& a, const ActImages& b,
+                                        const ErrorLimits& limits) {
+    const HostImage &of_a = a.images.at(image), &of_b = b.images.at(image);
+    const bool other_choice = a.choice != b.choice;
+    if (other_choice && content_of(image, of_a.shape.format) == Content::coded)
+        return not_compared(image, "what is in it is the technique's, and the techniques or their settings differ");
+    if (other_choice)
+        if (const auto comparable = check_comparable(image, of_a, of_b); !comparable)
+            return not_compared(image, comparable.error().sentence);
+    return compare_images(image, of_a, of_b, limits);
+}
+
+Result<ActComparison> compare_acts(const ActImages& a, const ActImages& b, const ErrorLimits& limits, const SeeImages& see) {
+    ActComparison act{a.label, a.choice, b.choice, {}};
+    for (const auto& [image, of_a] : a.images) {
+        if (!b.images.contains(image)) {
+            act.images.push_back(in_one_alone(image, "A"));
+            continue;
+        }
+        auto made = compare_outputs(image, a, b, limits);
+        if (!made) return fail(made.error().fault, "{}: {}", a.label, made.error().sentence);
+        if (see && made->verdict != Verdict::not_compared)
+            if (const auto seen = see(act, *made, of_a, b.images.at(image)); !seen) return seen.error();
+        act.images.push_back(*std::move(made));
+    }
+    for (const auto& [image, of_b] : b.images)
+        if (!a.images.contains(image)) act.images.push_back(in_one_alone(image, "B"));
+    return act;
+}
+
+/// Notes the act's verdicts, and the first that is over tolerance. FLIP's maps have been seen by now; those of many frames would
+/// fill the memory.
+void add(FrameComparison& frame, ActComparison act) {
+    for (ImageComparison& image : act.images) {
+        if (image.flip) {
+            image.flip->map = {};
+            image.flip->exposure = {};
+        }
+        frame.verdict = std::max(frame.verdict, image.verdict);
+        if (image.verdict == Verdict::over && frame.divergence.act.empty()) frame.divergence = {act.label, image.image, ""};
+    }
+    frame.acts.push_back(std::move(act));
+}
+
+/// The first step of two equal plans that wrote something else.
+Result<std::string> first_step(const std::vector<StepImages>& a, const std::vector<StepImages>& b, const ErrorLimits& limits) {
+    if (a.size() != b.size()) return fmt::format("the plans differ: {} steps against {}", a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i].name != b[i].name)
+            return fmt::format("the plans differ from step {} on: {} against {}", a[i].step, a[i].name, b[i].name);
+        for (const auto& [image, of_a] : a[i].images) {
+            const auto of_b = b[i].images.find(image);
+            if (of_b == b[i].images.end() || of_a.texels == of_b->second.texels) continue;
+            const auto made = compare_images(image, of_a, of_b->second, limits);
+            if (!made) return made.error();
+            if (made->verdict == Verdict::over)
+                return fmt::format("step {}, {}, writes '{}': {}", a[i].step, a[i].name, image, made->reason);
+        }
+    }
+    return std::string("no image of a step differs: it is in a buffer");
+}
+
+/// Looks into the stage of the act that differs first.
+Result<void> find_step(FrameComparison& frame, const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits) {
+    const std::string& label = frame.divergence.act;
+    if (label.empty()) return {};
+    const auto act = std::ranges::find(frame.acts, label, &ActComparison::label);
+    if (act->choice_a != act->choice_b) {
+        frame.divergence.step =
+            fmt::format("A does it with {}, B with {}: from here on outputs are compared, not steps",
+                        act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
+        return {};
+    }
+    const auto stage = find_stage(label.substr(0, label.find(' ')));
+    const auto steps_a = a.session.step_images(a.request, *stage);
+    if (!steps_a) return steps_a.error();
+    const auto steps_b = b.session.step_images(b.request, *stage);
+    if (!steps_b) return steps_b.error();
+    auto step = first_step(*steps_a, *steps_b, limits);
+    if (!step) return step.error();
+    frame.divergence.step = *std::move(step);
+    return {};
+}
+
+}  // namespace
+
+Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits,
+                                     const SeeImages& see) {
+    const auto acts_a = a.session.act_images(a.request);
+    if (!acts_a) return acts_a.error();
+    const auto acts_b = b.session.act_images(b.request);
+    if (!acts_b) return acts_b.error();
+    FrameComparison frame{.frame = a.request.frame};
+    // Acts stand in the order of the frame; a stage that only one frame needs is an act without a partner.
+    auto next = acts_b->begin();
+    for (const ActImages& of_a : *acts_a) {
+        const auto partner = std::find_if(next, acts_b->end(), [&](const ActImages& of_b) { return of_b.label == of_a.label; });
+        if (partner == acts_b->end()) {
+            add(frame, {of_a.label, of_a.choice, "", {in_one_alone("every output", "A")}});
+            continue;
+        }
+        for (; next != partner; ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
+        next = partner + 1;
+        auto act = compare_acts(of_a, *partner, limits, see);
+        if (!act) return act.error();
+        add(frame, *std::move(act));
+    }
+    for (; next != acts_b->end(); ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
+    if (const auto found = find_step(frame, a, b, limits); !found) return found.error();
+    return frame;
+}
+
+Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits& limits,
+                                           const SeeImages& see) {
+    FrameComparison frame;
+    ActComparison act{.label = "images"};
+    const bool single = a.size() == 1 && b.size() == 1;
+    for (const auto& [image, of_a] : a) {
+        const auto of_b = single ? b.begin() : b.find(image);
+        if (of_b == b.end()) return fail(Fault::usage, "A has an image '{}' and B has none", image);
+        auto made = compare_images(image, of_a, of_b->second, limits);
+        if (!made) return made.error();
+        if (see)
+            if (const auto seen = see(act, *made, of_a, of_b->second); !seen) return seen.error();
+        act.images.push_back(*std::move(made));
+    }
+    for (const auto& [image, of_b] : b)
+        if (!single && !a.contains(image)) return fail(Fault::usage, "B has an image '{}' and A has none", image);
+    add(frame, std::move(act));
+    return frame;
+}
+
+Verdict verdict(const Comparison& comparison) {
+    Verdict worst = Verdict::same;
+    for (const FrameComparison& frame : comparison.frames) worst = std::max(worst, frame.verdict);
+    return worst;
+}
+
+std::string case_name(std::size_t frame, const ActComparison& act, const ImageComparison& image) {
+    std::string name = fmt::format("f{:04}.{}.{}", frame, act.label, image.image);
+    std::ranges::replace(name, ' ', '_');
+    std::ranges::replace(name, '/', '_');
+    return name;
+}
+
+}  // namespace strata

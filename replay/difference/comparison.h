@@ -1,0 +1,74 @@
+// Two runs of a frame, or a frame and images, side by side: a verdict for every act and image, the first act that differs, and
+// in it the first step.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "replay/difference/compare_images.h"
+#include "replay/session.h"
+
+namespace strata {
+
+/// An act of a stage in both runs.
+struct ActComparison {
+    std::string label;               ///< "transparency", "combine at film", or "images" where files are compared
+    std::string choice_a, choice_b;  ///< "technique key=value ..."
+    std::vector<ImageComparison> images;
+};
+
+/// Where two runs part.
+struct Divergence {
+    std::string act, image;  ///< empty: nowhere
+    std::string step;        ///< "step 12, shaders/x.comp, writes 'image' (3, 4) ...", or why no step can be named
+};
+
+struct FrameComparison {
+    std::size_t frame = 0;
+    std::vector<ActComparison> acts;
+    Divergence divergence;
+    Verdict verdict = Verdict::same;  ///< the worst of all
+};
+
+/// A side of a comparison in words.
+struct Side {
+    std::string name;                          ///< of the file
+    std::string capture, device, driver, cpu;  ///< empty for images
+};
+
+struct Comparison {
+    Side a, b;
+    ErrorLimits limits;
+    std::vector<FrameComparison> frames;
+    std::string tool, rerun;  ///< "strata REVISION", the command line
+};
+
+/// A run to compare: a session and what to ask of it. Both sides may be one session.
+struct RunToCompare {
+    Session& session;
+    const Request& request;
+};
+
+/// The images of a comparison while they are there, for pictures of them.
+using SeeImages =
+    std::function<Result<void>(const ActComparison&, const ImageComparison&, const HostImage& a, const HostImage& b)>;
+
+/// Act by act. Fails when images that should have one shape do not.
+Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits&, const SeeImages&);
+
+using NamedImages = std::map<std::string, HostImage>;
+/// By name; one image on each side is compared whatever its name. Fails where a name is on one side only.
+Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits&, const SeeImages&);
+
+/// The worst verdict of all frames.
+Verdict verdict(const Comparison&);
+
+std::string as_text(const Comparison&);
+std::string as_json(const Comparison&);
+/// JUnit's XML: a suite per frame, a case per act and image. `artefacts` gives a case's files.
+std::string as_junit(const Comparison&, const std::map<std::string, std::string>& artefacts);
+/// "f0003.transparency.color": what files and cases are called by.
+std::string case_name(std::size_t frame, const ActComparison&, const ImageComparison&);
+
+}  // namespace strata

@@ -1,0 +1,197 @@
+#include "replay/difference/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "capture_format/srgb.h"
+#include "replay/image_io.h"
+
+namespace strata {
+namespace {
+
+constexpr Rgb paper(24, 24, 28), ink(235, 235, 235), faint(150, 150, 155), not_a_number(255, 0, 255), mark(255, 210, 0);
+constexpr int gap = 12, bar_height = 12;
+// Panels are at least this wide: letters and a pixel's frame can then be seen.
+constexpr int least_width = 480;
+
+struct Texels {
+    int width = 0, height = 0;
+    Content content = Content::numbers;
+    std::uint32_t channels = 4;
+    std::vector<glm::dvec3> values;
+};
+
+/// The part of an image that is shown.
+Texels texels_of(const HostImage& image, const ImageComparison& made) {
+    const Extent& extent = image.shape.extent;
+    Texels shown{static_cast<int>(extent.width),
+                 static_cast<int>(extent.height),
+                 content_of(made.image, image.shape.format),
+                 row(image.shape.format).channels,
+                 {}};
+    const bool light = shown.content == Content::radiance || shown.content == Content::display;
+    const std::uint32_t first = light ? 0 : made.error.worst_pixel.layer, count = light ? image.shape.layers : 1;
+    for (std::uint32_t y = 0; y < extent.height; ++y)
+        for (std::uint32_t x = 0; x < extent.width; ++x) {
+            glm::dvec3 sum(0);
+            for (std::uint32_t layer = first; layer < first + count; ++layer) sum += glm::dvec3(texel(image, x, y, layer));
+            shown.values.push_back(sum / double(count));
+            if (shown.channels == 1) shown.values.back() = glm::dvec3(shown.values.back().x);
+        }
+    return shown;
+}
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
+
+/// The value below which a share of all finite channels lies.
+double quantile(const std::vector<glm::dvec3>& values, double share) {
+    std::vector<double> all;
+    for (const glm::dvec3& v : values)
+        if (finite(v)) all.insert(all.end(), {v.x, v.y, v.z});
+    if (all.empty()) return 0;
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(share * double(all.size() - 1));
+    std::ranges::nth_element(all, at);
+    return *at;
+}
+
+Rgb byte_rgb(const glm::dvec3& v) {
+    return {std::to_integer<std::uint8_t>(unorm8(v.x)), std::to_integer<std::uint8_t>(unorm8(v.y)),
+            std::to_integer<std::uint8_t>(unorm8(v.z))};
+}
+
+Rgb light_rgb(const glm::dvec3& v) {
+    return {std::to_integer<std::uint8_t>(display_byte(v.x)), std::to_integer<std::uint8_t>(display_byte(v.y)),
+            std::to_integer<std::uint8_t>(display_byte(v.z))};
+}
+
+using ColorOf = std::function<Rgb(std::size_t texel)>;
+
+/// How the values of both images become colors: from `low` to `high` of A.
+struct Range {
+    double low = 0, high = 1;
+    Content content = Content::numbers;
+
+    Rgb color(const glm::dvec3& v) const {
+        if (!finite(v)) return not_a_number;
+        const glm::dvec3 share = (v - low) / (high - low);
+        return content == Content::radiance ? light_rgb(share) : byte_rgb(share);
+    }
+};
+
+/// Display light is shown as it is; radiance up to what 99 % of it are below; the rest between its least and largest value.
+Range range_of(const Texels& a, Format format) {
+    if (a.content == Content::display)
+        return {0, 1, row(format).bytes == row(format).channels ? Content::numbers : Content::radiance};
+    const double high = quantile(a.values, a.content == Content::radiance ? .99 : 1),
+                 low = a.content == Content::radiance ? 0 : quantile(a.values, 0);
+    return {low, high > low ? high : low + 1, a.content == Content::radiance ? Content::radiance : Content::numbers};
+}
+
+/// matplotlib's magma (CC0) at nine places.
+Rgb magma(double share) {
+    static constexpr Rgb stops[] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
+                                    {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
+    const double at = std::clamp(share, 0., 1.) * 8;
+    const auto below = std::min<std::size_t>(7, static_cast<std::size_t>(at));
+    return Rgb(glm::mix(glm::dvec3(stops[below]), glm::dvec3(stops[below + 1]), at - double(below)) + .5);
+}
+
+/// One channel: red where B is more, blue where it is less. Several: how far apart each is.
+Rgb difference_color(const glm::dvec3& a, const glm::dvec3& b, double gain, std::uint32_t channels) {
+    const glm::dvec3 apart = (b - a) * gain;
+    if (!finite(a) || !finite(b)) return not_a_number;
+    if (channels > 1) return byte_rgb(glm::abs(apart));
+    return byte_rgb(apart.x > 0 ? glm::dvec3(apart.x, apart.x * .35, 0) : glm::dvec3(0, -apart.x * .45, -apart.x));
+}
+
+/// A power of two that brings the difference that 99.5 % of the pixels that differ are below to about white.
+double gain_of(const Texels& a, const Texels& b) {
+    std::vector<glm::dvec3> apart;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        if (a.values[i] != b.values[i]) apart.push_back(glm::abs(b.values[i] - a.values[i]));
+    const double most = quantile(apart, .995);
+    return most > 0 ? std::exp2(std::floor(std::log2(1 / most))) : 1;
+}
+
+struct Panel {
+    std::string label;
+    ColorOf color;
+    std::function<Rgb(double share)> legend = {};  ///< null: none
+    std::string low = {}, high = {}, note = {};    ///< numbers at the ends of the legend, and what stands between them
+};
+
+/// The panel's image with the worst pixel framed, its label above and its legend below.
+void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const WorstPixel& worst) {
+    const int zoom = box.width / size.width;
+    canvas.text(panel.label, {box.x, box.y, box.width, 0}, ink);
+    const int top = box.y + Canvas::line;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            canvas.fill(
+                {box.x + x * zoom, top + y * zoom, zoom, zoom},
+                panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)));
+    const int around = 3 * std::max(zoom, 3);
+    const Box frame{box.x + static_cast<int>(worst.x) * zoom + zoom / 2 - around,
+                    top + static_cast<int>(worst.y) * zoom + zoom / 2 - around, 2 * around + 1, 2 * around + 1};
+    canvas.outline(frame, mark);
+    canvas.outline({frame.x - 1, frame.y - 1, frame.width + 2, frame.height + 2}, {0, 0, 0});
+    if (!panel.legend) return;
+    const int bar = top + size.height * zoom + 6;
+    for (int x = 0; x < box.width; ++x) canvas.fill({box.x + x, bar, 1, bar_height}, panel.legend(double(x) / (box.width - 1)));
+    canvas.outline({box.x, bar, box.width, bar_height}, faint);
+    const int text = bar + bar_height + 4;
+    canvas.text(panel.low, {box.x, text, box.width, 0}, faint);
+    canvas.text(panel.high, {box.x + box.width - text_width(panel.high), text, box.width, 0}, faint);
+    canvas.text(panel.note, {box.x + (box.width - text_width(panel.note)) / 2, text, box.width, 0}, ink);
+}
+
+Panel image_panel(const std::string& label, const Texels& texels, const Range& range) {
+    return {label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
+            [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
+            fmt::format("{:.3g}", range.low), fmt::format("{:.3g}", range.high)};
+}
+
+Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& made) {
+    const double gain = gain_of(a, b);
+    const std::uint32_t channels = a.channels;
+    const std::string scaled = gain < 1 ? fmt::format("/ {:g}", 1 / gain) : fmt::format("x {:g}", gain);
+    Panel panel{fmt::format("{} {}", channels > 1 ? "abs(B - A)" : "B - A", scaled),
+                [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
+                [gain, channels](double share) {
+                    const double v = channels > 1 ? share : 2 * share - 1;
+                    return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
+                },
+                channels > 1 ? "0" : fmt::format("{:.3g}", -1 / gain), fmt::format("{:.3g}", 1 / gain)};
+    panel.note = fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: no number" : "");
+    return panel;
+}
+
+}  // namespace
+
+Canvas difference_picture(const ImageComparison& made, const HostImage& a, const HostImage& b, const PictureTitles& titles) {
+    const Texels of_a = texels_of(a, made), of_b = texels_of(b, made);
+    const Range range = range_of(of_a, a.shape.format);
+    std::vector<Panel> panels{image_panel("A  " + titles.a, of_a, range), image_panel("B  " + titles.b, of_b, range),
+                              difference_panel(of_a, of_b, made)};
+    if (made.flip && !made.flip->map.empty()) {
+        Panel panel{"FLIP", [&made](std::size_t i) { return magma(double(made.flip->map[i])); }, magma, "0", "1"};
+        panel.note = fmt::format("mean {:.4f}", made.flip->mean);
+        panels.push_back(std::move(panel));
+    }
+    // Four panels make two rows of two, three a row.
+    const int zoom = std::max(1, (least_width + of_a.width - 1) / of_a.width), columns = panels.size() == 4 ? 2 : 3;
+    const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+    const Box cell{0, 0, of_a.width * zoom, of_a.height * zoom + 2 * Canvas::line + bar_height + 10};
+    const int top = 2 * gap + 2 * Canvas::line;
+    Canvas canvas(columns * (cell.width + gap) + gap, top + rows * (cell.height + gap), paper);
+    canvas.text(titles.title, {gap, gap, canvas.width() - 2 * gap, 0}, mark);
+    canvas.text(made.reason, {gap, gap + Canvas::line, canvas.width() - 2 * gap, 0}, ink);
+    for (int i = 0; i < static_cast<int>(panels.size()); ++i)
+        draw(canvas, panels[static_cast<std::size_t>(i)],
+             {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a,
+             made.error.worst_pixel);
+    return canvas;
+}
+
+}  // namespace strata

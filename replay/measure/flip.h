@@ -1,0 +1,57 @@
+// FLIP: how different two pictures look to a person who switches between them. 0: the same; 1: as different as can be.
+//
+// Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020 (display light), and "Visualizing Errors in
+// Rendered High Dynamic Range Images", Eurographics Short Papers 2021 (radiance, over a range of exposures).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "replay/host_image.h"
+
+namespace strata {
+
+/// Linear light with BT.709 primaries, one plane per channel, rows top to bottom.
+struct ColorPlanes {
+    std::uint32_t width = 0, height = 0;
+    std::array<std::vector<float>, 3> rgb;
+    std::vector<bool> broken;  ///< empty, or one per pixel: a sample of it is NaN or infinite (it reads as black)
+};
+
+/// The first three channels; layers are samples and are averaged. A single channel is grey. Bytes are sRGB, as in a PNG.
+ColorPlanes color_planes(const HostImage&);
+/// The same of an image in double.
+ColorPlanes color_planes(const ReferenceImage&);
+
+/// Seen from 0.7 m on a monitor 0.7 m wide of 3840 pixels: 67.02.
+inline constexpr double pixels_per_degree_of_a_desk = 3840 * 3.14159265358979323846 / 180;
+
+/// Both pictures are tone mapped at start, ..., stop, evenly, in steps of at most about one stop.
+struct ExposureRange {
+    double start = 0, stop = 0;  ///< log2 of the factor
+    std::uint32_t count = 0;     ///< 0: display light, no exposure
+};
+
+struct Flip {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> map;  ///< 0..1 per pixel
+    double mean = 0;
+    /// Quantiles of the map in which every pixel weighs what its error is: half of all error is in pixels above the median.
+    double low = 0, first_quartile = 0, median = 0, third_quartile = 0, high = 0;
+    ExposureRange exposures;
+    std::vector<std::uint8_t> exposure;  ///< radiance: which exposure gave the pixel's error; else empty
+};
+
+/// Of display light, 0..1. Sizes are equal (asserted). A pixel that only one picture has a number for is 1.
+Flip display_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
+
+/// Of radiance: the worst over the exposures that show the reference, see exposures_of().
+Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
+
+/// From where the brightest pixel reaches 85 % of white to where the median one does, through the ACES curve (2021, section 3).
+/// Where more than half is black: the median of what is not. Of a black reference: the test's own, so that it is judged, too.
+/// At most 32 exposures.
+ExposureRange exposures_of(const ColorPlanes& reference, const ColorPlanes& test);
+
+}  // namespace strata

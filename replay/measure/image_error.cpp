@@ -1,0 +1,116 @@
+#include "replay/measure/image_error.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+namespace strata {
+namespace {
+
+using Kind = ImageError::Kind;
+
+Kind kind_of(const HostImage& image, Kind values_are) {
+    switch (row(image.shape.format).kind) {
+        case FormatKind::integer:
+            return Kind::integers;
+        case FormatKind::depth:
+            return Kind::depth;
+        case FormatKind::real:
+            break;
+    }
+    return values_are;
+}
+
+/// Neighboring floats are one apart, -0 and +0 are the same.
+std::int64_t place_among_floats(double value) {
+    const auto real = static_cast<float>(value);
+    std::int32_t bits = 0;
+    std::memcpy(&bits, &real, sizeof bits);
+    return bits < 0 ? -std::int64_t{bits & 0x7fffffff} : bits;
+}
+
+double distance(Kind kind, double a, double b) {
+    if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+    if (!std::isfinite(a) || !std::isfinite(b)) return HUGE_VAL;
+    if (kind != Kind::depth) return std::abs(a - b);
+    return static_cast<double>(std::abs(place_among_floats(a) - place_among_floats(b)));
+}
+
+void count(double value, ImageError::Count& counts) {
+    counts.nan += std::isnan(value);
+    counts.inf += std::isinf(value);
+}
+
+struct Sums {
+    double squares = 0, power = 0;
+    std::uint64_t values = 0;
+
+    void add(double a, double b) {
+        if (!std::isfinite(a) || !std::isfinite(b)) return;
+        squares += (a - b) * (a - b);
+        power += a * a;
+        ++values;
+    }
+};
+
+/// What a pixel may differ by in each kind.
+double limit_of(Kind kind, const ErrorLimits& limits) {
+    if (kind == Kind::values) return limits.limit.value_or(0);
+    return kind == Kind::depth ? double(limits.ulps) : 0;
+}
+
+}  // namespace
+
+std::string shape_text(const Shape& shape) {
+    std::string text = fmt::format("{} x {}", shape.extent.width, shape.extent.height);
+    if (shape.extent.depth > 1) text += fmt::format(" x {}", shape.extent.depth);
+    if (shape.layers > 1) text += fmt::format(", {} layers", shape.layers);
+    return text + fmt::format(", {}", row(shape.format).name);
+}
+
+Result<void> check_comparable(const std::string& name, const HostImage& a, const HostImage& b) {
+    const FormatRow &of_a = row(a.shape.format), &of_b = row(b.shape.format);
+    const bool integers = of_a.kind == FormatKind::integer, same_kind = integers == (of_b.kind == FormatKind::integer);
+    if (a.shape.extent == b.shape.extent && a.shape.layers == b.shape.layers && of_a.channels == of_b.channels && same_kind)
+        return {};
+    return fail(Fault::usage, "'{}' cannot be compared: A is {}, B is {}; bring both to one size, number of layers and channels",
+                name, shape_text(a.shape), shape_text(b.shape));
+}
+
+ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits& limits, Kind values_are) {
+    assert(check_comparable("", a, b));
+    const Extent& extent = a.shape.extent;
+    const std::uint32_t channels = row(a.shape.format).channels, layers = a.shape.layers * extent.depth;
+    const Kind kind = kind_of(a, values_are);
+    ImageError error{.kind = kind,
+                     .identical = a.shape.format == b.shape.format && a.texels == b.texels,
+                     .pixels = std::uint64_t{extent.width} * extent.height * layers,
+                     .channels = channels};
+    const double limit = limit_of(kind, limits), warn_limit = kind == Kind::values ? limits.warn_limit : ErrorLimits::none;
+    Sums sums;
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
+        for (std::uint32_t y = 0; y < extent.height; ++y)
+            for (std::uint32_t x = 0; x < extent.width; ++x) {
+                const glm::dvec4 p = texel(a, x, y, layer), q = texel(b, x, y, layer);
+                double worst = 0;
+                for (std::uint32_t channel = 0; channel < channels; ++channel) {
+                    const auto c = static_cast<glm::length_t>(channel);
+                    const double apart = distance(kind, p[c], q[c]);
+                    count(p[c], error.in_a);
+                    count(q[c], error.in_b);
+                    sums.add(p[c], q[c]);
+                    error.disagreeing += std::isinf(apart);
+                    worst = std::max(worst, apart);
+                    if (apart <= error.worst) continue;
+                    error.worst = apart;
+                    error.worst_pixel = {x, y, layer, channel, p[c], q[c]};
+                }
+                error.over_limit += worst > limit;
+                error.over_warn_limit += worst > warn_limit;
+            }
+    error.rmse = std::sqrt(sums.squares / double(std::max<std::uint64_t>(1, sums.values)));
+    error.relative_rmse = sums.power > 0 ? std::sqrt(sums.squares / sums.power) : error.rmse;
+    return error;
+}
+
+}  // namespace strata

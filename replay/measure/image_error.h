@@ -1,0 +1,60 @@
+// How far an image is from another in numbers, and what a person allows. Values are compared by their difference, depth by the
+// floats that lie between, integers by equality.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "capture_format/result.h"
+#include "replay/host_image.h"
+
+namespace strata {
+
+/// What is allowed. The defaults allow no difference at all.
+struct ErrorLimits {
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    // Of values, as `idiff` has them: a pixel counts by its worst channel.
+    std::optional<double> limit = std::nullopt;      ///< a pixel may differ by so much; unset: 0, or FLIP alone decides
+    double percent = 0;                              ///< of the pixels may differ by more
+    double hard_limit = none;                        ///< no pixel may differ by more
+    double warn_limit = none, warn_percent = 0;      ///< the same, for a warning
+    std::uint32_t ulps = 0;                          ///< of depth: floats from one value to the other
+    std::optional<double> flip_mean = std::nullopt;  ///< where there is FLIP
+};
+
+/// The channel that differs most.
+struct WorstPixel {
+    std::uint32_t x = 0, y = 0, layer = 0, channel = 0;
+    double a = 0, b = 0;
+};
+
+struct ImageError {
+    enum class Kind { values, depth, integers } kind = Kind::values;
+    bool identical = false;  ///< every bit: nothing else needs a look
+    std::uint64_t pixels = 0, channels = 0;
+    // Over the values that are finite in both.
+    double rmse = 0;
+    double relative_rmse = 0;  ///< over the root mean square of A; rmse where that is 0
+    double worst = 0;          ///< difference of values; of depth: in ULPs; infinite where one is not a number or not finite
+    WorstPixel worst_pixel;
+    std::uint64_t over_limit = 0, over_warn_limit = 0;  ///< pixels
+    struct Count {
+        std::uint64_t nan = 0, inf = 0;
+    } in_a, in_b;
+    std::uint64_t disagreeing = 0;  ///< values that are NaN or infinite in one and not the same in the other: never allowed
+};
+
+/// Whether two images can be compared at all: extent, layers, channels and kind of number. The sentence has both shapes.
+Result<void> check_comparable(const std::string& name, const HostImage& a, const HostImage& b);
+
+/// Of images that check_comparable() lets through (asserted). `depth` says that real values are depth, too.
+ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits&,
+                       ImageError::Kind values_are = ImageError::Kind::values);
+
+/// "1920 x 1080, 4 layers, rgba16f".
+std::string shape_text(const Shape&);
+
+}  // namespace strata

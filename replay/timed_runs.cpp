@@ -1,0 +1,100 @@
+// Timing several requests beside each other: what they have in common is executed, and timed, once per repeat.
+#include "replay/describe_run.h"
+#include "replay/device_session.h"
+
+namespace strata {
+namespace {
+
+/// Milliseconds of the steps of an act, in order.
+using StepTimes = std::vector<std::pair<std::string, double>>;
+/// What one repeat has executed, by what tells equal acts from others.
+using ExecutedActs = std::map<std::string, StepTimes>;
+
+/// Tells the scopes of a request apart: acts by what they depend on, so that equal acts of two requests are the same one; what
+/// is no act (debug views) by the request.
+class ScopeNames {
+public:
+    ScopeNames(const Declaration& d, std::size_t request) : request_(request) {
+        for (std::size_t i = 0; i < d.act_keys.size(); ++i)
+            keys_.emplace(d.graph.scopes()[d.frame.acts[i].scope].name, d.act_keys[i]);
+    }
+    std::string operator()(const std::string& scope) const {
+        const auto key = keys_.find(scope);
+        return key == keys_.end() ? fmt::format("{} of {}", scope, request_) : fmt::format("{} with {:x}", scope, key->second);
+    }
+
+private:
+    std::map<std::string, std::uint64_t> keys_;
+    std::size_t request_;
+};
+
+void add_executed(const Declaration& d, const Execution& execution, const ScopeNames& name, ExecutedActs& acts) {
+    ExecutedActs now;
+    for (std::size_t i = 0; i < d.plan.steps.size(); ++i) {
+        const Step& step = d.plan.steps[i].step;
+        now[name(d.plan.scopes[step.scope].name)].emplace_back(step.name, execution.step_ms[i]);
+    }
+    for (auto& [scope, times] : now) acts.insert_or_assign(scope, std::move(times));
+}
+
+/// The times of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
+std::optional<std::vector<double>> times_of(const std::vector<StepRecord>& steps, const ScopeNames& name,
+                                            const ExecutedActs& acts) {
+    std::map<std::string, std::size_t> next;
+    std::vector<double> times;
+    for (const StepRecord& step : steps) {
+        const std::string scope = name(step.scope);
+        const auto act = acts.find(scope);
+        if (act == acts.end()) return {};
+        std::size_t& at = next[scope];
+        while (at < act->second.size() && act->second[at].first != step.name) ++at;
+        if (at == act->second.size()) return {};
+        times.push_back(act->second[at++].second);
+    }
+    return times;
+}
+
+}  // namespace
+
+Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    auto execution = execute(*declared, {.timestamps = Timestamps::on});
+    if (!execution) return execution.error();
+    TimedRun timed{finished(*declared, *execution), std::move(execution->step_ms)};
+    timed.run.images = images_of(*declared, *execution);
+    return timed;
+}
+
+Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
+    std::vector<Run> runs;
+    std::vector<std::vector<std::vector<double>>> step_ms(requests.size());  // [request][repeat][step]
+    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {              // the first of each warms up
+        memo_.clear();
+        ExecutedActs acts;
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            std::optional<std::vector<double>> times;
+            if (repeat > 0 && requests.size() > 1) {
+                const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
+                if (!declared) return declared.error();
+                const auto execution = execute(*declared, {.timestamps = Timestamps::on});
+                if (!execution) return execution.error();
+                remember(*declared, *execution);
+                const ScopeNames name(*declared, i);
+                add_executed(*declared, *execution, name, acts);
+                times = times_of(runs[i].steps, name, acts);
+            }
+            if (!times) {
+                auto alone = time_alone(requests[i]);
+                if (!alone) return alone.error();
+                times = std::move(alone->step_ms);
+                if (repeat == 0) runs.push_back(std::move(alone->run));
+            }
+            if (repeat > 0) step_ms[i].push_back(*std::move(times));
+        }
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) add_times(runs[i], step_ms[i]);
+    return runs;
+}
+
+}  // namespace strata

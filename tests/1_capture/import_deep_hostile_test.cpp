@@ -1,0 +1,103 @@
+// Deep images that are damaged or lie about themselves: refused with a sentence, and nothing allocated on their word.
+#include <cstring>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "capture_format/import/deep.h"
+#include "tests/1_capture/temporary_file.h"
+#include "tests/support/deep_exr.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+Result<ImportedDeep> imported(std::string_view file, const DeepOptions& options = {}) {
+    return import_deep(bytes_of(file), "test.exr", options);
+}
+
+std::string small_image(DeepLayout layout, DeepPacking packing) {
+    DeepSource source{.width = 6, .height = 5, .layout = layout, .packing = packing};
+    source.pixels.assign(30, {{.5f, .5f, .5f, .5f, 3}, {.5f, .5f, .5f, .5f, 4}});
+    return deep_file(source);
+}
+
+std::string sentence(const Result<ImportedDeep>& result) { return result ? "imported" : result.error().sentence; }
+
+/// Where the first block of an image of so many lines begins: behind the table of their offsets.
+std::size_t first_block(const std::string& file, std::size_t lines) {
+    std::uint64_t offset = 0;
+    for (std::size_t at = 8; at + 8 <= file.size(); ++at) {
+        std::memcpy(&offset, file.data() + at, 8);
+        if (offset == at + 8 * lines) return offset;
+    }
+    return 0;
+}
+
+TEST(DeepImportOfDamage, RefusesWhatIsNoDeepImage) {
+    EXPECT_THAT(sentence(imported("")), HasSubstr("test.exr: it is no OpenEXR file"));
+    EXPECT_THAT(sentence(imported("this is no picture at all, whatever its name says")), HasSubstr("no OpenEXR file"));
+    EXPECT_THAT(sentence(imported(flat_file(4, 4))), HasSubstr("none of its parts is deep"));
+}
+
+TEST(DeepImportOfDamage, RefusesAnImageWithoutDepth) {
+    DeepSource source{.channels = {"A", "left.Z"}};
+    source.pixels = {{{1, 2}}};
+    EXPECT_THAT(sentence(imported(deep_file(source))), HasSubstr("no channel Z; its channels are A left.Z"));
+}
+
+TEST(DeepImportOfDamage, RefusesAFileCutShortWhereverItIsCut) {
+    for (const DeepLayout layout : {DeepLayout::lines, DeepLayout::tiles}) {
+        const std::string whole = small_image(layout, DeepPacking::zips);
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            const auto result = imported(std::string_view(whole).substr(0, size));
+            ASSERT_FALSE(result) << size << " of " << whole.size() << " bytes";
+            EXPECT_EQ(result.error().fault, Fault::bad_input);
+        }
+    }
+}
+
+TEST(DeepImportOfDamage, SurvivesEveryByteOverwritten) {
+    for (const DeepPacking packing : {DeepPacking::none, DeepPacking::rle, DeepPacking::zips}) {
+        const std::string whole = small_image(DeepLayout::lines, packing);
+        for (std::size_t at = 0; at < whole.size(); ++at)
+            for (const char byte : {'\0', '\x7f', '\xff'}) {
+                std::string damaged = whole;
+                damaged[at] = byte;
+                const auto result = imported(damaged, {.most_samples = 10000});
+                EXPECT_THAT(sentence(result), testing::AnyOf("imported", testing::StartsWith("test.exr: ")));
+            }
+    }
+}
+
+TEST(DeepImportOfDamage, RefusesMoreSamplesThanItMayRead) {
+    const auto result = imported(small_image(DeepLayout::lines, DeepPacking::zips), {.most_samples = 59});
+    EXPECT_THAT(sentence(result), HasSubstr("there are 60 samples; 59 are the most"));
+}
+
+TEST(DeepImportOfDamage, RefusesCountsThatTheBlockCannotHold) {
+    std::string file = small_image(DeepLayout::lines, DeepPacking::none);
+    const std::size_t block = first_block(file, 5);
+    ASSERT_NE(block, 0u);
+    // Line, bytes of the table, bytes of the samples packed and unpacked, then running sums: 2, 4, ... 12.
+    const std::uint32_t many = 0x01000000;
+    std::memcpy(file.data() + block + 28 + 5 * 4, &many, 4);
+    EXPECT_THAT(sentence(imported(file)), HasSubstr("counts 16777216 samples of 20 bytes but claims 240 bytes"));
+    const std::uint64_t claim = std::uint64_t{many} * 20;
+    std::memcpy(file.data() + block + 20, &claim, 8);
+    EXPECT_THAT(sentence(imported(file)), HasSubstr("there are 16777264 samples"));
+    EXPECT_THAT(sentence(imported(file, {.most_samples = std::uint64_t{1} << 40})),
+                HasSubstr("claims 335544320 bytes of samples in 240"));
+}
+
+TEST(DeepImportOfDamage, RefusesVolumesThatOverlapTooOften) {
+    DeepSource source{.channels = {"A", "Z", "ZBack"}};
+    auto& pixel = source.pixels.emplace_back();
+    for (int i = 0; i < 40000; ++i) pixel.push_back({.001f, 1 + float(i), 1e9f});
+    EXPECT_THAT(sentence(imported(deep_file(source))), HasSubstr("overlap too often"));
+}
+
+}  // namespace
+}  // namespace strata

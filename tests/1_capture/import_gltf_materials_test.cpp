@@ -1,0 +1,90 @@
+// Materials with extensions: what goes through glass, computed by hand, and what is ignored by name.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "capture_format/import/gltf_materials.h"
+#include "tests/support/gltf_text.h"
+
+namespace strata {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A scene of materials; the arguments are JSON objects.
+ImportedScene with_materials(const std::string& materials) {
+    return imported(Gltf().with_triangle().text(showing(triangle, R"(,"materials":[)" + materials + "]")));
+}
+
+/// White glass with these extensions beside its transmission, and these members.
+Material glass(const std::string& extensions, const std::string& members = "") {
+    return with_materials(fmt::format(R"({{"pbrMetallicRoughness":{{"metallicFactor":0}},"extensions":
+        {{"KHR_materials_transmission":{{"transmissionFactor":1}}{}}}{}}})",
+                                      extensions, members))
+        .frame.materials[0];
+}
+
+TEST(GltfGlass, TheSurfaceTurnsBackWhatItsIndexOfRefractionSays) {
+    EXPECT_NEAR(gltf::head_on_reflectance(1.5), 0.04, 1e-12);
+    EXPECT_FLOAT_EQ(glass(R"(,"KHR_materials_ior":{"ior":1})").transmission.x, 1);
+    EXPECT_FLOAT_EQ(glass(R"(,"KHR_materials_ior":{"ior":3})").transmission.x, 0.75f) << "(2/4)^2 is turned back";
+}
+
+TEST(GltfGlass, AVolumeAttenuatesByItsThickness) {
+    const std::string volume = R"(,"KHR_materials_ior":{"ior":1},"KHR_materials_volume":
+        {"thicknessFactor":0.5,"attenuationDistance":0.25,"attenuationColor":[1,0.5,0.1]})";
+    const Material single = glass(volume);
+    EXPECT_FLOAT_EQ(single.transmission.x, 1);
+    EXPECT_FLOAT_EQ(single.transmission.y, 0.25f) << "twice the distance: 0.5^2";
+    EXPECT_FLOAT_EQ(single.transmission.z, 0.01f);
+    const Material both = glass(volume, R"(,"doubleSided":true)");
+    EXPECT_FLOAT_EQ(both.transmission.y, 0.5f) << "each of the two faces takes half of the way";
+}
+
+TEST(GltfGlass, WithoutDistanceOrThicknessAVolumeAttenuatesNothing) {
+    EXPECT_FLOAT_EQ(glass(R"(,"KHR_materials_volume":{"thicknessFactor":5,"attenuationColor":[0,0,0]})").transmission.x, 0.96f);
+    EXPECT_FLOAT_EQ(glass(R"(,"KHR_materials_volume":{"attenuationDistance":0.1,"attenuationColor":[0,0,0]})").transmission.x,
+                    0.96f);
+}
+
+TEST(GltfGlass, AThicknessTextureIsReplacedByTheMeanOfItsGreen) {
+    const ImportedScene scene = imported(Gltf().with_triangle().text(
+        showing(triangle, fmt::format(R"(,"images":[{{"uri":"data:image/jpeg;base64,{}"}}],"textures":[{{"source":0}}],
+            "materials":[{{"pbrMetallicRoughness":{{"metallicFactor":0}},"extensions":{{
+            "KHR_materials_transmission":{{"transmissionFactor":1}},"KHR_materials_ior":{{"ior":1}},
+            "KHR_materials_volume":{{"thicknessFactor":2,"thicknessTexture":{{"index":0}},"attenuationDistance":1,
+            "attenuationColor":[0.5,0.5,0.5]}}}}}}])",
+                                      tiny_jpeg))));
+    EXPECT_NEAR(scene.frame.materials[0].transmission.x, std::pow(0.5, 2 * 188 / 255.0), 0.01) << "the picture is grey 188";
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("thickness texture is replaced by its mean")));
+}
+
+TEST(GltfMaterials, IgnoredExtensionsAreNamedWithTheNumberOfMaterialsTheyWouldChange) {
+    const ImportedScene scene = with_materials(R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1},
+            "KHR_materials_sheen":{"sheenColorFactor":[0,0.1,0]},"KHR_materials_ior":{"ior":1.33}}},
+        {"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.5},"KHR_materials_anisotropy":{"anisotropyStrength":1},
+            "KHR_materials_dispersion":{"dispersion":0.1},"KHR_materials_iridescence":{"iridescenceFactor":1}}},
+        {"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0},"KHR_materials_specular":{"specularColorFactor":[1,0.5,1]}}})");
+    EXPECT_THAT(scene.warnings, Contains("KHR_materials_clearcoat is ignored; it would change 2 materials"));
+    for (const char* once : {"sheen", "anisotropy", "dispersion", "iridescence", "specular"}) {
+        EXPECT_THAT(scene.warnings, Contains(fmt::format("KHR_materials_{} is ignored; it would change 1 material", once)));
+    }
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("KHR_materials_ior (but for what goes through) is ignored")));
+}
+
+TEST(GltfMaterials, ExtensionsThatChangeNothingAreNotMentioned) {
+    const ImportedScene scene = with_materials(R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":1.5},
+        "KHR_materials_specular":{"specularFactor":1,"specularColorFactor":[1,1,1]}}})");
+    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("KHR_materials"))));
+}
+
+TEST(GltfMaterials, AnIgnoredExtensionMayBeRequired) {
+    EXPECT_TRUE(import_text(Gltf().with_triangle().text(
+        showing(triangle, R"(,"extensionsRequired":["KHR_materials_clearcoat","KHR_materials_volume","KHR_materials_ior"])"))));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,122 @@
+// strata diff: what it says of captures, settings and images that are and are not the same.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Diff : public testing::Test {
+protected:
+    void SetUp() override { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
+    static std::string contents(const std::string& name) {
+        std::ifstream file(folder() / name);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    static bool exists(const std::string& name) { return std::filesystem::exists(folder() / name); }
+};
+
+/// The verdict on an image of an act.
+std::string verdict_of(const json& frame, const std::string& act, const std::string& image) {
+    for (const json& row : frame["acts"])
+        for (const json& candidate : row["images"])
+            if (row["act"] == act && candidate["image"] == image) return candidate["verdict"];
+    return "absent";
+}
+
+TEST_F(Diff, OfACaptureAndItselfIsExitZero) {
+    const Finished same = strata("diff panes.strata panes.strata");
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_THAT(same.out, HasSubstr("\nsame: 0 of "));
+}
+
+TEST_F(Diff, OfTwoTechniquesNamesTheStageAndWhatStayedTheSame) {
+    const Finished other = strata("diff panes.strata --use transparency/weighted --json");
+    EXPECT_EQ(other.code, 1);
+    EXPECT_THAT(other.err, HasSubstr("transparency: color"));
+    const json diff = json::parse(other.out), frame = diff["frames"][0];
+    EXPECT_EQ(frame["first_difference"]["act"], "transparency");
+    EXPECT_EQ(verdict_of(frame, "combine", "color"), "same");
+    EXPECT_EQ(verdict_of(frame, "transparency", "color"), "over");
+    EXPECT_EQ(diff["rerun"], "strata diff panes.strata --use transparency/weighted --json");
+}
+
+TEST_F(Diff, FindsTheStepThatDiffersFirst) {
+    ASSERT_EQ(strata("record three_panes --seed 1 -o a.strata").code, 0);
+    ASSERT_EQ(strata("record red_and_green_glass --size 64x36 -o b.strata").code, 0);
+    const Finished other = strata("diff a.strata b.strata --json");
+    ASSERT_EQ(other.code, 1) << other.err;
+    const json first = json::parse(other.out)["frames"][0]["first_difference"];
+    EXPECT_THAT(first["step"].get<std::string>(), HasSubstr("step ")) << first;
+}
+
+TEST_F(Diff, ToleranceTurnsADifferenceIntoASuccess) {
+    EXPECT_EQ(strata("diff panes.strata --use transparency/weighted --limit 0.2").code, 0);
+    EXPECT_EQ(strata("diff panes.strata --use transparency/weighted --limit 0.2 --hard-limit 0.01").code, 1);
+    EXPECT_EQ(strata("diff panes.strata --use transparency/weighted --flip-limit 0.2").code, 0);
+    EXPECT_EQ(strata("diff panes.strata --use-a transparency/weighted --use-b transparency/weighted").code, 2);
+    EXPECT_EQ(strata("diff panes.strata panes.strata --use-a transparency/weighted --use-b transparency/weighted").code, 0);
+}
+
+TEST_F(Diff, OfAnotherGbufferLayoutComparesWhatItHoldsAndNotItsBits) {
+    const Finished other = strata("diff panes.strata --use gbuffer/packed --limit 0.01 --json");
+    EXPECT_EQ(other.code, 0) << other.err;
+    const json frame = json::parse(other.out)["frames"][0];
+    EXPECT_EQ(verdict_of(frame, "gbuffer", "gbuffer0"), "not compared");
+    EXPECT_NE(verdict_of(frame, "gbuffer", "surface_normal"), "not compared");
+}
+
+TEST_F(Diff, OfACaptureAndItsOwnReplaysImagesIsExitZero) {
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    const Finished same = strata("diff panes.strata out/panes.f0000.exr");
+    EXPECT_EQ(same.code, 0) << same.err;
+    EXPECT_EQ(strata("diff panes.strata out/panes.f0000.exr --use-a transparency/weighted").code, 1);
+    EXPECT_EQ(strata("diff out/panes.f0000.exr out/panes.f0000.exr").code, 0);
+    EXPECT_EQ(strata("diff out/panes.f0000.png out/panes.f0000.png").code, 0);
+    EXPECT_EQ(strata("diff out/panes.f0000.png out/panes.f0000.exr").code, 2);
+}
+
+TEST_F(Diff, OfTwoSizesIsExitTwoWithBothShapes) {
+    ASSERT_EQ(strata("record three_panes --size 65x36 -o wider.strata").code, 0);
+    const Finished refused = strata("diff panes.strata wider.strata");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("64 x 36"));
+    EXPECT_THAT(refused.err, HasSubstr("65 x 36"));
+}
+
+TEST_F(Diff, WritesPicturesAndJunitAndRemovesPicturesThatNoLongerHold) {
+    const std::string picture = "out/panes.f0000.transparency.color.diff.png";
+    ASSERT_EQ(strata("diff panes.strata --use transparency/weighted -o out --junit out/diff.xml").code, 1);
+    EXPECT_TRUE(exists(picture));
+    EXPECT_THAT(contents("out/diff.xml"), HasSubstr(picture));
+    EXPECT_THAT(contents("out/diff.xml"), HasSubstr("<failure"));
+    ASSERT_EQ(strata("diff panes.strata panes.strata -o out --junit out/diff.xml").code, 0);
+    EXPECT_FALSE(exists(picture));
+    EXPECT_THAT(contents("out/diff.xml"), Not(HasSubstr("<failure")));
+}
+
+TEST_F(Diff, WhatCannotBeComparedIsASentence) {
+    ASSERT_EQ(strata("record three_panes --frames 2 -o two.strata").code, 0);
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    for (const char* wrong :
+         {"panes.strata", "panes.strata two.strata", "panes.strata panes.strata --frames 1", "two.strata out/panes.f0000.exr",
+          "out/panes.f0000.exr panes.strata", "panes.strata out/panes.f0000.png", "panes.strata --use no/such",
+          "panes.strata panes.strata --limit -1"}) {
+        const Finished failed = strata(std::string("diff ") + wrong);
+        EXPECT_EQ(failed.code, 2) << wrong;
+        EXPECT_FALSE(failed.err.empty()) << wrong;
+    }
+    std::ofstream(folder() / "broken.png") << "no picture";
+    for (const char* broken : {"panes.strata nowhere.strata", "panes.strata nowhere.exr", "broken.png broken.png"})
+        EXPECT_EQ(strata(std::string("diff ") + broken).code, 3) << broken;
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,110 @@
+// strata export and import --deep: one file of one kind per call, whole, and the same for equal runs.
+#include <fstream>
+#include <iterator>
+
+#include <flatbuffers/idl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "capture_format/container.h"
+#include "capture_format/decode_frame.h"
+#include "capture_format/frame_json.h"
+#include "replay/image_io.h"
+#include "tests/7_tool/process.h"
+#include "tests/support/deep_exr.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string contents_of(const std::string& name) {
+    std::ifstream file(folder() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Export, WantsExactlyOneKind) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
+    EXPECT_THAT(strata("export panes.strata -o x").err, HasSubstr("say what to export: one of --deep, --image, --gltf, --json"));
+    const Finished both = strata("export panes.strata --deep --json -o x");
+    EXPECT_EQ(both.code, 2);
+    EXPECT_THAT(both.err, HasSubstr("--deep and --json cannot be asked for together"));
+    EXPECT_EQ(strata("export panes.strata --json").code, 2) << "without -o";
+    EXPECT_EQ(strata("export panes.strata --json --frame 9 -o x").code, 2);
+    EXPECT_EQ(strata("export nowhere.strata --json -o x").code, 3);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "x"));
+}
+
+TEST(Export, WritesADeepImageThatComesBackAsTheSameFragments) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
+    const Finished exported = strata("export panes.strata --deep -o panes.exr");
+    ASSERT_EQ(exported.code, 0) << exported.err;
+    EXPECT_THAT(exported.err, HasSubstr("exported 1801 fragments; flattened again they are within"));
+    const Finished imported = strata("import --deep panes.exr -o again.strata");
+    ASSERT_EQ(imported.code, 0) << imported.err;
+    EXPECT_THAT(imported.err, HasSubstr("imported 1801 samples of panes.exr as 1801 fragments"));
+    ASSERT_EQ(strata("export again.strata --deep -o again.exr").code, 0);
+    EXPECT_EQ(openexr_composite(folder() / "again.exr").texels, openexr_composite(folder() / "panes.exr").texels);
+    ASSERT_EQ(strata("export panes.strata --deep -o equal.exr").code, 0);
+    EXPECT_EQ(contents_of("equal.exr"), contents_of("panes.exr"));
+}
+
+TEST(Export, RefusesGlassAndSamplesThatADeepImageCannotHoldUntilToldHow) {
+    ASSERT_EQ(strata("record red_and_green_glass --samples 4 -o glass.strata").code, 0);
+    const Finished samples = strata("export glass.strata --deep -o glass.exr");
+    EXPECT_EQ(samples.code, 2);
+    EXPECT_THAT(samples.err, HasSubstr("choose --sample 0 to 3"));
+    const Finished glass = strata("export glass.strata --deep --sample 2 -o glass.exr");
+    EXPECT_EQ(glass.code, 2);
+    EXPECT_THAT(glass.err, HasSubstr("--transmittance mean"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "glass.exr"));
+    EXPECT_EQ(strata("export glass.strata --deep --sample 2 --transmittance mean -o glass.exr").code, 0);
+    EXPECT_EQ(strata("export glass.strata --deep --sample 4 -o glass.exr").code, 2);
+}
+
+TEST(Export, WritesImagesAndViewsByTheirNames) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
+    ASSERT_EQ(strata("export panes.strata --image color,display -o both.exr").code, 0);
+    EXPECT_EQ(must(read_exr(folder() / "both.exr")).size(), 2u);
+    EXPECT_EQ(strata("export panes.strata --image transparency/sorted_lists:layers -o layers.png").code, 0);
+    EXPECT_THAT(contents_of("layers.png"), testing::StartsWith("\x89PNG"));
+    EXPECT_EQ(strata("export panes.strata --image color,display -o both.png").code, 2);
+    EXPECT_EQ(strata("export panes.strata --image color -o color.jpg").code, 2);
+    EXPECT_THAT(strata("export panes.strata --image colour -o color.exr").err, HasSubstr("did you mean color"));
+}
+
+TEST(Export, WritesTheFrameAsJsonThatTheSchemaReadsBackBitForBit) {
+    ASSERT_EQ(strata("record glass_and_smoke -o room.strata").code, 0);
+    const Finished exported = strata("export room.strata --json -o room.json");
+    ASSERT_EQ(exported.code, 0) << exported.err;
+    const std::string text = contents_of("room.json");
+    EXPECT_EQ(json::parse(text)["view"]["samples"], 1);
+    flatbuffers::Parser parser;
+    std::ifstream schema(STRATA_SOURCE_DIR "/capture_format/schema/capture.fbs");
+    ASSERT_TRUE(parser.Parse(std::string(std::istreambuf_iterator<char>(schema), {}).c_str())) << parser.error_;
+    ASSERT_TRUE(parser.Parse(text.c_str())) << parser.error_;
+    // Read by flatbuffers' own parser into the frame that was recorded, which gives the same text: no digit was lost.
+    const std::span parsed(parser.builder_.GetBufferPointer(), parser.builder_.GetSize());
+    const Container container = must(Container::open(folder() / "room.strata"));
+    BlobStore blobs = must(BlobStore::open(container));
+    EXPECT_EQ(must(frame_json(must(decode_frame(std::as_bytes(parsed), blobs)))), text);
+}
+
+TEST(Export, WritesTheSceneAsGltfThatImportReads) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
+    ASSERT_EQ(strata("export panes.strata --gltf -o panes.glb").code, 0);
+    EXPECT_EQ(strata("import panes.glb -o again.strata --size 64x36").code, 0);
+}
+
+TEST(ImportDeep, ADamagedImageIsExitThreeAndLeavesNothing) {
+    std::ofstream(folder() / "broken.exr") << "v/1\x01, but no picture";
+    EXPECT_EQ(strata("import --deep broken.exr -o broken.strata").code, 3);
+    EXPECT_EQ(strata("import --deep nowhere.exr -o broken.strata").code, 3);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "broken.strata"));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,100 @@
+// Flattening a deep image of 10 million fragments: ours beside OpenEXR's CompositeDeepScanLine, in turn, each with every core.
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include <ImfThreading.h>
+#include <benchmark/benchmark.h>
+
+#include "capture_format/file.h"
+#include "capture_format/whole_file.h"
+#include "replay/deep_image.h"
+#include "replay/flatten_deep.h"
+#include "replay/measure/timing.h"
+#include "tests/support/deep_exr.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+constexpr std::uint32_t width = 1000, height = 500, per_pixel = 20;
+
+/// As `strata export --deep` writes them: sorted, floats, ZIPS. Thin layers of any color, so that every one counts.
+DeepImage ten_million_fragments() {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    DeepImage image{.width = width, .height = height, .begin = {0}};
+    for (const std::string_view name : {"R", "G", "B", "A", "Z"}) image.channels.push_back({name, {}});
+    for (std::uint32_t pixel = 0; pixel < width * height; ++pixel) {
+        float depth = 1;
+        for (std::uint32_t i = 0; i < per_pixel; ++i) {
+            const float alpha = .2f * unit(random);
+            depth += unit(random);
+            for (std::size_t c = 0; c < 3; ++c) image.channels[c].values.push_back(alpha * unit(random));
+            image.channels[3].values.push_back(alpha);
+            image.channels[4].values.push_back(depth);
+        }
+        image.begin.push_back(image.channels[0].values.size());
+    }
+    return image;
+}
+
+/// The file, gone afterwards.
+struct ScratchImage {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("speed.{}.exr", getpid());
+    ScratchImage() { must(write_whole_file(path, must(deep_exr(ten_million_fragments(), {})))); }
+    ~ScratchImage() {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
+    }
+};
+
+template <typename Run>
+double milliseconds(const Run& run) {
+    const auto begin = std::chrono::steady_clock::now();
+    run();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Largest difference of a channel.
+double worst_difference(const FlatDeep& ours, const std::vector<glm::vec4>& theirs) {
+    double worst = 0;
+    for (std::uint32_t i = 0; i < width * height; ++i) {
+        const glm::dvec4 off = glm::abs(texel(ours.image, i % width, i / width) - glm::dvec4(theirs[i]));
+        worst = std::max({worst, off.x, off.y, off.z, off.w});
+    }
+    return worst;
+}
+
+void flatten_ten_million_fragments(benchmark::State& state) {
+    const ScratchImage file;
+    Imf::setGlobalThreadCount(static_cast<int>(std::thread::hardware_concurrency()));
+    std::vector<double> ours, theirs, ratios;
+    for (auto _ : state) {
+        FlatDeep flat;
+        std::vector<glm::vec4> composite;
+        ours.push_back(milliseconds([&] {
+            const MappedFile bytes = must(MappedFile::open(file.path));
+            flat = must(flatten_deep(bytes.bytes(), "ten million"));
+        }));
+        theirs.push_back(milliseconds([&] { composite = openexr_composite(file.path).texels; }));
+        ratios.push_back(theirs.back() / ours.back());
+        // 20 sums of numbers up to .2, in float there: 20 roundings of 2^-24 and as many of its alpha.
+        if (const double off = worst_difference(flat, composite); off > 1e-5)
+            return state.SkipWithError(fmt::format("the two differ by {}", off).c_str());
+    }
+    const Spread our_ms = spread_of(ours), their_ms = spread_of(theirs), ratio = spread_of(ratios);
+    state.counters["ours_ms"] = our_ms.median;
+    state.counters["ours_mad"] = our_ms.mad;
+    state.counters["openexr_ms"] = their_ms.median;
+    state.counters["openexr_mad"] = their_ms.mad;
+    state.counters["ratio"] = ratio.median;
+    state.counters["ratio_mad"] = ratio.mad;
+}
+BENCHMARK(flatten_ten_million_fragments)->Iterations(9)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,134 @@
+// What the program costs around the rendering: from its start to the first picture, and a report beside single replays. Every
+// figure is a median over processes with its deviation; both sides of a ratio are measured in turn.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "capture_format/recorder.h"
+#include "passes/registry.h"
+#include "replay/measure/lap.h"
+#include "replay/measure/timing.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+/// A folder with the capture of a scenario's first frame; gone afterwards.
+class Scratch {
+public:
+    explicit Scratch(std::string_view scenario) {
+        std::filesystem::create_directories(folder_);
+        Recorder recorder = must(Recorder::create(capture()));
+        must(recorder.record(scenario_frames(scenario).front()));
+        must(recorder.finish());
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    std::filesystem::path capture() const { return folder_ / "frame.strata"; }
+    /// Milliseconds from the start of the program to its end; throws when it fails.
+    double run(const std::string& arguments) const {
+        const std::string command =
+            fmt::format("cd '{}' && '{}/strata' {} > out.txt 2> err.txt", folder_.string(), STRATA_BINARY_DIR, arguments);
+        Lap lap;
+        if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: strata " + arguments);
+        return lap();
+    }
+
+private:
+    std::filesystem::path folder_ = std::filesystem::temp_directory_path() / fmt::format("strata_speed.{}", getpid());
+};
+
+/// One frame again in a session that has rendered it before: the rendering itself, with nothing left to start.
+double rendering_ms(Session& session, const Request& request) {
+    session.forget_memo();
+    return must(session.run(request)).host_ms.device.render;
+}
+
+void start_to_first_picture(benchmark::State& state, std::string_view scenario) {
+    const Scratch scratch(scenario);
+    const auto session = must(Session::open(scratch.capture(), {}));
+    const Request picture{.outputs = {"display"}};
+    rendering_ms(*session, picture);
+    scratch.run("replay frame.strata --outputs display");  // fills the driver's shader cache
+    std::vector<double> whole, rendering, rest;
+    for (auto _ : state) {
+        whole.push_back(scratch.run("replay frame.strata --outputs display"));
+        rendering.push_back(rendering_ms(*session, picture));
+        rest.push_back(whole.back() - rendering.back());
+        state.SetIterationTime(whole.back() / 1000);
+    }
+    for (const auto& [name, values] : {std::pair("process", &whole), {"rendering", &rendering}, {"rest", &rest}}) {
+        const Spread spread = spread_of(*values);
+        state.counters[fmt::format("{}_ms", name)] = spread.median;
+        state.counters[fmt::format("{}_mad", name)] = spread.mad;
+    }
+}
+BENCHMARK_CAPTURE(start_to_first_picture, city_of_boxes, "city_of_boxes")
+    ->UseManualTime()
+    ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(start_to_first_picture, glass_and_smoke, "glass_and_smoke")
+    ->UseManualTime()
+    ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
+
+/// Twelve settings of transparency: every technique, and one parameter swept to fill up.
+struct Settings12 {
+    std::string sweep;
+    std::vector<std::string> replays;
+
+    Settings12() {
+        const Technique* swept = nullptr;
+        const Param* param = nullptr;
+        for (const Technique* technique : techniques_of(Stage::transparency)) {
+            const auto is_number = [](const Param& p) { return p.choices.empty() && p.high / 2 > p.low; };
+            const auto found = std::ranges::find_if(technique->params, is_number);
+            if (found != technique->params.end()) swept = technique, param = &*found;
+        }
+        if (!swept) throw std::runtime_error("no technique of transparency has a number to sweep");
+        sweep = fmt::format("{}=", param->name);
+        for (const Technique* technique : techniques_of(Stage::transparency))
+            if (technique != swept) replays.push_back(fmt::format("--use {}", technique->name));
+        for (double value = param->fallback; replays.size() < 12; value *= 1.01) {
+            sweep += fmt::format("{}{}", sweep.ends_with('=') ? "" : ",", value);
+            replays.push_back(fmt::format("--use {} --set {}={}", swept->name, param->name, value));
+        }
+    }
+};
+
+/// timed: the arguments that make a replay measure as much as a row of the report does, or nothing.
+void report_against_replays(benchmark::State& state, const char* timed) {
+    const Scratch scratch("glass_and_smoke");
+    const Settings12 settings;
+    const std::string report = fmt::format("report frame.strata --sweep {} --json", settings.sweep);
+    scratch.run(report);
+    std::vector<double> ratio;
+    for (auto _ : state) {
+        const double reported = scratch.run(report);
+        double replayed = 0;
+        for (const std::string& use : settings.replays)
+            replayed += scratch.run(fmt::format("replay frame.strata {} {}", use, timed));
+        ratio.push_back(reported / replayed);
+        state.SetIterationTime(reported / 1000);
+    }
+    const Spread spread = spread_of(ratio);
+    state.counters["report_to_12_replays"] = spread.median;
+    state.counters["mad"] = spread.mad;
+}
+BENCHMARK_CAPTURE(report_against_replays, that_measure_as_much, "--time 7")
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(report_against_replays, that_measure_nothing, "")
+    ->UseManualTime()
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace strata
