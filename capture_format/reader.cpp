@@ -30,8 +30,9 @@ struct Capture::Contents {
     std::vector<std::string> expectations;
 
     explicit Contents(Container opened) : container(std::move(opened)) {}
-    Result<void> read();
+    Result<void> read(Partial);
     void summarize();
+    static bool is_known(const Section&);
     Result<void> take(std::size_t section);
     Result<void> take_frame(std::size_t section);
     Result<std::span<const std::byte>> flatbuffer(std::size_t frame);
@@ -76,23 +77,40 @@ Result<void> Capture::Contents::take_frame(std::size_t number) {
     return {};
 }
 
-/// Takes stock of one section. Those of types or text versions this program does not know are left alone.
+/// Whether take() knows what the section's bytes mean. Other types and versions were written by a newer program.
+bool Capture::Contents::is_known(const Section& section) {
+    switch (section.type) {
+        case SectionType::thumbnail:
+            return section.version == picture_version;
+        case SectionType::notes:
+            return section.version == notes_version;
+        case SectionType::expect:
+            return section.version == expect_version;
+        case SectionType::directory:
+        case SectionType::frame:
+        case SectionType::blobs:
+            return true;  // a frame without its own bytes is none: their versions are errors, elsewhere
+    }
+    return false;
+}
+
+/// Takes stock of one section that is known.
 Result<void> Capture::Contents::take(std::size_t number) {
     const Section& section = container.sections()[number];
     if (section.type == SectionType::frame) return take_frame(number);
-    if (section.type == SectionType::thumbnail && section.version == picture_version) {
+    if (section.type == SectionType::thumbnail) {
         const auto stored = container.stored(number);
         if (!stored) return stored.error();
         Result<Texture> picture = decode_picture(*stored);
         if (!picture) return at(container, number, picture.error());
         thumbnail = *std::move(picture);
     }
-    if (section.type == SectionType::notes && section.version == notes_version) {
+    if (section.type == SectionType::notes) {
         Result<std::string> notes = text(number, longest_notes);
         if (!notes) return notes.error();
         summary.notes = *std::move(notes);
     }
-    if (section.type == SectionType::expect && section.version == expect_version) {
+    if (section.type == SectionType::expect) {
         Result<std::string> expectation = text(number, longest_expectation);
         if (!expectation) return expectation.error();
         expectations.push_back(*std::move(expectation));
@@ -146,13 +164,25 @@ void Capture::Contents::summarize() {
     summary.cut_short = container.damage().has_value();
 }
 
-Result<void> Capture::Contents::read() {
+Result<void> Capture::Contents::read(Partial partial) {
     Result<BlobStore> opened = BlobStore::open(container);
     if (!opened) return opened.error();
     blobs = *std::move(opened);
     for (std::size_t i = 0; i < container.sections().size(); ++i) {
-        if (const Result<void> taken = take(i); !taken) return taken;
+        const Section& section = container.sections()[i];
+        if (!is_known(section)) {
+            summary.left_out.push_back(fmt::format("{} has type {} in version {}, which this program does not know: skipped",
+                                                   container.whereabouts(i), static_cast<std::uint32_t>(section.type),
+                                                   section.version));
+            continue;
+        }
+        const Result<void> taken = take(i);
+        // Without its notes, picture or expectations a capture still holds its frames.
+        const bool is_dispensable = partial == Partial::allowed && section.type != SectionType::frame;
+        if (!taken && !is_dispensable) return taken;
+        if (!taken) summary.left_out.push_back(taken.error().sentence + ": left out");
     }
+    if (container.damage()) summary.left_out.push_back(container.damage()->sentence + ": what follows is left out");
     summarize();
     id = identify(container.sections());
     return {};
@@ -171,7 +201,7 @@ Result<Capture> Capture::read(Result<Container> container, Partial partial) {
                     container->damage()->sentence);
     }
     auto contents = std::make_unique<Contents>(*std::move(container));
-    if (const Result<void> read = contents->read(); !read) return read.error();
+    if (const Result<void> read = contents->read(partial); !read) return read.error();
     return Capture(std::move(contents));
 }
 

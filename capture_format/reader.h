@@ -25,7 +25,8 @@ struct CaptureSummary {
     std::uint64_t file_bytes = 0, blob_bytes_stored = 0, blob_bytes_raw = 0;
     std::size_t frames = 0, blobs = 0;
     bool cut_short = false;
-    std::string notes;  ///< free text of the notes section
+    std::string notes;                  ///< free text of the notes section
+    std::vector<std::string> left_out;  ///< what was not read, and why: sections of a newer program, or damaged where partial
 };
 
 class Capture {

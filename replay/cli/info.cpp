@@ -84,9 +84,10 @@ void print(const Capture& capture, const Frame& frame, std::size_t index) {
 }
 
 Result<void> info(const Options& options) {
-    const auto capture = Capture::open(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
+    const auto capture = open_capture(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
+    if (count == 0) return fail(Fault::bad_input, "{} holds no frame", options.capture.string());
     if (options.frame >= count)
         return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"),
                     options.frame);
@@ -98,7 +99,7 @@ Result<void> info(const Options& options) {
 }
 
 Result<void> validate(const Options& options) {
-    const auto capture = Capture::open(options.capture);
+    const auto capture = open_capture(options.capture, Partial::refused);
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
         if (const auto frame = capture->frame(i); !frame)

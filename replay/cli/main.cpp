@@ -30,6 +30,15 @@ Result<void> list_gpus() {
     return {};
 }
 
+/// A file may need more memory than there is and still be within every limit: 4 GiB for a frame.
+Result<void> within_memory(const std::function<Result<void>()>& verb) {
+    try {
+        return verb();
+    } catch (const std::bad_alloc&) {
+        return fail(Fault::device_lacks, "this machine has not the memory that is needed");
+    }
+}
+
 /// "strata help VERB" is "strata VERB --help".
 int run(std::vector<std::string> arguments) {
     CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.",
@@ -67,7 +76,7 @@ int run(std::vector<std::string> arguments) {
         fmt::print("{}", app.help());
     } else {
         for (const auto& [sub, verb] : runs)
-            if (sub->parsed()) done = verb();
+            if (sub->parsed()) done = within_memory(verb);
     }
     return done ? 0 : report_error(done.error());
 }

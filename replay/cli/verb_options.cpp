@@ -7,6 +7,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "capture_format/picture.h"
+#include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
 #include "replay/image_io.h"
@@ -35,6 +36,10 @@ Texture thumbnail_of(const HostImage& display) {
     return texture;
 }
 
+void say_what_is_left_out(const Capture& capture) {
+    for (const std::string& sentence : capture.summary().left_out) fmt::print(stderr, "strata: {}\n", sentence);
+}
+
 /// The frame at an extent that fits a thumbnail; an edge shorter than the divisor stays one pixel.
 Frame small(Frame frame) {
     View& view = frame.view;
@@ -61,7 +66,15 @@ void add_options(CLI::App& app, OpenOptions& options) {
 }
 
 Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
-    return Session::open(options.capture, options.device, options.allow_partial ? Partial::allowed : Partial::refused);
+    auto session = Session::open(options.capture, options.device, options.allow_partial ? Partial::allowed : Partial::refused);
+    if (session) say_what_is_left_out(*(*session)->capture());
+    return session;
+}
+
+Result<Capture> open_capture(const std::filesystem::path& path, Partial partial) {
+    auto capture = Capture::open(path, partial);
+    if (capture) say_what_is_left_out(*capture);
+    return capture;
 }
 
 void add_options(CLI::App& app, ChoiceOptions& options) {

@@ -33,10 +33,12 @@ std::filesystem::path folder() {
     return path;
 }
 
-Finished strata(const std::string& arguments) {
+Finished strata(const std::string& arguments) { return strata_after("true", arguments); }
+
+Finished strata_after(const std::string& line, const std::string& arguments) {
     const std::string in = folder().string();
-    const int status =
-        std::system(("cd " + in + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
+    const int status = std::system(
+        ("cd " + in + " && " + line + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
     return {WEXITSTATUS(status), contents(folder() / "stdout.txt"), contents(folder() / "stderr.txt")};
 }
 

@@ -14,6 +14,9 @@ struct Finished {
 /// strata with these arguments (a shell line), in a folder of its own that is emptied for each test.
 Finished strata(const std::string& arguments);
 
+/// The same after a line of the shell's own in the same process: "ulimit -f 1", "export NAME=value".
+Finished strata_after(const std::string& line, const std::string& arguments);
+
 /// The folder; made for the running test.
 std::filesystem::path folder();
 

@@ -1,0 +1,112 @@
+// Every bad file through every verb that reads one: the right exit code, a sentence that names the file, nothing written.
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/1_capture/temporary_file.h"
+#include "tests/7_tool/file_verbs.h"
+#include "tests/7_tool/forged_captures.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+using Bytes = std::vector<std::byte>;
+
+/// The files of the folder but what a run prints, with what is in them.
+std::map<std::string, Bytes> files() {
+    std::map<std::string, Bytes> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder())) {
+        const std::string name = entry.path().lexically_relative(folder()).string();
+        if (entry.is_regular_file() && name != "stdout.txt" && name != "stderr.txt") found[name] = read_file(entry.path());
+    }
+    return found;
+}
+
+/// Runs the verb on the bad file that is there: refused as bad input with a sentence that names it and says the words.
+void expect_refused(const FileVerb& verb, const std::string& words) {
+    const auto before = files();
+    const Finished refused = strata(verb.command());
+    EXPECT_EQ(refused.code, 3) << refused.err;
+    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr(verb.file()), HasSubstr(words)));
+    EXPECT_EQ(refused.out, "");
+    EXPECT_TRUE(files() == before) << "something was written";
+}
+
+class BadFile : public testing::TestWithParam<FileVerb> {};
+
+TEST_P(BadFile, EmptyMissingOrAFolderIsRefused) {
+    expect_refused(GetParam(), "");
+    std::filesystem::create_directory(folder() / GetParam().file());
+    expect_refused(GetParam(), "");
+    std::filesystem::remove(folder() / GetParam().file());
+    write_file(folder() / GetParam().file(), {});
+    expect_refused(GetParam(), "");
+}
+
+TEST_P(BadFile, RandomBytesAreRefused) {
+    std::mt19937 random(1);
+    for (const std::size_t size : std::initializer_list<std::size_t>{1, 15, 16, 4096, 100000}) {
+        Bytes bytes(size);
+        std::ranges::generate(bytes, [&] { return static_cast<std::byte>(random()); });
+        write_file(folder() / GetParam().file(), bytes);
+        expect_refused(GetParam(), "");
+    }
+}
+
+std::string test_name(const testing::TestParamInfo<FileVerb>& info) { return std::string(info.param.name); }
+
+INSTANTIATE_TEST_SUITE_P(Verbs, BadFile, testing::ValuesIn(file_verbs()), test_name);
+
+class BadCapture : public testing::TestWithParam<FileVerb> {};
+
+TEST_P(BadCapture, ThatLiesBehindRightChecksumsIsRefusedWithSectionAndOffset) {
+    for (const ForgedCapture& forged : forged_captures()) {
+        SCOPED_TRACE(forged.name);
+        write_file(folder() / GetParam().file(), forged.bytes);
+        expect_refused(GetParam(), forged.says);
+    }
+}
+
+// The first of the frames, which are of 16 x 9 pixels, lies in the second quarter.
+TEST_P(BadCapture, ThatIsCutIsRefusedOrReadUpToTheCutWhenAllowed) {
+    const Bytes good = sound_capture();
+    for (const std::size_t size : {good.size() - 1, good.size() * 3 / 4, good.size() / 4, std::size_t{16}, std::size_t{3}}) {
+        SCOPED_TRACE(size);
+        write_file(folder() / GetParam().file(), std::span(good).first(size));
+        expect_refused(GetParam(), "");
+        if (!GetParam().takes_partial) continue;
+        const Finished partial = strata(GetParam().command() + " --allow-partial");
+        EXPECT_EQ(partial.code, size > good.size() / 2 ? 0 : 3) << partial.err;
+        EXPECT_THAT(partial.err, HasSubstr(size > good.size() / 2 ? "what follows is left out" : GetParam().file()));
+        for (const char* made : {"out", "report.txt"}) std::filesystem::remove_all(folder() / made);
+    }
+}
+
+TEST_P(BadCapture, WithASectionOfTheFutureIsReadAndTheSectionNamed) {
+    write_file(folder() / GetParam().file(), capture_with_unknown_section());
+    const Finished read = strata(GetParam().command());
+    EXPECT_EQ(read.code, 0) << read.err;
+    EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown) at offset"), HasSubstr("type 77 in version 3")));
+}
+
+TEST_P(BadCapture, AFrameThatDoesNotExistIsAUsageError) {
+    write_file(folder() / GetParam().file(), sound_capture());
+    for (const char* option :
+         {" --frame 4", " --frame 99999999999999999999", " --frames 4", " --frames 0-18446744073709551615"}) {
+        const Finished refused = strata(GetParam().command() + option);
+        EXPECT_EQ(refused.code, 2) << option << refused.err;
+        EXPECT_FALSE(refused.err.empty());
+    }
+    EXPECT_EQ(files().size(), 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Verbs, BadCapture, testing::ValuesIn(capture_verbs()), test_name);
+
+}  // namespace
+}  // namespace strata

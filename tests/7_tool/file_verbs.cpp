@@ -1,0 +1,28 @@
+#include "tests/7_tool/file_verbs.h"
+
+namespace strata {
+namespace {
+
+constexpr FileVerb table[] = {
+    {"info", "info", "", ".strata", true},
+    {"validate", "validate", "", ".strata", false},
+    {"replay", "replay", "-o out", ".strata", true},
+    {"accept", "accept", "", ".strata", false},
+    {"graph", "graph", "", ".strata", true},
+    {"report", "report", "--repeats 1 -o report.txt", ".strata", true},
+    {"import_gltf", "import", "-o made.strata", ".glb", false},
+    {"import_deep", "import --deep", "-o made.strata", ".exr", false},
+};
+
+}  // namespace
+
+std::span<const FileVerb> file_verbs() { return table; }
+
+std::vector<FileVerb> capture_verbs() {
+    std::vector<FileVerb> found;
+    for (const FileVerb& verb : table)
+        if (verb.extension == ".strata") found.push_back(verb);
+    return found;
+}
+
+}  // namespace strata

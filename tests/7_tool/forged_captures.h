@@ -1,0 +1,24 @@
+// Captures whose checksums are right and whose contents lie: what a forger would write, one lie each.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace strata {
+
+struct ForgedCapture {
+    std::string name;
+    std::vector<std::byte> bytes;
+    std::string says;  ///< part of the sentence that refuses it
+};
+
+std::vector<ForgedCapture> forged_captures();
+
+/// A sound capture of several frames that build on each other, with notes, and with a section of a type that does not exist.
+std::vector<std::byte> sound_capture();
+std::vector<std::byte> capture_with_unknown_section();
+/// A few kilobytes within every limit whose one texture takes 1 GiB.
+std::vector<std::byte> vast_capture();
+
+}  // namespace strata

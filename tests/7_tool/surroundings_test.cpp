@@ -1,0 +1,127 @@
+// When the file is sound and the world around it is not: outputs, disks, devices, caches.
+#include <fstream>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/1_capture/temporary_file.h"
+#include "tests/7_tool/forged_captures.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+/// Every command that writes, with {} for where to, and whether that is a folder.
+struct Writing {
+    const char* command;
+    const char* target;
+};
+constexpr Writing writings[] = {
+    {"record three_panes -o", "made.strata"},
+    {"replay sound.strata -o", "out"},
+    {"report sound.strata --repeats 1 -o", "report.txt"},
+};
+
+void write_sound_capture() { write_file(folder() / "sound.strata", sound_capture()); }
+
+/// How many files there are but the capture and what the last run printed.
+std::size_t files_made() {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder())) {
+        const auto name = entry.path().filename();
+        count += entry.is_regular_file() && name != "stdout.txt" && name != "stderr.txt" && name != "sound.strata";
+    }
+    return count;
+}
+
+TEST(Output, ThatCannotBeWrittenIsAUsageErrorWithTheSystemsWords) {
+    write_sound_capture();
+    for (const Writing& writing : writings) {
+        const std::string below_a_file = fmt::format("{} sound.strata/{}", writing.command, writing.target);
+        const Finished failed = strata(below_a_file);
+        EXPECT_EQ(failed.code, 2) << below_a_file << failed.err;
+        EXPECT_THAT(failed.err, testing::AllOf(HasSubstr("sound.strata"), HasSubstr("Not a directory"))) << below_a_file;
+    }
+    std::filesystem::create_directory(folder() / "made.strata");
+    EXPECT_THAT(strata("record three_panes -o made.strata").err, HasSubstr("made.strata: Is a directory"));
+    EXPECT_THAT(strata("replay sound.strata -o sound.strata").err, HasSubstr("cannot make the folder sound.strata"));
+    EXPECT_EQ(files_made(), 0u);
+}
+
+// The limit of a file's size is a full disk for one process: a write of more fails.
+TEST(Output, OnAFullDiskIsAUsageErrorAndLeavesWhatWasThereBefore) {
+    write_sound_capture();
+    std::filesystem::create_directory(folder() / "out");
+    for (const char* old : {"made.strata", "report.txt", "out/sound.f0000.exr"}) std::ofstream(folder() / old) << "old";
+    for (const Writing& writing : writings) {
+        const Finished failed = strata_after("ulimit -f 1", fmt::format("{} {}", writing.command, writing.target));
+        EXPECT_EQ(failed.code, 2) << writing.command << failed.err;
+        EXPECT_THAT(failed.err, HasSubstr("File too large")) << writing.command;
+    }
+    EXPECT_EQ(files_made(), 3u);
+    for (const char* old : {"made.strata", "report.txt", "out/sound.f0000.exr"})
+        EXPECT_EQ(std::filesystem::file_size(folder() / old), 3u) << old;
+    EXPECT_THAT(strata("record three_panes -o /dev/full").err, HasSubstr("No space left on device"));
+}
+
+TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
+    write_sound_capture();
+    const std::string none = "export VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
+    for (const char* verb : {"replay sound.strata", "graph sound.strata", "report sound.strata", "accept sound.strata"}) {
+        const Finished failed = strata_after(none, verb);
+        EXPECT_EQ(failed.code, 4) << verb << failed.err;
+        EXPECT_THAT(failed.err, HasSubstr("Vulkan")) << verb;
+    }
+    for (const char* verb : {"info sound.strata", "validate sound.strata", "list", "record three_panes -o made.strata"})
+        EXPECT_EQ(strata_after(none, verb).code, 0) << verb;
+    EXPECT_EQ(strata("validate made.strata").code, 0);
+}
+
+TEST(Device, ThatLacksAFeatureIsNamedWithIt) {
+    write_sound_capture();
+    for (const char* feature : {"dynamicRendering", "scalarBlockLayout", "dualSrcBlend", "shaderInt64"}) {
+        const Finished failed = strata(fmt::format("replay sound.strata --without {}", feature));
+        EXPECT_EQ(failed.code, 4) << feature;
+        EXPECT_THAT(failed.err, HasSubstr(fmt::format("lacks the feature {}", feature)));
+    }
+    const Finished unknown = strata("replay sound.strata --without dualSourceBlend");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("did you mean dualSrcBlend?"));
+    EXPECT_EQ(files_made(), 0u);
+}
+
+TEST(Device, WithoutACapabilityBeyondTheBaselineTheFrameIsTheSame) {
+    write_sound_capture();
+    ASSERT_EQ(strata("replay sound.strata --frames 0 -o with").code, 0);
+    const Finished without =
+        strata("replay sound.strata --frames 0 -o without --without buffer_int64_atomics --without fragment_interlock");
+    ASSERT_EQ(without.code, 0) << without.err;
+    EXPECT_EQ(read_file(folder() / "with/sound.f0000.exr"), read_file(folder() / "without/sound.f0000.exr"));
+}
+
+TEST(ShaderCache, ThatIsBrokenChangesNothing) {
+    write_sound_capture();
+    ASSERT_EQ(strata("replay sound.strata --frames 0 -o good").code, 0);
+    std::filesystem::create_directories(folder() / "cache/mesa_shader_cache");
+    for (const char* file : {"cache/mesa_shader_cache/index", "cache/mesa_shader_cache/marker", "cache/mesa_shader_cache/00"})
+        std::ofstream(folder() / file) << std::string(5000, '\xff');
+    for (const char* broken : {"$PWD/cache", "$PWD/sound.strata", "/proc/nowhere"}) {
+        const Finished replayed = strata_after(fmt::format("export MESA_SHADER_CACHE_DIR={0} XDG_CACHE_HOME={0}", broken),
+                                               "replay sound.strata --frames 0 -o broken");
+        EXPECT_EQ(replayed.code, 0) << broken << replayed.err;
+        EXPECT_EQ(read_file(folder() / "good/sound.f0000.exr"), read_file(folder() / "broken/sound.f0000.exr")) << broken;
+    }
+}
+
+TEST(Memory, ThatDoesNotSufficeIsASentence) {
+    write_file(folder() / "vast.strata", vast_capture());
+    const Finished failed = strata_after("ulimit -v 400000", "info vast.strata");
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    EXPECT_THAT(failed.err, HasSubstr("memory"));
+}
+
+}  // namespace
+}  // namespace strata
