@@ -54,6 +54,8 @@ private:
         std::vector<double> step_ms;
     };
     Result<TimedRun> time_alone(const Request&);
+    /// What is known of a run that executes everything, before any run.
+    Result<Run> plan_run(const Request&);
     Result<Run> run_with_acts(const Request&);
 
     /// Loads the frame's variant when it is not the current one, and declares the request on it.

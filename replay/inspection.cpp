@@ -57,6 +57,13 @@ std::vector<Place> places_of(const Declaration& d, const DeclaredAct& act, Peeks
     return places;
 }
 
+/// How many acts stand before the last one of a stage's technique; nothing when it has none.
+std::optional<std::size_t> before_last_act(const Declaration& d, Stage stage) {
+    for (std::size_t i = d.frame.acts.size(); i-- > 0;)
+        if (d.frame.acts[i].technique->stage == stage) return i;
+    return {};
+}
+
 /// The last scope of an act: what the memo keeps of it, or puts in its place, is in one of its own.
 std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
     const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].name.starts_with("memo: ");
@@ -90,18 +97,19 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     // Under a memory budget what the memo may hold depends on the peeks, which depend on the plan: then everything is executed.
     auto declared = prepare(request, memory_budget_ == 0 ? &memo_ : nullptr, Keep::all_images);
     if (!declared) return declared.error();
-    const Declaration& d = *declared;
-    const auto own = [&](const DeclaredAct& act) { return act.technique->stage == stage; };
-    const auto last = std::find_if(d.frame.acts.rbegin(), d.frame.acts.rend(), own);
-    if (last == d.frame.acts.rend()) {
+    const auto acts_before = before_last_act(*declared, stage);
+    std::vector<std::uint64_t> keys = declared->act_keys;
+    if (acts_before) keys.resize(std::min(keys.size(), *acts_before));
+    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    if (!is_known) {
         memo_.drop_unfilled();
-        return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+        if (!acts_before) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+        // What the memo puts in the place of a stage leaves out what only that stage would have read.
+        declared = prepare(request, nullptr, Keep::all_images);
+        if (!declared) return declared.error();
     }
-    const std::size_t acts_before = static_cast<std::size_t>(d.frame.acts.rend() - last) - 1;
-    std::vector<std::uint64_t> keys(
-        d.act_keys.begin(),
-        d.act_keys.begin() + std::min<std::ptrdiff_t>(std::ssize(d.act_keys), static_cast<std::ptrdiff_t>(acts_before)));
-    const bool is_known = found_ && !d.act_keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    const Declaration& d = *declared;
+    const DeclaredAct* last = &d.frame.acts[*acts_before];
     Peeks peeks;
     std::vector<Place> before, result;
     const auto want = [&](std::vector<Place>& places, std::string_view image_name, Image image, std::size_t end) {

@@ -54,6 +54,16 @@ std::optional<std::vector<double>> times_of(const std::vector<StepRecord>& steps
     return times;
 }
 
+/// What an execution with the memo gave, for a run that describes the whole frame.
+void add_results(Run& whole, Run executed, std::map<std::string, HostImage> images) {
+    executed.memory.over_time = std::move(whole.memory.over_time);
+    whole.memory = std::move(executed.memory);
+    whole.counters = std::move(executed.counters);
+    whole.notes = std::move(executed.notes);
+    whole.host_ms = executed.host_ms;
+    whole.images = std::move(images);
+}
+
 }  // namespace
 
 Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
@@ -66,6 +76,12 @@ Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request
     return timed;
 }
 
+Result<Run> DeviceSession::plan_run(const Request& request) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    return describe_run(*declared);
+}
+
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
     std::vector<Run> runs;
     std::vector<std::vector<std::vector<double>>> step_ms(requests.size());  // [request][repeat][step]
@@ -73,8 +89,13 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
         memo_.clear();
         ExecutedActs acts;
         for (std::size_t i = 0; i < requests.size(); ++i) {
+            if (repeat == 0) {
+                auto planned = plan_run(requests[i]);
+                if (!planned) return planned.error();
+                runs.push_back(*std::move(planned));
+            }
             std::optional<std::vector<double>> times;
-            if (repeat > 0 && requests.size() > 1) {
+            if (requests.size() > 1) {
                 const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
                 if (!declared) return declared.error();
                 const auto execution = execute(*declared, {.timestamps = Timestamps::on});
@@ -83,12 +104,13 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 const ScopeNames name(*declared, i);
                 add_executed(*declared, *execution, name, acts);
                 times = times_of(runs[i].steps, name, acts);
+                if (repeat == 0) add_results(runs[i], finished(*declared, *execution), images_of(*declared, *execution));
             }
             if (!times) {
                 auto alone = time_alone(requests[i]);
                 if (!alone) return alone.error();
                 times = std::move(alone->step_ms);
-                if (repeat == 0) runs.push_back(std::move(alone->run));
+                if (repeat == 0) runs[i] = std::move(alone->run);
             }
             if (repeat > 0) step_ms[i].push_back(*std::move(times));
         }

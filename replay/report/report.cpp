@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "replay/counted.h"
+
 namespace strata {
 namespace {
 
@@ -90,10 +92,10 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
                                      accuracy->model_rmse, yardstick.model_divisor);
         return yardstick;
     }
-    return fail(
-        Fault::usage,
-        "{} x {} at {} samples is too large for the truth of {} in double, and no technique can stand in; record a smaller frame",
-        view.width, view.height, view.samples, name(wanted.stage));
+    return fail(Fault::usage,
+                "{} x {} at {} per pixel is too large for the truth of {} in double, and no technique can stand in; record a "
+                "smaller frame",
+                view.width, view.height, counted(view.samples, "sample"), name(wanted.stage));
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {

@@ -100,7 +100,8 @@ TEST(Memo, AJudgementIsTheSameWhateverWasJudgedBefore) {
         EXPECT_EQ(a.model_rmse, again.model_rmse) << technique->name;
         ASSERT_EQ(a.method.size(), b.method.size());
         for (std::size_t i = 0; i < a.method.size(); ++i) EXPECT_EQ(a.method[i].value, b.method[i].value) << technique->name;
-        must(used->judge(request, Stage::gbuffer));
+        must(used->judge(request, Stage::gbuffer));  // forgets what transparency found, not what it gave
+        EXPECT_EQ(a.model_rmse, must(used->judge(request, Stage::transparency)).model_rmse) << technique->name;
     }
 }
 
