@@ -41,7 +41,6 @@ struct Header {
 };
 static_assert(sizeof(Header) == 24 && sizeof(FrameChain::Run) == 8);
 
-constexpr std::uint32_t nowhere = 0xffffffffu;
 // As for blobs: level 6 gains 4 % and takes twice as long.
 constexpr int compression_level = 3;
 
@@ -86,10 +85,10 @@ std::uint64_t zigzag(std::uint64_t difference) { return difference << 1 ^ (0 - (
 std::uint64_t unzigzag(std::uint64_t folded) { return folded >> 1 ^ (0 - (folded & 1)); }
 
 /// Flatbuffers are built from their end: what was there before keeps its distance from it when something is added.
-std::vector<FrameChain::Run> runs_of(std::size_t before, std::size_t now) {
+std::vector<FrameChain::Run> end_to_end(std::size_t before, std::size_t now) {
     const auto kept = static_cast<std::uint32_t>(std::min(before, now));
     std::vector<FrameChain::Run> runs;
-    if (now > before) runs.push_back({nowhere, static_cast<std::uint32_t>(now - before)});
+    if (now > before) runs.push_back({FrameChain::nowhere, static_cast<std::uint32_t>(now - before)});
     runs.push_back({static_cast<std::uint32_t>(before - kept), kept});
     return runs;
 }
@@ -175,11 +174,12 @@ void FrameChain::forecast(std::size_t words, std::ptrdiff_t echo) {
     }
 }
 
-std::vector<std::byte> FrameChain::pack(std::span<const std::byte> raw, std::int64_t echo) {
+std::vector<std::byte> FrameChain::pack(std::span<const std::byte> raw, std::int64_t echo, std::vector<Run> runs) {
     assert(raw.size() % sizeof(std::uint64_t) == 0 && raw.size() <= largest_frame_section);
     Words words(raw.size() / sizeof(std::uint64_t));
     std::memcpy(words.data(), raw.data(), raw.size());
-    const std::vector<Run> runs = reach_ == 0 ? std::vector<Run>() : runs_of(history_[0].size(), words.size());
+    if (reach_ == 0) runs.clear();
+    if (reach_ > 0 && runs.empty()) runs = end_to_end(history_[0].size(), words.size());
     const Header header = {reach_, static_cast<std::uint32_t>(runs.size()), echo, XXH3_64bits(raw.data(), raw.size())};
     rearrange(runs);
     forecast(words.size(), echo);
@@ -219,7 +219,7 @@ Result<std::vector<FrameChain::Run>> read_runs(std::span<const std::byte> stored
     if (!runs.empty()) std::memcpy(runs.data(), stored.data(), stored.size());
     std::uint64_t sum = 0;
     for (const FrameChain::Run& run : runs) {
-        if (run.from != nowhere && (run.from > before || run.words > before - run.from)) {
+        if (run.from != FrameChain::nowhere && (run.from > before || run.words > before - run.from)) {
             return fail(Fault::bad_input, "it continues words {} and {} more of a frame of {}", run.from, run.words, before);
         }
         sum += run.words;

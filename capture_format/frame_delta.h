@@ -21,22 +21,24 @@ inline constexpr std::uint32_t frames_per_key = 64;
 /// A run of frames, each told by the ones before it: one for writing, one for reading.
 class FrameChain {
 public:
+    /// Words of a frame that continue those of the last one from `from` on; nowhere for words that continue none.
+    struct Run {
+        std::uint32_t from = 0, words = 0;
+    };
+    static constexpr std::uint32_t nowhere = 0xffffffff;
+
     /// The payload of the section that says `raw`, a frame's flatbuffer: whole words, at most largest_frame_section bytes. A word
-    /// repeats in the next frame what the word `echo` before it is in this one, where that has been so.
-    std::vector<std::byte> pack(std::span<const std::byte> raw, std::int64_t echo);
+    /// repeats in the next frame what the word `echo` before it is in this one, where that has been so. The runs make the whole
+    /// frame; without any the frames are laid end to end.
+    std::vector<std::byte> pack(std::span<const std::byte> raw, std::int64_t echo, std::vector<Run> runs = {});
 
     /// How many sections before it, up to a key, a payload needs unpacked first; 0 for a key.
     static Result<std::uint32_t> reach(std::span<const std::byte> payload);
     /// What pack() was given, 8-byte aligned, valid until the next call. Payloads come in order from a key on. After an error the
     /// chain is empty.
     Result<std::span<const std::byte>> unpack(std::span<const std::byte> payload, std::uint64_t raw_bytes);
-    /// The last frame unpacked, empty at first.
+    /// The last frame packed or unpacked, empty at first.
     std::span<const std::byte> newest() const { return std::as_bytes(std::span(history_[0])); }
-
-    /// How many words of a frame come from the last one, starting where.
-    struct Run {
-        std::uint32_t from = 0, words = 0;
-    };
 
 private:
     using Words = std::vector<std::uint64_t>;

@@ -2,6 +2,7 @@
 #include "capture_format/frame_writer.h"
 
 #include "capture_format/decode_frame.h"
+#include "capture_format/draw_runs.h"
 #include "capture_format/encode_frame.h"
 #include "capture_format/inspection.h"
 #include "capture_format/picture.h"
@@ -123,7 +124,9 @@ Result<void> FrameWriter::write(const Frame& frame, const StoredResources& resou
                     flatbuffer.size(), largest_frame_section);
     }
     if (const Result<void> written = write_blobs(); !written) return written;
-    return add({SectionType::frame, format_version, chain_.pack(flatbuffer, echo_of(flatbuffer)), flatbuffer.size()});
+    const auto runs = chain_.newest().empty() ? std::vector<FrameChain::Run>() : draw_runs(chain_.newest(), flatbuffer);
+    const std::vector<std::byte> payload = chain_.pack(flatbuffer, echo_of(flatbuffer), runs);
+    return add({SectionType::frame, format_version, payload, flatbuffer.size()});
 }
 
 Result<void> FrameWriter::finish() {

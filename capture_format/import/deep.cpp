@@ -9,6 +9,7 @@
 
 #include "capture_format/file.h"
 #include "capture_format/import/deep_pixel.h"
+#include "capture_format/inspection.h"
 
 namespace strata {
 namespace {
@@ -36,15 +37,23 @@ constexpr Layer chromatic[] = {{"deep samples, red", glm::vec3(0, 1, 1)},
 class DeepImport {
 public:
     DeepImport(const DeepFile& file, const DeepOptions& options)
-        : file_(file), options_(options), layers_(is_chromatic() ? std::span<const Layer>(chromatic) : grey) {}
+        : file_(file),
+          options_(options),
+          window_(options.window.value_or(file.display_window())),
+          read_(options.window.value_or(file.data_window())),
+          layers_(is_chromatic() ? std::span<const Layer>(chromatic) : grey) {}
 
     Result<ImportedDeep> run() {
-        const auto count = file_.count_samples(options_.most_samples);
+        if (window_.width < 1 || window_.height < 1 || window_.width > largest_extent || window_.height > largest_extent)
+            return fail(Fault::usage, "a window has 1 to {} pixels each way, not {} x {}", largest_extent, window_.width,
+                        window_.height);
+        const auto count = file_.count_samples(read_, options_.most_samples);
         if (!count) return count.error();
         set_view();
         meshes_.resize(layers_.size());
         DeepBlock block;
         for (std::size_t i = 0; i < file_.blocks(); ++i) {
+            if (!overlap(file_.window(i), read_)) continue;
             auto read = file_.read(i, std::move(block));
             if (!read) return read.error();
             block = *std::move(read);
@@ -65,8 +74,8 @@ private:
     /// One unit wide at one unit of depth where the window is wider than high. Pixels are square, whatever the file says.
     void set_view() {
         View& view = result_.frame.view;
-        view.width = file_.display_window().width;
-        view.height = file_.display_window().height;
+        view.width = window_.width;
+        view.height = window_.height;
         const double edge = std::max(view.width, view.height);
         view.projection[0][0] = static_cast<float>(2 * edge / view.width);
         view.projection[1][1] = static_cast<float>(-2 * edge / view.height);
@@ -74,12 +83,12 @@ private:
     }
 
     Result<void> add(const DeepBlock& block) {
-        const DeepWindow &window = block.window, &display = file_.display_window();
+        const DeepWindow& window = block.window;
         for (std::size_t i = 0; i + 1 < block.begin.size(); ++i) {
             if (block.begin[i] == block.begin[i + 1]) continue;
-            const std::int64_t x = std::int64_t{window.x} - display.x + std::int64_t(i % window.width);
-            const std::int64_t y = std::int64_t{window.y} - display.y + std::int64_t(i / window.width);
-            if (x < 0 || y < 0 || x >= display.width || y >= display.height) {
+            const std::int64_t x = std::int64_t{window.x} - window_.x + std::int64_t(i % window.width);
+            const std::int64_t y = std::int64_t{window.y} - window_.y + std::int64_t(i / window.width);
+            if (x < 0 || y < 0 || x >= window_.width || y >= window_.height) {
                 result_.census.outside += block.begin[i + 1] - block.begin[i];
                 continue;
             }
@@ -180,7 +189,7 @@ private:
         say(c.bad_alpha, "samples have an alpha below 0 or above 1: it was clamped");
         say(c.without_alpha, "samples have light but no alpha: they add and hide nothing");
         say(c.faint, "samples are fainter than 1e-5 in alpha and color: no technique draws them");
-        say(c.outside, "samples are left out: they lie outside of the display window");
+        if (!options_.window) say(c.outside, "samples are left out: they lie outside of the display window");
         if (result_.frame.draws.empty()) result_.warnings.emplace_back("there is no sample to be seen");
     }
 
@@ -197,6 +206,8 @@ private:
 
     const DeepFile& file_;
     const DeepOptions& options_;
+    const DeepWindow window_;  ///< of the image that is the frame
+    const DeepWindow read_;    ///< whose blocks are read: all, unless a window was asked for
     std::span<const Layer> layers_;
     ImportedDeep result_;
     std::vector<Mesh> meshes_;                                  ///< one per layer

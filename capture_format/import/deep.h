@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "capture_format/frame.h"
+#include "capture_format/import/deep_window.h"
 #include "capture_format/result.h"
 
 namespace strata {
@@ -18,7 +20,9 @@ namespace strata {
 struct DeepOptions {
     /// Which part of the file, by name or by number from 0; empty: its first deep one.
     std::string part;
-    /// Samples that are read at most; each takes 96 bytes of capture.
+    /// Pixels that become the frame, as OpenEXR counts them; nothing: the display window.
+    std::optional<DeepWindow> window;
+    /// Samples that are read at most (scan lines and tiles outside of the window are not); each takes 96 bytes of capture.
     std::uint64_t most_samples = std::uint64_t{1} << 24;
 };
 
@@ -38,11 +42,11 @@ struct DeepCensus {
     std::uint64_t bad_alpha = 0;                                   ///< below 0 or above 1, clamped
     std::uint64_t without_alpha = 0;                               ///< light without coverage: kept
     std::uint64_t faint = 0;    ///< too faint for any technique to draw (alpha and color below 1e-5)
-    std::uint64_t outside = 0;  ///< outside of the display window: left out
+    std::uint64_t outside = 0;  ///< read, but outside of the window: left out
 };
 
 struct ImportedDeep {
-    Frame frame;  ///< one view of the display window with one sample, no opaque surface, no light, black background
+    Frame frame;  ///< one view of the window with one sample, no opaque surface, no light, black background
     DeepCensus census;
     std::vector<std::string> warnings;  ///< what was missing, ignored or changed, as sentences with counts
 };

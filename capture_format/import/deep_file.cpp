@@ -86,10 +86,11 @@ Result<void> DeepFile::unpack_counts(const Place& place, DeepBlock& block) const
     return {};
 }
 
-Result<std::uint64_t> DeepFile::count_samples(std::uint64_t most) const {
+Result<std::uint64_t> DeepFile::count_samples(const DeepWindow& window, std::uint64_t most) const {
     std::uint64_t sum = 0;
     DeepBlock block;
     for (const Place& place : blocks_) {
+        if (!overlap(place.window, window)) continue;
         if (const auto done = unpack_counts(place, block); !done) return done.error();
         sum += block.begin.back();
     }

@@ -11,17 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "capture_format/import/deep_window.h"
 #include "capture_format/result.h"
 
 struct libdeflate_decompressor;
 
 namespace strata {
-
-/// Pixels; x grows to the right and y downwards, as OpenEXR counts them.
-struct DeepWindow {
-    std::int32_t x = 0, y = 0;
-    std::uint32_t width = 0, height = 0;
-};
 
 /// What a sample may have: the channels of these names. `count_` is how many there are.
 enum class DeepChannel : std::uint32_t { red, green, blue, alpha, alpha_red, alpha_green, alpha_blue, grey, depth, back, count_ };
@@ -60,8 +55,9 @@ public:
     std::uint32_t deep_parts() const { return deep_parts_; }
 
     std::size_t blocks() const { return blocks_.size(); }
-    /// Samples of the whole part, from its tables of counts. Fails where there are more than `most`.
-    Result<std::uint64_t> count_samples(std::uint64_t most) const;
+    const DeepWindow& window(std::size_t block) const { return blocks_[block].window; }
+    /// Samples of the blocks that have pixels in the window, from their tables of counts. Fails where there are more than `most`.
+    Result<std::uint64_t> count_samples(const DeepWindow&, std::uint64_t most) const;
     /// Thread safe. Takes a block to reuse the memory of.
     Result<DeepBlock> read(std::size_t block, DeepBlock reused) const;
 

@@ -21,6 +21,7 @@ struct Options {
     GltfOptions gltf;
     bool deep = false;
     DeepOptions of_deep;
+    std::vector<std::int32_t> window;  ///< of a deep image: x, y, width, height
     DeviceChoice device;
 };
 
@@ -53,7 +54,11 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 Result<void> import_deep_image(const Options& options) {
-    auto image = import_deep(options.scene, options.of_deep);
+    DeepOptions of_deep = options.of_deep;
+    if (!options.window.empty())
+        of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
+                                    static_cast<std::uint32_t>(options.window[3])};
+    auto image = import_deep(options.scene, of_deep);
     if (!image) return image.error();
     print_warnings(image->warnings);
     const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
@@ -90,6 +95,9 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")->required();
     app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
     app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");
+    app.add_option("--window", options->window, "X,Y,WIDTH,HEIGHT: pixels of a deep file; default its display window")
+        ->delimiter(',')
+        ->expected(4);
     app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");

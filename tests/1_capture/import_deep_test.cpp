@@ -230,6 +230,18 @@ TEST(DeepImport, PlacesTheDataWindowInTheDisplayWindowAndLeavesOutWhatIsOutside)
     EXPECT_NEAR(lists.at(2, 5)[0].depth, 2, 1e-12);
 }
 
+TEST(DeepImport, ReadsAWindowOfALargeImageAndCountsNoFurther) {
+    const std::string file = deep_file(random_image(37, 23));
+    const ImportedDeep all = *imported(file);
+    const auto middle = imported(file, {.window = DeepWindow{10, 8, 5, 4}, .most_samples = all.census.samples / 3});
+    ASSERT_TRUE(middle) << middle.error().sentence;
+    EXPECT_EQ(middle->frame.view.width, 5u);
+    const FragmentLists part = fragments_of(middle->frame), whole = fragments_of(all.frame);
+    for (std::uint32_t i = 0; i < 20; ++i)
+        EXPECT_EQ(part.at(i % 5, i / 5).size(), whole.at(10 + i % 5, 8 + i / 5).size()) << "pixel " << i;
+    EXPECT_FALSE(imported(file, {.window = DeepWindow{0, 0, 0, 4}}));
+}
+
 TEST(DeepImport, ReadsThePartThatIsAskedFor) {
     const std::string file = deep_file({{"near", pixel_of({{1, 1, 1}})}, {"far", pixel_of({{1, 1, 9}})}});
     const auto depth_of = [&](const char* part) { return fragments_of(imported(file, {.part = part})->frame).at(0, 0)[0].depth; };

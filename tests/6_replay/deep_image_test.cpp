@@ -1,5 +1,6 @@
 // Deep images out of a frame and back into one: OpenEXR's compositing, oiiotool's and our own give our truth.
 #include <cstdlib>
+#include <map>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -42,6 +43,12 @@ struct ReplayedFragments {
     }
 };
 
+/// With one sample; replayed once per program, however many tests look at it.
+const ReplayedFragments& replayed_once(const std::string& scenario) {
+    static std::map<std::string, ReplayedFragments> known;
+    return known.try_emplace(scenario, scenario).first->second;
+}
+
 /// Holds an image of premultiplied RGBA over what is behind against the truth. Relative to the larger of 1 and the truth: sums
 /// of dozens of floats, and an alpha in float that dims what is behind.
 template <typename Texel>
@@ -59,7 +66,7 @@ void expect_truth(const ReplayedFragments& replayed, const Texel& flattened, std
 class DeepExport : public testing::TestWithParam<const char*> {};
 
 TEST_P(DeepExport, IsFlattenedToTheTruthByOpenExrAndByUs) {
-    const ReplayedFragments replayed(GetParam());
+    const ReplayedFragments& replayed = replayed_once(GetParam());
     ASSERT_GT(replayed.lists.total(), 100u);
     const TemporaryFile file("deep.exr");
     const std::string exr = replayed.exported();
@@ -72,7 +79,7 @@ TEST_P(DeepExport, IsFlattenedToTheTruthByOpenExrAndByUs) {
 
 TEST_P(DeepExport, IsFlattenedToTheTruthByOiiotoolWhereItIsInstalled) {
     if (std::system("oiiotool --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "oiiotool is not installed";
-    const ReplayedFragments replayed(GetParam());
+    const ReplayedFragments& replayed = replayed_once(GetParam());
     const TemporaryFile deep("deep.exr"), flat("flat.exr");
     write_file(deep.path(), bytes_of(replayed.exported()));
     const std::string command =
@@ -84,7 +91,7 @@ TEST_P(DeepExport, IsFlattenedToTheTruthByOiiotoolWhereItIsInstalled) {
 }
 
 TEST_P(DeepExport, ComesBackAsAFrameWithTheSameTruth) {
-    const ReplayedFragments replayed(GetParam());
+    const ReplayedFragments& replayed = replayed_once(GetParam());
     const ImportedDeep back = must(import_deep(bytes_of(replayed.exported()), "exported", {}));
     EXPECT_EQ(back.census.samples, replayed.lists.total());
     EXPECT_EQ(back.census.unsorted_pixels, 0u);
@@ -104,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, DeepExport,
                          [](const auto& scenario) { return std::string(scenario.param); });
 
 TEST(DeepExportOfGlass, IsRefusedWithTheDrawThatHasMostOfIt) {
-    const ReplayedFragments replayed("red_and_green_glass");
+    const ReplayedFragments& replayed = replayed_once("red_and_green_glass");
     const auto refused = deep_image(replayed.lists, 0, Transmittance::refused, replayed.frame);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::usage);
@@ -113,7 +120,7 @@ TEST(DeepExportOfGlass, IsRefusedWithTheDrawThatHasMostOfIt) {
 }
 
 TEST(DeepExportOfGlass, KeepsItsColorsInChannelsOfTheirOwn) {
-    const ReplayedFragments replayed("red_and_green_glass");
+    const ReplayedFragments& replayed = replayed_once("red_and_green_glass");
     const ImportedDeep back = must(import_deep(bytes_of(replayed.exported(Transmittance::channels)), "glass", {}));
     const FragmentLists lists =
         transparent_fragments(back.frame, ReferenceImage(replayed.lists.width(), replayed.lists.height()));
@@ -126,7 +133,7 @@ TEST(DeepExportOfGlass, KeepsItsColorsInChannelsOfTheirOwn) {
 }
 
 TEST(DeepExportOfGlass, TakesTheMeanByChoice) {
-    const ReplayedFragments replayed("red_and_green_glass");
+    const ReplayedFragments& replayed = replayed_once("red_and_green_glass");
     const ImportedDeep back = must(import_deep(bytes_of(replayed.exported(Transmittance::mean)), "glass", {}));
     EXPECT_EQ(back.frame.draws.size(), 1u);
     EXPECT_EQ(back.census.fragments, replayed.lists.total());
@@ -142,7 +149,7 @@ TEST(DeepExportOfSamples, TakesTheOneAskedFor) {
 }
 
 TEST(DeepExportTwice, GivesEqualFiles) {
-    const ReplayedFragments replayed("three_panes");
+    const ReplayedFragments& replayed = replayed_once("three_panes");
     EXPECT_EQ(replayed.exported(), replayed.exported());
 }
 

@@ -48,6 +48,13 @@ Placement placed(const Body& body) {
              body.position}};
 }
 
+std::vector<Placement> placements_of(const Crowd& crowd) {
+    std::vector<Placement> placements;
+    placements.reserve(crowd.bodies.size());
+    for (const Body& body : crowd.bodies) placements.push_back(placed(body));
+    return placements;
+}
+
 Vec3 half_size(std::size_t shape) {
     const double edge = .1 + .03 * static_cast<double>(shape);
     return {edge, edge * (shape % 2 ? 1.5 : 1), edge * (shape % 3 ? .75 : 1)};

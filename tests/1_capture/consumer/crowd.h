@@ -37,6 +37,7 @@ struct Crowd {
 };
 
 Placement placed(const Body&);
+std::vector<Placement> placements_of(const Crowd&);
 /// Half edges of a box, metres.
 Vec3 half_size(std::size_t shape);
 /// Red, green, blue; every second one pulses.

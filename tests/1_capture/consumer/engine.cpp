@@ -21,9 +21,11 @@ strata::Result<void> Engine::frame(Recording* recording) {
     const Clock::time_point start = Clock::now();
     if (frame_ > 0) crowd_.step(step_after(frame_ - 1, pace_));
     const std::vector<std::uint32_t> screen = screen_at(frame_);
-    if (drawing_ == Drawing::rasterized) rasterizer_.render(crowd_, screen);
+    const std::vector<Placement> placements = placements_of(crowd_);
+    if (drawing_ == Drawing::rasterized) rasterizer_.render(crowd_, placements, screen);
     const Clock::time_point rendered = Clock::now();
-    const strata::Result<void> recorded = recording ? recording->frame(crowd_, frame_, screen) : strata::Result<void>();
+    const strata::Result<void> recorded =
+        recording ? recording->frame(crowd_, placements, frame_, screen) : strata::Result<void>();
     recording_ms.push_back(milliseconds(Clock::now() - rendered));
     frame_ms.push_back(milliseconds(Clock::now() - start));
     ++frame_;

@@ -21,17 +21,16 @@ std::uint32_t packed(std::array<float, 3> paint, float light) {
 
 }  // namespace
 
-void Rasterizer::render(const Crowd& crowd, const std::vector<std::uint32_t>& screen) {
+void Rasterizer::render(const Crowd& crowd, const std::vector<Placement>& placements, const std::vector<std::uint32_t>& screen) {
     screen_ = &screen;
     std::ranges::fill(color_, 0xff402010u);
     std::ranges::fill(depth_, 0.f);
     std::array<std::array<float, 3>, paint_count> paints;
     for (std::size_t i = 0; i < paint_count; ++i) paints[i] = paint_at(i, crowd.time);
-    for (const Body& body : crowd.bodies) box(body, paints[body.paint]);
+    for (std::size_t i = 0; i < placements.size(); ++i) box(crowd.bodies[i], placements[i], paints[crowd.bodies[i].paint]);
 }
 
-void Rasterizer::box(const Body& body, std::array<float, 3> paint) {
-    const Placement placement = placed(body);
+void Rasterizer::box(const Body& body, const Placement& placement, std::array<float, 3> paint) {
     const Vec3 half = half_size(body.shape);
     std::array<Corner, 8> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -16,15 +16,15 @@ inline constexpr double zoom = 1;
 
 class Rasterizer {
 public:
-    /// Draws a frame of the crowd; the screen's texels are shown by the last paint.
-    void render(const Crowd&, const std::vector<std::uint32_t>& screen);
+    /// Draws a frame of the crowd, every body where it is placed; the screen's texels are shown by the last paint.
+    void render(const Crowd&, const std::vector<Placement>&, const std::vector<std::uint32_t>& screen);
     const std::vector<std::uint32_t>& color() const { return color_; }
 
 private:
     struct Corner {
         float x = 0, y = 0, depth = 0;  ///< pixels, 1 / metres
     };
-    void box(const Body&, std::array<float, 3> paint);
+    void box(const Body&, const Placement&, std::array<float, 3> paint);
     /// Color 0 shows the screen.
     void triangle(const std::array<Corner, 3>&, std::uint32_t color);
 

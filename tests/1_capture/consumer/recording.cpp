@@ -59,14 +59,15 @@ Recording::Recording(strata::Recorder recorder, const Crowd& crowd) : recorder_(
                           .mobility = strata::Mobility::moving});
 }
 
-strata::Result<void> Recording::frame(const Crowd& crowd, std::uint64_t index, const std::vector<std::uint32_t>& screen) {
+strata::Result<void> Recording::frame(const Crowd& crowd, const std::vector<Placement>& placements, std::uint64_t index,
+                                      const std::vector<std::uint32_t>& screen) {
     recorder_.begin_frame(view(), crowd.time, index, 0);
     recorder_.update_texture(0, texture_of(screen));
     for (std::size_t i = 1; i < paint_count; i += 2)
         recorder_.update_material(static_cast<std::uint32_t>(i), material_of(i, crowd.time));
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         draws_[i].previous_to_world = draws_[i].to_world;
-        draws_[i].to_world = matrix_of(placed(crowd.bodies[i]));
+        draws_[i].to_world = matrix_of(placements[i]);
     }
     recorder_.draws(draws_);
     recorder_.environment({.direction = {0, -1, 0}, .irradiance = {3, 3, 3}}, {.sky = {.2f, .2f, .3f}}, {}, {.05f, .1f, .2f});

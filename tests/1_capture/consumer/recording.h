@@ -13,7 +13,8 @@ public:
     /// Hands over what stays: shapes, paints, the screen.
     Recording(strata::Recorder, const Crowd&);
     /// One frame: what has changed, and where everything is.
-    strata::Result<void> frame(const Crowd&, std::uint64_t index, const std::vector<std::uint32_t>& screen);
+    strata::Result<void> frame(const Crowd&, const std::vector<Placement>&, std::uint64_t index,
+                               const std::vector<std::uint32_t>& screen);
     strata::Recorder& recorder() { return recorder_; }
 
 private:
