@@ -10,6 +10,11 @@ constexpr FileVerb table[] = {
     {"accept", "accept", "", ".strata", false},
     {"graph", "graph", "", ".strata", true},
     {"report", "report", "--repeats 1 -o report.txt", ".strata", true},
+    {"diff", "diff", "--set weighted:weight=w9 -o pictures --junit junit.xml", ".strata", true},
+    {"export_deep", "export --deep --transmittance mean -o made.exr", "", ".strata", true},
+    {"export_gltf", "export --gltf -o made.glb", "", ".strata", true},
+    {"export_json", "export --json -o made.json", "", ".strata", true},
+    {"export_image", "export --image color -o made.exr", "", ".strata", true},
     {"import_gltf", "import", "-o made.strata", ".glb", false},
     {"import_deep", "import --deep", "-o made.strata", ".exr", false},
 };
