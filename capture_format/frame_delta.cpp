@@ -93,30 +93,35 @@ std::vector<FrameChain::Run> end_to_end(std::size_t before, std::size_t now) {
     return runs;
 }
 
-/// Calls visit(word, its place in the sorted bytes, from one byte of it to the next) for words in sorted order.
+/// Calls visit(word, its place in the sorted bytes, from one byte of it to the next) for every word; `moving` ascends.
 template <typename Visit>
-void for_sorted(std::span<const std::uint32_t> moving, std::span<const std::uint32_t> still, const Visit& visit) {
-    std::size_t begin = 0;
-    for (const auto part : {moving, still}) {
-        for (std::size_t i = 0; i < part.size(); ++i) visit(part[i], begin + i, part.size());
-        begin += part.size() * sizeof(std::uint64_t);
+void for_sorted(std::size_t words, std::span<const std::uint32_t> moving, const Visit& visit) {
+    const std::size_t still = words - moving.size(), first_still = moving.size() * sizeof(std::uint64_t);
+    for (std::size_t word = 0, before = 0; word < words; ++word) {
+        if (before < moving.size() && moving[before] == word) {
+            visit(word, before++, moving.size());
+        } else {
+            visit(word, first_still + word - before, still);
+        }
     }
 }
 
-std::vector<std::byte> payload_of(const Header& header, std::span<const FrameChain::Run> runs,
-                                  std::span<const std::byte> sorted) {
+std::vector<std::byte> payload_of(const Header& header, std::span<const FrameChain::Run> runs, std::span<const std::byte> sorted,
+                                  ZSTD_CCtx* compression) {
     const std::size_t before = sizeof(header) + runs.size_bytes();
     std::vector<std::byte> payload(before + ZSTD_compressBound(sorted.size()));
     std::memcpy(payload.data(), &header, sizeof(header));
     if (!runs.empty()) std::memcpy(payload.data() + sizeof(header), runs.data(), runs.size_bytes());
-    const std::size_t compressed =
-        ZSTD_compress(payload.data() + before, payload.size() - before, sorted.data(), sorted.size(), compression_level);
+    const std::size_t compressed = ZSTD_compressCCtx(compression, payload.data() + before, payload.size() - before, sorted.data(),
+                                                     sorted.size(), compression_level);
     assert(!ZSTD_isError(compressed));  // the bound is zstd's own
     payload.resize(before + compressed);
     return payload;
 }
 
 }  // namespace
+
+void FrameChain::EndCompression::operator()(ZSTD_CCtx_s* context) const { ZSTD_freeCCtx(context); }
 
 void FrameChain::clear() {
     for (Words& frame : history_) frame.clear();
@@ -148,29 +153,24 @@ void FrameChain::rearrange(std::span<const Run> runs) {
     }
 }
 
-/// Fills forecast_, moving_ and still_ from the frames before.
+/// Fills forecast_ and moving_ from the frames before.
 void FrameChain::forecast(std::size_t words, std::ptrdiff_t echo) {
     const StandardArithmetic standard;
-    forecast_.assign(words, 0);
     moving_.clear();
-    still_.clear();
+    if (known_ == 0) return forecast_.assign(words, 0);
+    forecast_ = history_[0];
+    if (known_ == 1) return;
     for (std::size_t i = 0; i < words; ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        if (known_ > 0) forecast_[i] = history_[0][i];
-        if (known_ < 2 || history_[0][i] == history_[1][i]) {
-            still_.push_back(index);
-            continue;
-        }
+        if (history_[0][i] == history_[1][i]) continue;
         const std::size_t source = i - static_cast<std::size_t>(echo);  // beyond the frame when it would lie before it
         if (source < words && history_[1][source] == history_[0][i]) {
             forecast_[i] = history_[0][source];
-            still_.push_back(index);
             continue;
         }
         std::array<std::uint64_t, 4> was{};
         for (std::size_t age = 0; age < known_; ++age) was[age] = history_[age][i];
         forecast_[i] = continued(std::span(was).first(known_));
-        moving_.push_back(index);
+        moving_.push_back(static_cast<std::uint32_t>(i));
     }
 }
 
@@ -184,13 +184,15 @@ std::vector<std::byte> FrameChain::pack(std::span<const std::byte> raw, std::int
     rearrange(runs);
     forecast(words.size(), echo);
     std::vector<std::byte> sorted(raw.size());
-    for_sorted(moving_, still_, [&](std::size_t word, std::size_t place, std::size_t stride) {
+    for_sorted(words.size(), moving_, [&](std::size_t word, std::size_t place, std::size_t stride) {
         const std::uint64_t folded = zigzag(words[word] - forecast_[word]);
+        if (folded == 0) return;  // as it is already; that is nine words in ten
         for (int byte = 7; byte >= 0; --byte, place += stride) sorted[place] = static_cast<std::byte>(folded >> 8 * byte);
     });
     remember(std::move(words));
 
-    return payload_of(header, runs, sorted);
+    if (!compression_) compression_.reset(ZSTD_createCCtx());
+    return payload_of(header, runs, sorted, compression_.get());
 }
 
 Result<std::uint32_t> FrameChain::reach(std::span<const std::byte> payload) {
@@ -262,7 +264,7 @@ Result<void> FrameChain::continue_with(std::span<const std::byte> payload, std::
     }
     forecast(count, header.echo);
     Words words(count);
-    for_sorted(moving_, still_, [&](std::size_t word, std::size_t place, std::size_t stride) {
+    for_sorted(count, moving_, [&](std::size_t word, std::size_t place, std::size_t stride) {
         std::uint64_t folded = 0;
         for (int byte = 0; byte < 8; ++byte, place += stride) folded = folded << 8 | static_cast<std::uint64_t>(sorted[place]);
         words[word] = forecast_[word] + unzigzag(folded);

@@ -1,10 +1,13 @@
 // What recording costs an engine: the consumer of tests/1_capture/consumer, its frames with and without a recorder. Whole runs
 // alternate, because the recorder's thread works on while the next frame is drawn; the ratio is that of two neighbouring runs.
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <benchmark/benchmark.h>
 
@@ -37,22 +40,31 @@ double spread(std::vector<double> values) {
 struct Run {
     double frame_ms = 0, recording_ms = 0;  ///< medians over its frames
     double whole_ms = 0;                    ///< with the end of the recording
+    double cpu_ms = 0;                      ///< of the drawing thread alone: comparable on a machine that does other things, too
 };
+
+double thread_ms() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 Run run(Motion motion, Pace pace, const std::filesystem::path& path) {
     const auto start = std::chrono::steady_clock::now();
     Engine engine(motion, pace, Drawing::rasterized);
     std::optional<consumer::Recording> recording;
     if (!path.empty()) recording.emplace(must(Recorder::create(path)), engine.crowd());
+    const double cpu_before = thread_ms();
     for (int frame = 0; frame < frames; ++frame) (void)engine.frame(recording ? &*recording : nullptr);
+    const double cpu_ms = thread_ms() - cpu_before;
     if (recording) (void)recording->recorder().finish();
     const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - start;
-    return {median(engine.frame_ms), median(engine.recording_ms), whole.count()};
+    return {median(engine.frame_ms), median(engine.recording_ms), whole.count(), cpu_ms};
 }
 
 void record_an_engine(benchmark::State& state, Motion motion, Pace pace) {
     const std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("engine.{}.strata", getpid());
-    std::vector<double> alone, recorded, ratios, whole_ratios, recording;
+    std::vector<double> alone, recorded, ratios, whole_ratios, cpu_ratios, recording;
     for (auto _ : state) {
         for (int pair = 0; pair < pairs; ++pair) {
             // Which of the two goes first alternates as well.
@@ -62,6 +74,7 @@ void record_an_engine(benchmark::State& state, Motion motion, Pace pace) {
             recorded.push_back(with.frame_ms);
             ratios.push_back(with.frame_ms / without.frame_ms);
             whole_ratios.push_back(with.whole_ms / without.whole_ms);
+            cpu_ratios.push_back(with.cpu_ms / without.cpu_ms);
             recording.push_back(with.recording_ms);
         }
     }
@@ -70,6 +83,8 @@ void record_an_engine(benchmark::State& state, Motion motion, Pace pace) {
     state.counters["calls_ms"] = median(recording);
     state.counters["ratio"] = median(ratios);
     state.counters["ratio_mad"] = spread(ratios);
+    state.counters["cpu_ratio"] = median(cpu_ratios);
+    state.counters["cpu_ratio_mad"] = spread(cpu_ratios);
     state.counters["whole_ratio"] = median(whole_ratios);
     state.counters["file_bytes"] = static_cast<double>(std::filesystem::file_size(path));
     std::filesystem::remove(path);
