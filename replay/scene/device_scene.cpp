@@ -54,6 +54,7 @@ void DeviceScene::describe(const SceneRecords& scene) {
 }
 
 void DeviceScene::upload(const SceneRecords& scene) {
+    describe(scene);
     for (std::size_t i = 0; i < std::size(rows); ++i) executor_->upload({i + 1}, contents(rows[i], scene));
 }
 

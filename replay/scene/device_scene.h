@@ -13,7 +13,7 @@ public:
 
     /// What import_into() speaks of, before any of it is on the device.
     void describe(const SceneRecords&);
-    /// Puts what was described on the device, in the place of what was there.
+    /// Describes it and puts it on the device, in the place of what was there.
     void upload(const SceneRecords&);
     /// Takes everything off the device.
     void forget();

@@ -24,11 +24,7 @@ struct Loaded {
     DeviceScene scene{*executor};
     LoadedFrame frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
 
-    Loaded() {
-        const SceneRecords records = scene_records(frame.frame);
-        scene.describe(records);
-        scene.upload(records);
-    }
+    Loaded() { scene.upload(scene_records(frame.frame)); }
     Sources sources() const { return {frame, scene, device->info()}; }
 };
 
