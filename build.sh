@@ -3,6 +3,7 @@
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
 #   ./build.sh test     build and run the whole test suite
+#   ./build.sh fuzz     throw mutated bytes at every reader of files, 60 seconds each (or as many as: ./build.sh fuzz 600)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -14,6 +15,7 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
+fuzz_packages=(clang libclang-rt-14-dev)
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -55,6 +57,21 @@ demo() {
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }
 
+# Runs every fuzzer for some seconds on its corpus; what it finds stays in build-fuzz/found.
+fuzz() {
+    local seconds=$1
+    for fuzzer in build-fuzz/*_fuzzer; do
+        local name=${fuzzer##*/}
+        name=${name%_fuzzer}
+        mkdir -p "build-fuzz/new/$name" build-fuzz/found
+        say "fuzzing $name for $seconds s"
+        "$fuzzer" "build-fuzz/new/$name" "tests/fuzz/corpus/$name" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 \
+            -artifact_prefix="build-fuzz/found/$name-" -print_final_stats=1 >"build-fuzz/$name.log" 2>&1 ||
+            { tail -40 "build-fuzz/$name.log" >&2; say "$name: see build-fuzz/found and build-fuzz/$name.log"; exit 1; }
+        grep -E 'number_of_executed_units' "build-fuzz/$name.log"
+    done
+}
+
 case "${1:-build}" in
     build)
         install_missing "${packages[@]}"
@@ -71,8 +88,13 @@ case "${1:-build}" in
         build tests
         ctest --preset tests
         ;;
+    fuzz)
+        install_missing "${packages[@]}" "${fuzz_packages[@]}"
+        build fuzz fuzzers
+        fuzz "${2:-60}"
+        ;;
     *)
-        sed -n '2,6p' "$0" >&2
+        sed -n '2,7p' "$0" >&2
         exit 2
         ;;
 esac
