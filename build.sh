@@ -3,6 +3,7 @@
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
 #   ./build.sh test     build and run the whole test suite
+#   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -14,6 +15,8 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
+
+fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -55,6 +58,21 @@ demo() {
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }
 
+# Runs a fuzzer for a minute on a copy of its corpus; a finding fails, says what it is, and its input stays in out/fuzz.
+fuzz() {
+    local name=$1 out=out/fuzz
+    mkdir -p "$out/$name"
+    cp -n tests/fuzz/corpus/"$name"/* "$out/$name"
+    local options=(-max_total_time=60 -timeout=20 -rss_limit_mb=3000 -max_len=4096 -artifact_prefix="$out/$name-" -print_final_stats=1)
+    [ ! -f "tests/fuzz/$name.dict" ] || options+=(-dict="tests/fuzz/$name.dict")
+    say "fuzzing $name"
+    if ! "build-fuzz/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
+        tail -n 60 "$out/$name.log" >&2
+        return 1
+    fi
+    grep -E 'number_of_executed_units' "$out/$name.log" >&2
+}
+
 case "${1:-build}" in
     build)
         install_missing "${packages[@]}"
@@ -71,8 +89,13 @@ case "${1:-build}" in
         build tests
         ctest --preset tests
         ;;
+    fuzz)
+        install_missing "${packages[@]}" "${fuzz_packages[@]}"
+        build fuzz
+        for name in reader gltf deep; do fuzz "$name"; done
+        ;;
     *)
-        sed -n '2,6p' "$0" >&2
+        sed -n '2,7p' "$0" >&2
         exit 2
         ;;
 esac
