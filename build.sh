@@ -3,7 +3,7 @@
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
 #   ./build.sh test     build and run the whole test suite
-#   ./build.sh fuzz     throw mutated bytes at every reader of files, 60 seconds each (or as many as: ./build.sh fuzz 600)
+#   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -15,7 +15,8 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
-fuzz_packages=(clang libclang-rt-14-dev)
+
+fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -57,19 +58,19 @@ demo() {
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }
 
-# Runs every fuzzer for some seconds on its corpus; what it finds stays in build-fuzz/found.
+# Runs a fuzzer for some seconds on a copy of its corpus: fuzz NAME SECONDS; a finding fails, says what it is, and its input stays in out/fuzz.
 fuzz() {
-    local seconds=$1
-    for fuzzer in build-fuzz/*_fuzzer; do
-        local name=${fuzzer##*/}
-        name=${name%_fuzzer}
-        mkdir -p "build-fuzz/new/$name" build-fuzz/found
-        say "fuzzing $name for $seconds s"
-        "$fuzzer" "build-fuzz/new/$name" "tests/fuzz/corpus/$name" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 \
-            -artifact_prefix="build-fuzz/found/$name-" -print_final_stats=1 >"build-fuzz/$name.log" 2>&1 ||
-            { tail -40 "build-fuzz/$name.log" >&2; say "$name: see build-fuzz/found and build-fuzz/$name.log"; exit 1; }
-        grep -E 'number_of_executed_units' "build-fuzz/$name.log"
-    done
+    local name=$1 seconds=$2 out=out/fuzz
+    mkdir -p "$out/$name"
+    cp -n tests/fuzz/corpus/"$name"/* "$out/$name"
+    local options=(-max_total_time=$seconds -timeout=20 -rss_limit_mb=3000 -max_len=4096 -artifact_prefix="$out/$name-" -print_final_stats=1)
+    [ ! -f "tests/fuzz/$name.dict" ] || options+=(-dict="tests/fuzz/$name.dict")
+    say "fuzzing $name"
+    if ! "build-fuzz/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
+        tail -n 60 "$out/$name.log" >&2
+        return 1
+    fi
+    grep -E 'number_of_executed_units' "$out/$name.log" >&2
 }
 
 case "${1:-build}" in
@@ -90,8 +91,8 @@ case "${1:-build}" in
         ;;
     fuzz)
         install_missing "${packages[@]}" "${fuzz_packages[@]}"
-        build fuzz fuzzers
-        fuzz "${2:-60}"
+        build fuzz
+        for name in reader gltf deep; do fuzz "$name" "${2:-60}"; done
         ;;
     *)
         sed -n '2,7p' "$0" >&2

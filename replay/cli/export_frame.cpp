@@ -1,7 +1,6 @@
 // strata export --gltf and --json: what a frame says. No device is needed.
 #include "capture_format/export/gltf.h"
 #include "capture_format/frame_json.h"
-#include "capture_format/reader.h"
 #include "capture_format/whole_file.h"
 #include "replay/cli/export_kinds.h"
 
@@ -10,7 +9,7 @@ namespace {
 
 Result<Frame> recorded_frame(const ExportOptions& options) {
     const Partial partial = options.open.allow_partial ? Partial::allowed : Partial::refused;
-    const auto capture = Capture::open(options.open.capture, partial);
+    const auto capture = open_capture(options.open.capture, partial);
     if (!capture) return capture.error();
     return capture->frame(options.frame);
 }

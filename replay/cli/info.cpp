@@ -87,7 +87,6 @@ Result<void> info(const Options& options) {
     const auto capture = open_capture(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
-    if (count == 0) return fail(Fault::bad_input, "{} holds no frame", options.capture.string());
     if (options.frame >= count)
         return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"),
                     options.frame);

@@ -73,7 +73,9 @@ Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
 
 Result<Capture> open_capture(const std::filesystem::path& path, Partial partial) {
     auto capture = Capture::open(path, partial);
-    if (capture) say_what_is_left_out(*capture);
+    if (!capture) return capture;
+    say_what_is_left_out(*capture);
+    if (capture->frame_count() == 0) return fail(Fault::bad_input, "{} holds no frame", path.string());
     return capture;
 }
 

@@ -22,7 +22,7 @@ struct OpenOptions {
 };
 void add_options(CLI::App&, OpenOptions&);
 Result<std::unique_ptr<Session>> open(const OpenOptions&);
-/// A capture without a device. Both say on stderr what of the file was left out.
+/// A capture without a device. Both refuse a file without a frame, and say on stderr what of it was left out.
 Result<Capture> open_capture(const std::filesystem::path&, Partial);
 
 /// How the frame is made: techniques, settings, forced features, samples.

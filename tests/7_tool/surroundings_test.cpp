@@ -23,6 +23,11 @@ constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
     {"replay sound.strata -o", "out"},
     {"report sound.strata --repeats 1 -o", "report.txt"},
+    {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
+    {"export sound.strata --deep --transmittance mean -o", "deep.exr"},
+    {"export sound.strata --gltf -o", "scene.glb"},
+    {"export sound.strata --json -o", "frame.json"},
+    {"export sound.strata --image color -o", "color.exr"},
 };
 
 void write_sound_capture() { write_file(folder() / "sound.strata", sound_capture()); }

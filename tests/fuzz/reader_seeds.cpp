@@ -63,7 +63,7 @@ std::vector<Record> moving() {
 
 std::vector<Record> texts() {
     std::vector<Record> records = records_of(triangle_frame(), RecordKind::old_frame);
-    for (const std::uint8_t type : {5, 4, 1, 77})
+    for (const std::uint8_t type : std::initializer_list<std::uint8_t>{5, 4, 1, 77})
         records.push_back({RecordKind::section, type, 1, 0, std::vector<std::byte>(24, std::byte{'a'})});
     return records;
 }
