@@ -63,7 +63,7 @@ fuzz() {
     local name=$1 seconds=$2 out=out/fuzz
     mkdir -p "$out/$name"
     cp -n tests/fuzz/corpus/"$name"/* "$out/$name"
-    local options=(-max_total_time=$seconds -timeout=20 -rss_limit_mb=3000 -max_len=4096 -artifact_prefix="$out/$name-" -print_final_stats=1)
+    local options=(-max_total_time=$seconds -timeout=20 -rss_limit_mb=3000 -max_len=8192 -artifact_prefix="$out/$name-" -print_final_stats=1)
     [ ! -f "tests/fuzz/$name.dict" ] || options+=(-dict="tests/fuzz/$name.dict")
     say "fuzzing $name"
     if ! "build-fuzz/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
