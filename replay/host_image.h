@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -17,6 +19,9 @@ struct HostImage {
     Shape shape;
     std::vector<std::byte> texels;
 };
+
+/// Images of a run or a file.
+using NamedImages = std::map<std::string, HostImage>;
 
 /// One texel as four doubles; missing channels are 0 (a: 1).
 glm::dvec4 texel(const HostImage&, std::uint32_t x, std::uint32_t y, std::uint32_t layer = 0);

@@ -54,10 +54,9 @@ std::vector<std::string> channel_names(const HostImage& image) {
 }
 
 /// Half and 32-bit formats go over unchanged; small and packed ones are widened to float or uint.
-LayerPart layer_part(const ExrPart& part, std::uint32_t layer) {
-    const HostImage& image = *part.image;
+LayerPart layer_part(const std::string& name, const HostImage& image, std::uint32_t layer) {
     const FormatRow& format = row(image.shape.format);
-    LayerPart out{.name = image.shape.layers > 1 ? fmt::format("{}.layer{}", part.name, layer) : part.name,
+    LayerPart out{.name = image.shape.layers > 1 ? fmt::format("{}.layer{}", name, layer) : name,
                   .width = image.shape.extent.width,
                   .height = image.shape.extent.height,
                   .type = pixel_type(image.shape.format),
@@ -166,7 +165,7 @@ std::pair<std::string, std::optional<std::uint32_t>> split_layer(const std::stri
 }
 
 /// Appends the layer, or puts the whole image in its place.
-Result<void> add_part(std::map<std::string, HostImage>& images, const std::string& part, HostImage read) {
+Result<void> add_part(NamedImages& images, const std::string& part, HostImage read) {
     const auto& [name, layer] = split_layer(part);
     const auto known = images.find(name);
     const std::uint32_t expected = known == images.end() ? 0 : known->second.shape.layers;
@@ -186,10 +185,10 @@ Result<void> add_part(std::map<std::string, HostImage>& images, const std::strin
 
 }  // namespace
 
-Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPart> images, const Metadata& metadata) {
+Result<void> write_exr(const std::filesystem::path& path, const NamedImages& images, const Metadata& metadata) {
     std::vector<LayerPart> parts;
-    for (const ExrPart& image : images)
-        for (std::uint32_t layer = 0; layer < image.image->shape.layers; ++layer) parts.push_back(layer_part(image, layer));
+    for (const auto& [name, image] : images)
+        for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer) parts.push_back(layer_part(name, image, layer));
     std::vector<Imf::Header> headers;
     for (const LayerPart& part : parts) headers.push_back(header_of(part, metadata));
     Imf::StdOSStream stream;
@@ -213,10 +212,10 @@ Result<void> write_exr(const std::filesystem::path& path, std::span<const ExrPar
     return write_whole_file(path, stream.str());
 }
 
-Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path& path) {
+Result<NamedImages> read_exr(const std::filesystem::path& path) {
     try {
         Imf::MultiPartInputFile file(path.c_str());
-        std::map<std::string, HostImage> images;
+        NamedImages images;
         for (int part = 0; part < file.parts(); ++part) {
             auto image = read_part(file, part);
             if (!image) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), image.error().sentence);

@@ -14,20 +14,15 @@
 
 namespace strata {
 
-/// A named image of a file; each of its layers becomes a part "name" or "name.layer2".
-struct ExrPart {
-    std::string name;
-    const HostImage* image = nullptr;
-};
-
 using Metadata = std::map<std::string, std::string>;
 
-/// ZIP; half, float or uint channels as the image has them, so pixels survive bit for bit.
-Result<void> write_exr(const std::filesystem::path&, std::span<const ExrPart>, const Metadata&);
+/// ZIP; half, float or uint channels as the image has them, so pixels survive bit for bit. Each layer of an image becomes a part
+/// "name" or "name.layer2".
+Result<void> write_exr(const std::filesystem::path&, const NamedImages&, const Metadata&);
 
 /// The images of a flat file by their parts' names; parts "name.layer0", "name.layer1", ... become the layers of one image.
 /// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image".
-Result<std::map<std::string, HostImage>> read_exr(const std::filesystem::path&);
+Result<NamedImages> read_exr(const std::filesystem::path&);
 
 /// Display light (0..1 linear) as 8-bit sRGB, rounded to nearest; what is not finite is black.
 std::byte display_byte(double light);

@@ -30,16 +30,15 @@ struct Candidate {
     bool is_news() const { return !before || before->agreement != Agreement::exact || lacks_images; }
 };
 
-Result<Candidate> replay_candidate(Session& session, const Request& request, const Options& options) {
+Result<Candidate> replay_candidate(Session& session, const Request& request, const Options& options,
+                                   const std::vector<Expectation>& known) {
     auto run = session.run(request);
     if (!run) return run.error();
     // What varies can be no expectation.
     if (const auto same = check_repeats(session, request, *run, 2); !same) return same.error();
     Candidate candidate{.expectation = expectation_of(session, request, *run), .run = *std::move(run)};
     candidate.expectation.tool = tool_revision;
-    const auto known = expectations_of(*session.capture());
-    if (!known) return known.error();
-    if (const Expectation* old = newest_for(*known, candidate.expectation)) {
+    if (const Expectation* old = newest_for(known, candidate.expectation)) {
         auto verdict = compare_with(*session.capture(), *old, candidate.run, candidate.expectation, 0);
         if (!verdict) return verdict.error();
         candidate.before = *std::move(verdict);
@@ -81,11 +80,14 @@ Result<void> accept(const Options& options) {
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
 
+    const auto known = expectations_of(*(*session)->capture());
+    if (!known) return known.error();
+
     std::optional<ExpectationWriter> writer;
     std::size_t news = 0;
     for (const std::size_t frame : *frames) {
         request->frame = frame;
-        auto candidate = replay_candidate(**session, *request, options);
+        auto candidate = replay_candidate(**session, *request, options, *known);
         if (!candidate) return candidate.error();
         show(*candidate);
         if (!candidate->is_news()) continue;

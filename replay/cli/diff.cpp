@@ -209,11 +209,8 @@ Result<void> diff(Options options) {
                         "A is compared with what? Name a second file, or what B does otherwise: --use, --set, --gpu-b");
         options.b.file = options.a.file;
     }
-    if (!options.folder.empty()) {
-        std::error_code problem;
-        std::filesystem::create_directories(options.folder, problem);
-        if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
-    }
+    if (!options.folder.empty())
+        if (const auto made = make_folder(options.folder); !made) return made;
     Pictures pictures(options);
     Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;

@@ -63,9 +63,7 @@ Result<void> export_images(const ExportOptions& options) {
     for (const std::string& name : options.images)
         if (!run->images.contains(name)) return fail(Fault::usage, "the frame has no '{}': its stage is left out", name);
     if (kind == ".png") return write_picture(options, *run);
-    std::vector<ExrPart> parts;
-    for (const auto& [name, image] : run->images) parts.push_back({name, &image});
-    return write_exr(options.output, parts, provenance(**session, *request, *run));
+    return write_exr(options.output, run->images, provenance(**session, *request, *run));
 }
 
 }  // namespace strata

@@ -33,18 +33,18 @@ struct Options {
 /// A frame replayed, and held against what the capture expects where that was asked for.
 struct Replayed {
     Run run;
+    Metadata provenance;
+    std::optional<Expectation> got;  ///< what it gave, beside what was expected
     std::optional<ExpectationVerdict> verdict;
     ordered_json json;
 };
 
-Result<void> write_frame(const Session& session, const Request& request, const Replayed& replayed, const Options& options) {
+Result<void> write_frame(const Request& request, const Replayed& replayed, const Options& options) {
     const Run& run = replayed.run;
     const std::string base =
         (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
-    std::vector<ExrPart> parts;
-    for (const auto& [name, image] : run.images) parts.push_back({name, &image});
-    if (!parts.empty()) {
-        if (const auto done = write_exr(base + ".exr", parts, provenance(session, request, run)); !done) return done;
+    if (!run.images.empty()) {
+        if (const auto done = write_exr(base + ".exr", run.images, replayed.provenance); !done) return done;
         fmt::print(stderr, "wrote {}.exr\n", base);
     }
     if (const auto display = run.images.find("display"); display != run.images.end()) {
@@ -80,7 +80,9 @@ bool expects(const Session& session, const Options& options) {
     return !options.no_expect && options.until.empty() && (options.expect || !session.capture()->expectations().empty());
 }
 
-Result<Replayed> replay_frame(Session& session, const Request& request, const Options& options) {
+/// Compared with what is `known` to be expected, where that is not null.
+Result<Replayed> replay_frame(Session& session, const Request& request, const Options& options,
+                              const std::vector<Expectation>* known) {
     auto run = run_once(session, request, options);
     if (!run) return run.error();
     Replayed replayed{.run = *std::move(run)};
@@ -89,31 +91,30 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Op
     if (options.repeat > 1)
         fmt::print(stderr, "frame {}: {} repeats, every image of every act bit for bit the same\n", request.frame,
                    options.repeat);
-    if (expects(session, options)) {
-        const auto known = expectations_of(*session.capture());
-        if (!known) return known.error();
-        const Expectation got = expectation_of(session, request, replayed.run);
-        auto verdict = check_expectations(*session.capture(), *known, replayed.run, got, options.tolerance);
+    if (known) {
+        replayed.got = expectation_of(session, request, replayed.run);
+        auto verdict = check_expectations(*session.capture(), *known, replayed.run, *replayed.got, options.tolerance);
         if (!verdict) return verdict.error();
         replayed.verdict = *std::move(verdict);
     }
-    replayed.json = json_of(session, request, replayed.run, replayed.verdict ? &*replayed.verdict : nullptr);
+    replayed.provenance = provenance(session, request, replayed.run);
+    replayed.json = json_of(replayed.provenance, replayed.run, replayed.verdict ? &*replayed.verdict : nullptr);
     return replayed;
 }
 
 /// The command that would make what a frame gave its expectation.
 std::string command_to_accept(const Options& options, std::size_t frame) {
-    std::string command = fmt::format("strata accept '{}' --frames {}", options.open.capture.string(), frame);
+    std::string command = fmt::format("strata accept {} --frames {}", shell_word(options.open.capture.string()), frame);
     for (const std::string& use : options.choices.uses) command += fmt::format(" --use {}", use);
     for (const std::string& set : options.choices.sets) command += fmt::format(" --set {}", set);
     for (const std::string& force : options.choices.force) command += fmt::format(" --force {}", force);
     if (options.choices.samples != 0) command += fmt::format(" --samples {}", options.choices.samples);
-    if (!options.open.device.gpu.empty()) command += fmt::format(" --gpu '{}'", options.open.device.gpu);
+    if (!options.open.device.gpu.empty()) command += " --gpu " + shell_word(options.open.device.gpu);
     return command;
 }
 
 /// The verdict as what the program ends with.
-Result<void> judge(const Session& session, const Request& request, const Replayed& replayed, const Options& options) {
+Result<void> judge(const Request& request, const Replayed& replayed, const Options& options) {
     if (!replayed.verdict) return {};
     const ExpectationVerdict& verdict = *replayed.verdict;
     const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
@@ -133,8 +134,7 @@ Result<void> judge(const Session& session, const Request& request, const Replaye
         case Agreement::no_expectation:
             return fail(Fault::expectation_missing,
                         "frame {} has no expectation for this device and these choices; it gives\n  {}\naccept it with: {}",
-                        request.frame, short_json(expectation_of(session, request, replayed.run)),
-                        command_to_accept(options, request.frame));
+                        request.frame, short_json(*replayed.got), command_to_accept(options, request.frame));
     }
     return {};
 }
@@ -172,22 +172,26 @@ Result<void> replay(const Options& options) {
     if (!session) return session.error();
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
-    std::error_code problem;
-    std::filesystem::create_directories(options.folder, problem);
-    if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", options.folder.string(), problem.message());
+    if (const auto made = make_folder(options.folder); !made) return made;
+    std::optional<std::vector<Expectation>> known;
+    if (expects(**session, options)) {
+        auto parsed = expectations_of(*(*session)->capture());
+        if (!parsed) return parsed.error();
+        known = *std::move(parsed);
+    }
 
-    const bool acts = options.repeat > 1 || options.json || expects(**session, options);
+    const bool acts = options.repeat > 1 || options.json || known;
     request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
     for (const std::size_t frame : *frames) {
         request->frame = frame;
-        auto replayed = replay_frame(**session, *request, options);
+        auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
         if (!replayed) return replayed.error();
-        if (const auto done = write_frame(**session, *request, *replayed, options); !done) return done;
+        if (const auto done = write_frame(*request, *replayed, options); !done) return done;
         if (!options.json) print_summary(*request, replayed->run);
         if (options.timed > 0 && !options.json) print_times(replayed->run);
-        const auto now = judge(**session, *request, *replayed, options);
+        const auto now = judge(*request, *replayed, options);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
     }

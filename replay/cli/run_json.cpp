@@ -102,9 +102,9 @@ Metadata provenance(const Session& session, const Request& request, const Run& r
     return metadata;
 }
 
-ordered_json json_of(const Session& session, const Request& request, const Run& run, const ExpectationVerdict* verdict) {
+ordered_json json_of(const Metadata& provenance, const Run& run, const ExpectationVerdict* verdict) {
     ordered_json json{{"schema", "strata.replay"}, {"schema_version", 1}};
-    for (const auto& [key, value] : provenance(session, request, run)) json["provenance"][key] = value;
+    for (const auto& [key, value] : provenance) json["provenance"][key] = value;
     json["provenance"]["strata.settings"] = run.choices;
     json["steps"] = steps_of(run);
     if (!run.acts.empty()) json["acts"] = acts_of(run);

@@ -12,6 +12,6 @@ namespace strata {
 Metadata provenance(const Session&, const Request&, const Run&);
 
 /// Schema strata.replay. `verdict` where the run was held against what its capture expects, else null.
-nlohmann::ordered_json json_of(const Session&, const Request&, const Run&, const ExpectationVerdict* verdict);
+nlohmann::ordered_json json_of(const Metadata& provenance, const Run&, const ExpectationVerdict* verdict);
 
 }  // namespace strata

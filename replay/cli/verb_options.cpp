@@ -123,13 +123,23 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
     return indices;
 }
 
+Result<void> make_folder(const std::filesystem::path& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    return problem ? Result<void>(fail(Fault::usage, "cannot make the folder {}: {}", folder.string(), problem.message()))
+                   : Result<void>();
+}
+
+std::string shell_word(std::string_view word) {
+    std::string safe = "'";
+    for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return safe + "'";
+}
+
 std::string command_line(const CLI::App& verb) {
-    const auto quoted = [](const std::string& word) {
+    const auto as_needed = [](const std::string& word) {
         constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
-        if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-        std::string safe = "'";
-        for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        return safe + "'";
+        return !word.empty() && word.find_first_not_of(plain) == word.npos ? word : shell_word(word);
     };
     std::string line = "strata " + verb.get_name();
     for (const CLI::Option* option : verb.get_options()) {
@@ -137,7 +147,7 @@ std::string command_line(const CLI::App& verb) {
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
             if (!option->get_positional()) line += " " + option->get_name();
-            if (!flag) line += " " + quoted(value);
+            if (!flag) line += " " + as_needed(value);
         }
     }
     return line;

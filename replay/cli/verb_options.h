@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "replay/session.h"
@@ -35,6 +36,10 @@ Result<Request> request_of(const ChoiceOptions&);
 
 /// "0,4-8" as frame indices below count; empty means all. Fails for frames that do not exist.
 Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count);
+/// Makes a folder for output, and those around it, where it is missing.
+Result<void> make_folder(const std::filesystem::path&);
+/// A word for a shell, in quotes whatever it holds.
+std::string shell_word(std::string_view word);
 /// What was typed, as a line for a shell: a verb with its options in the order of the help.
 std::string command_line(const CLI::App& verb);
 /// "320x180".

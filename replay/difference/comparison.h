@@ -57,7 +57,6 @@ using SeeImages =
 /// Act by act. Fails when images that should have one shape do not.
 Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& b, const ErrorLimits&, const SeeImages&);
 
-using NamedImages = std::map<std::string, HostImage>;
 /// By name; one image on each side is compared whatever its name. Fails where a name is on one side only.
 Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImages& b, const ErrorLimits&, const SeeImages&);
 

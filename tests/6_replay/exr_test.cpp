@@ -28,8 +28,7 @@ TEST(Exr, WhatIsWrittenIsReadBitForBit) {
     for (const Format format : {Format::r16f, Format::rg16f, Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f,
                                 Format::r32ui, Format::rg32ui, Format::rgba32ui, Format::d32f}) {
         const HostImage one = numbered(format, 1), four = numbered(format, 4);
-        const ExrPart parts[] = {{"one", &one}, {"four", &four}};
-        must(write_exr(file_of_this_test(), parts, {}));
+        must(write_exr(file_of_this_test(), {{"one", one}, {"four", four}}, {}));
         const auto read = must(read_exr(file_of_this_test()));
         ASSERT_EQ(read.size(), 2u) << row(format).name;
         EXPECT_EQ(hash_of(read.at("one")), hash_of(one)) << row(format).name;
@@ -40,8 +39,7 @@ TEST(Exr, WhatIsWrittenIsReadBitForBit) {
 
 TEST(Exr, SmallFormatsComeBackWider) {
     const HostImage bytes = numbered(Format::rgba8_unorm, 1);
-    const ExrPart parts[] = {{"bytes", &bytes}};
-    must(write_exr(file_of_this_test(), parts, {}));
+    must(write_exr(file_of_this_test(), {{"bytes", bytes}}, {}));
     const HostImage read = must(read_exr(file_of_this_test())).at("bytes");
     EXPECT_EQ(read.shape.format, Format::rgba32f);
     EXPECT_NEAR(texel(read, 4, 2).y, texel(bytes, 4, 2).y, 1e-7);
@@ -54,8 +52,7 @@ TEST(Exr, AMissingFileIsAnError) {
 
 TEST(Exr, AFileCutShortIsAnErrorWhereverItIsCut) {
     const HostImage image = numbered(Format::rgba16f, 2);
-    const ExrPart parts[] = {{"image", &image}};
-    must(write_exr(file_of_this_test(), parts, {}));
+    must(write_exr(file_of_this_test(), {{"image", image}}, {}));
     const auto whole = std::filesystem::file_size(file_of_this_test());
     for (auto size = whole - 1; size > 0; size = size * 7 / 8) {
         std::filesystem::resize_file(file_of_this_test(), size);
@@ -68,8 +65,7 @@ TEST(Exr, AFileCutShortIsAnErrorWhereverItIsCut) {
 
 TEST(Exr, ALayerWithoutTheOnesBeforeItIsAnError) {
     const HostImage image = numbered(Format::r32f, 1);
-    const ExrPart parts[] = {{"depth.layer1", &image}};
-    must(write_exr(file_of_this_test(), parts, {}));
+    must(write_exr(file_of_this_test(), {{"depth.layer1", image}}, {}));
     EXPECT_THAT(read_exr(file_of_this_test()).error().sentence,
                 testing::EndsWith("part 'depth.layer1' comes where layer 0 of 'depth' was expected"));
     std::filesystem::remove(file_of_this_test());
