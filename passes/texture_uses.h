@@ -9,8 +9,7 @@ namespace strata {
 
 enum class Surfaces { opaque, transparent };
 
-/// Bits as in material.glsl: kinds 1 base color, 2 metallic-roughness, 4 normal, 8 emissive, 16 occlusion; formats 1 <<
-/// TextureFormat.
+/// Bits: kinds 1 << a kind of scene.shared.h, formats 1 << TextureFormat.
 struct TextureUses {
     std::uint32_t kinds = 0, formats = 0;
 };

@@ -66,6 +66,14 @@ struct DrawRecord {
     float bound_radius;
 };
 
+// Kinds of textures that a material has.
+const uint base_color_texture = 0u;
+const uint metallic_roughness_texture = 1u;
+const uint normal_texture = 2u;
+const uint emissive_texture = 3u;
+const uint occlusion_texture = 4u;
+const uint texture_kinds = 5u;
+
 struct TextureUseRecord {
     uint texture;  // no_index: none, white
     uint uv_set;
@@ -86,11 +94,7 @@ struct MaterialRecord {
     float occlusion_strength;
     float distortion;
     uint double_sided;
-    TextureUseRecord base_color_texture;
-    TextureUseRecord metallic_roughness_texture;
-    TextureUseRecord normal_texture;
-    TextureUseRecord emissive_texture;
-    TextureUseRecord occlusion_texture;
+    TextureUseRecord textures[texture_kinds];  // by kind
 };
 
 // Texels lie in one buffer: rgba8 is one uint, rgba16f two, rgba32f four. Mips follow each other, finest first.

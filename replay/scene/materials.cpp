@@ -25,11 +25,8 @@ MaterialRecord record(const Material& m) {
         .occlusion_strength = m.occlusion_strength,
         .distortion = m.distortion,
         .double_sided = m.double_sided ? 1u : 0u,
-        .base_color_texture = record(m.base_color_texture),
-        .metallic_roughness_texture = record(m.metallic_roughness_texture),
-        .normal_texture = record(m.normal_texture),
-        .emissive_texture = record(m.emissive_texture),
-        .occlusion_texture = record(m.occlusion_texture),
+        .textures = {record(m.base_color_texture), record(m.metallic_roughness_texture), record(m.normal_texture),
+                     record(m.emissive_texture), record(m.occlusion_texture)},  // by kind
     };
 }
 

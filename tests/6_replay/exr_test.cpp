@@ -1,10 +1,12 @@
 // OpenEXR files: what is written is read back bit for bit, and what cannot be read is refused with a sentence.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/srgb.h"
 #include "replay/image_io.h"
 #include "tests/support/session.h"
 
@@ -69,6 +71,17 @@ TEST(Exr, ALayerWithoutTheOnesBeforeItIsAnError) {
     EXPECT_THAT(read_exr(file_of_this_test()).error().sentence,
                 testing::EndsWith("part 'depth.layer1' comes where layer 0 of 'depth' was expected"));
     std::filesystem::remove(file_of_this_test());
+}
+
+TEST(DisplayByte, IsTheNearestOfTheSrgbCurve) {
+    for (int i = 0; i <= 100000; ++i) {
+        const double light = i / 100000.;
+        EXPECT_EQ(display_byte(light), unorm8(encode_srgb(light))) << light;
+    }
+    EXPECT_EQ(display_byte(-1), std::byte{0});
+    EXPECT_EQ(display_byte(7), std::byte{255});
+    EXPECT_EQ(display_byte(HUGE_VAL), std::byte{0});
+    EXPECT_EQ(display_byte(std::nan("")), std::byte{0});
 }
 
 }  // namespace

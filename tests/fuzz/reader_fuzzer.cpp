@@ -43,7 +43,7 @@ void run(std::span<const std::byte> input) {
 }
 
 /// Changes one record of a sealed input and leaves the others' borders alone.
-void mutate_record(std::vector<Record>& records, std::size_t most, std::mt19937& random) {
+void mutate_record(std::vector<Record>& records, std::size_t most, std::minstd_rand& random) {
     Record& record = records[random() % records.size()];
     switch (random() % 16) {
         case 0:
@@ -89,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
-    std::mt19937 random(seed);
+    std::minstd_rand random(seed);
     if (size < 1 || (data[0] & 1) != 0 || random() % 16 == 0) return LLVMFuzzerMutate(data, size, most);
     std::vector<strata::Record> records = strata::parse_records(std::as_bytes(std::span(data + 1, size - 1)));
     if (records.empty()) return LLVMFuzzerMutate(data, size, most);

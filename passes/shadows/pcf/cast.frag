@@ -11,6 +11,7 @@ void main() {
     const Footprint uv = footprint(in_uv);
     const MaterialRecord material = materials[draws[in_draw].material];
     if (material.alpha_mode != alpha_mask) return;
-    const float alpha = material.base_color.a * in_alpha * texture_at(base_color_kind, material.base_color_texture, uv).a;
+    float alpha = material.base_color.a * in_alpha;
+    if (is_used(base_color_texture)) alpha *= texture_at(material.textures[base_color_texture], uv).a;
     if (alpha < material.mask_cutoff) discard;
 }

@@ -82,17 +82,17 @@ float filtered(uint slot, vec3 position, vec3 normal) {
 
 // The first slot that reaches the depth, blended into the next one over its last tenth and finally into lit.
 float visible_share(LightRecord light, vec3 position, vec3 normal) {
-    for (uint i = 0u; i < light.shadow_slots; ++i) {
-        const uint slot = light.shadow + i;
+    float first = 1.0, share = 0.0;
+    for (uint slot = light.shadow; slot < light.shadow + light.shadow_slots; ++slot) {
         const float rest = shadows[slot].range_end - position.z;
         if (rest <= 0.0) continue;
-        const float share = min(rest / (blend_share * (shadows[slot].range_end - shadows[slot].range_begin)), 1.0);
         const float here = filtered(slot, position, normal);
-        if (share == 1.0) return here;
-        const float next = i + 1u < light.shadow_slots ? filtered(slot + 1u, position, normal) : 1.0;
-        return next + share * (here - next);
+        if (share > 0.0) return here + share * (first - here);
+        first = here;
+        share = min(rest / (blend_share * (shadows[slot].range_end - shadows[slot].range_begin)), 1.0);
+        if (share == 1.0) return first;
     }
-    return 1.0;
+    return 1.0 + share * (first - 1.0);
 }
 
 void count(uint filtered_here, uint penumbra_here) {
