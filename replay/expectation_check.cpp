@@ -3,31 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "replay/measure/image_error.h"
+
 namespace strata {
 namespace {
-
-/// Whether both channels say the same: equal numbers, or no number both.
-bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
-
-double root_mean_square(const ReferenceImage& image) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (const glm::dvec4& t : image.texels)
-        for (glm::length_t c = 0; c < static_cast<glm::length_t>(image.channels); ++c)
-            if (std::isfinite(t[c])) sum += t[c] * t[c], ++count;
-    return std::sqrt(sum / double(std::max<std::size_t>(1, count)));
-}
-
-/// The distance of two texels over their channels; infinite where only one is a number, nothing where they are the same.
-std::optional<double> distance(const glm::dvec4& a, const glm::dvec4& b, std::uint32_t channels) {
-    std::optional<double> sum;
-    for (glm::length_t c = 0; c < static_cast<glm::length_t>(channels); ++c) {
-        if (same(a[c], b[c])) continue;
-        const double delta = std::abs(a[c] - b[c]);
-        sum = std::isnan(delta) ? HUGE_VAL : std::hypot(sum.value_or(0), delta);
-    }
-    return sum;
-}
 
 /// The expected image of the capture, where it is kept.
 Result<std::optional<HostImage>> kept_image(const Capture& capture, const ExpectedImage& expected) {
@@ -82,26 +61,14 @@ Result<void> judge_act(const Capture& capture, const ExpectedAct& expected, cons
 }  // namespace
 
 ImageDeviation deviation_of(const std::string& name, const HostImage& got, const HostImage& expected) {
-    const ReferenceImage a = in_double(got), b = in_double(expected);
-    ImageDeviation deviation{.texels = b.texels.size()};
-    deviation.worst.image = name;
-    double squares = 0, largest = -1;
-    for (std::size_t i = 0; i < b.texels.size(); ++i) {
-        const auto error = distance(a.texels[i], b.texels[i], b.channels);
-        if (!error) continue;
-        ++deviation.differing;
-        squares += *error * *error;
-        if (*error <= largest) continue;
-        largest = *error;
-        const auto x = static_cast<std::uint32_t>(i % b.width), row = static_cast<std::uint32_t>(i / b.width);
-        deviation.worst = {name, x, row % b.height, row / b.height, a.texels[i], b.texels[i]};
-    }
-    const double mean_square = squares / double(std::max<std::size_t>(1, b.texels.size() * b.channels));
-    deviation.rmse = std::sqrt(mean_square) / std::max(root_mean_square(b), 1e-9);
-    // Numbers that stand for things (lists, ids) are the same or they are not.
-    const bool counts_things = row(expected.shape.format).kind == FormatKind::integer;
-    if (counts_things && deviation.differing > 0) deviation.rmse = HUGE_VAL;
-    return deviation;
+    const ImageError error = image_error(expected, got, {});
+    const WorstPixel& at = error.worst_pixel;
+    // Numbers that stand for things (lists, ids) are the same or they are not; so is what is no number.
+    const bool is_out = error.disagreeing > 0 || (error.kind == ImageError::Kind::integers && error.over_limit > 0);
+    return {.rmse = is_out ? HUGE_VAL : error.relative_rmse,
+            .texels = error.pixels,
+            .differing = error.over_limit,
+            .worst = {name, at.x, at.y, at.layer, texel(got, at.x, at.y, at.layer), texel(expected, at.x, at.y, at.layer)}};
 }
 
 const ImageVerdict* ExpectationVerdict::first_divergence() const {

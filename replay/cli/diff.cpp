@@ -232,10 +232,9 @@ void add_sides(CLI::App& app, Options& options) {
     list("--set-a", options.a.sets, "key=value of A");
     list("--force", options.both.force, "feature or 'all', of both: switch it on though the frame lacks it");
     app.add_option("--samples", options.both.samples, "samples per pixel of both instead of the recorded ones: 1 or 4");
-    app.add_option("--gpu", options.device.gpu, "device of both by index or part of its name; see strata --list-gpus");
-    app.add_option("--gpu-a", options.a.gpu, "device of A");
-    app.add_option("--gpu-b", options.b.gpu, "device of B");
-    app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
+    add_options(app, options.device);
+    app.add_option("--gpu-a", options.a.gpu, "device of A, where not --gpu");
+    app.add_option("--gpu-b", options.b.gpu, "device of B, where not --gpu");
     app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
     app.add_option("--frames", options.frames, "which frames, like 0,4-8; default all");
 }

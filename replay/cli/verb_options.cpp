@@ -52,16 +52,19 @@ Frame small(Frame frame) {
 
 }  // namespace
 
-void add_options(CLI::App& app, OpenOptions& options) {
-    app.add_option("capture", options.capture, "a .strata file")->required();
-    app.add_option("--gpu", options.device.gpu, "device by index or part of its name; see strata --list-gpus");
-    app.add_option("--without", options.device.without,
-                   "treat the device as lacking this Vulkan feature or capability; repeatable")
+void add_options(CLI::App& app, DeviceChoice& device) {
+    app.add_option("--gpu", device.gpu, "device by index or part of its name; see strata --list-gpus");
+    app.add_option("--without", device.without, "treat the device as lacking this Vulkan feature or capability; repeatable")
         ->allow_extra_args(false);
-    app.add_flag("--validation", options.device.validation, "validation layer on; any message is an error");
-    app.add_option("--memory-budget", options.device.memory_budget,
+    app.add_flag("--validation", device.validation, "validation layer on; any message is an error");
+    app.add_option("--memory-budget", device.memory_budget,
                    "most memory to take from the device, like 256MiB; what needs more is refused (4)")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
+}
+
+void add_options(CLI::App& app, OpenOptions& options) {
+    app.add_option("capture", options.capture, "a .strata file")->required();
+    add_options(app, options.device);
     app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
 }
 

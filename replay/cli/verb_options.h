@@ -15,6 +15,8 @@ class App;
 
 namespace strata {
 
+void add_options(CLI::App&, DeviceChoice&);
+
 /// Which capture on which device.
 struct OpenOptions {
     std::filesystem::path capture;

@@ -23,7 +23,7 @@ using consumer::Engine;
 using consumer::Motion;
 using consumer::Pace;
 
-constexpr int frames = 60, pairs = 15;
+constexpr int frames = 60, pairs = 31;
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);
