@@ -20,6 +20,7 @@
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <xxhash.h>
@@ -249,13 +250,14 @@ std::byte display_byte(double light) {
 
 Result<void> write_png(const std::filesystem::path& path, const HostImage& image) {
     const Extent& extent = image.shape.extent;
-    std::vector<std::byte> rgb;
-    rgb.reserve(std::size_t(extent.width) * extent.height * 3);
-    for (std::uint32_t y = 0; y < extent.height; ++y)
+    std::vector<std::byte> rgb(std::size_t{extent.width} * extent.height * 3);
+    oneapi::tbb::parallel_for(std::uint32_t{0}, extent.height, [&](std::uint32_t y) {
+        std::byte* to = rgb.data() + std::size_t{y} * extent.width * 3;
         for (std::uint32_t x = 0; x < extent.width; ++x) {
             const glm::dvec4 color = texel(image, x, y);
-            for (int c = 0; c < 3; ++c) rgb.push_back(display_byte(color[c]));
+            for (int c = 0; c < 3; ++c) *to++ = display_byte(color[c]);
         }
+    });
     return write_png(path, extent, rgb);
 }
 
