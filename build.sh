@@ -14,8 +14,7 @@ packages=(
     libflatbuffers-dev flatbuffers-compiler libmeshoptimizer-dev libstb-dev
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format)
-
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git)
 fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 say() { printf '== %s\n' "$*" >&2; }
