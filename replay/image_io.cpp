@@ -268,6 +268,7 @@ Result<void> write_png(const std::filesystem::path& path, const Extent& extent, 
     };
     const auto width = static_cast<int>(extent.width), height = static_cast<int>(extent.height);
     stbi_write_force_png_filter = 2;  // "up"; trying all five in every row takes longer than compressing
+    stbi_write_png_compression_level = 5;
     if (!stbi_write_png_to_func(append, &png, width, height, 3, rgb.data(), width * 3))
         return fail(Fault::usage, "cannot make a picture of {} x {} for {}", width, height, path.string());
     return write_whole_file(path, png);

@@ -39,17 +39,18 @@ struct Replayed {
     ordered_json json;
 };
 
+/// The picture first: it is what a person waits for.
 Result<void> write_frame(const Request& request, const Replayed& replayed, const Options& options) {
     const Run& run = replayed.run;
     const std::string base =
         (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
-    if (!run.images.empty()) {
-        if (const auto done = write_exr(base + ".exr", run.images, replayed.provenance); !done) return done;
-        fmt::print(stderr, "wrote {}.exr\n", base);
-    }
     if (const auto display = run.images.find("display"); display != run.images.end()) {
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         fmt::print(stderr, "wrote {}.png\n", base);
+    }
+    if (!run.images.empty()) {
+        if (const auto done = write_exr(base + ".exr", run.images, replayed.provenance); !done) return done;
+        fmt::print(stderr, "wrote {}.exr\n", base);
     }
     if (const auto done = write_whole_file(base + ".json", replayed.json.dump(2) + "\n"); !done) return done;
     fmt::print(stderr, "wrote {}.json\n", base);

@@ -34,10 +34,8 @@ std::string test_name(const testing::TestParamInfo<Case>& info) {
     return name;
 }
 
-class Matrix : public testing::TestWithParam<Case> {};
-
-TEST_P(Matrix, TheGpuAgreesWithTheModel) {
-    const Case& c = GetParam();
+/// Judges a frame; skips where the technique is not needed or cannot do it.
+void expect_agreement(const Case& c, const std::vector<std::string>& sets) {
     const Technique& technique = *must(find_technique(c.technique));
     Session& session = session_of_scenarios();
     Request request = on_scenario(c.scenario, c.samples);
@@ -46,15 +44,17 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) {
 
     const ImageSet& truth = truth_of(technique.stage, request);
     request.uses = {c.technique};
+    request.sets = sets;
     const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model_and_truth, &truth));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << c.technique << " cannot do " << accuracy.not_supported;
     const WorstTexel& w = accuracy.worst;
     const View view = must(session.frame(request.frame)).view;
     const std::string where = fmt::format(
         "worst at ({}, {}) layer {} of {}: got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}\n"
-        "reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {}",
+        "reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {} {}",
         w.x, w.y, w.layer, w.image, w.got.x, w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z, c.scenario,
-        view.width / request.extent_divisor, view.height / request.extent_divisor, c.samples, c.scenario, name(technique.stage));
+        view.width / request.extent_divisor, view.height / request.extent_divisor, c.samples, c.scenario, name(technique.stage),
+        sets.empty() ? "" : "--set " + sets.front());
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << where;
     EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << where;
 
@@ -65,7 +65,24 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) {
     for (const Figure& figure : accuracy.method) EXPECT_TRUE(std::isfinite(figure.value)) << figure.name;
 }
 
+class Matrix : public testing::TestWithParam<Case> {};
+
+TEST_P(Matrix, TheGpuAgreesWithTheModel) { expect_agreement(GetParam(), {}); }
+
 INSTANTIATE_TEST_SUITE_P(Techniques, Matrix, testing::ValuesIn(cases()), test_name);
+
+/// Every choice of every parameter but the one that the matrix above has already.
+TEST(EveryChoice, OfEveryParameterIsWhatTheModelSays) {
+    for (const Technique& technique : techniques())
+        for (const Param& param : technique.params)
+            for (std::size_t i = 0; i < param.choices.size(); ++i) {
+                if (double(i) == param.fallback) continue;
+                const std::string set = fmt::format("{}={}", param.name, param.choices[i]);
+                SCOPED_TRACE(fmt::format("{} with {}", technique.name, set));
+                const Case richest{std::string(technique.name), std::string(info(technique.stage).scenarios.back())};
+                expect_agreement(richest, {set});
+            }
+}
 
 }  // namespace
 }  // namespace strata

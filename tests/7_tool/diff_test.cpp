@@ -48,6 +48,19 @@ TEST_F(Diff, OfTwoTechniquesNamesTheStageAndWhatStayedTheSame) {
     EXPECT_EQ(diff["rerun"], "strata diff panes.strata --use transparency/weighted --json");
 }
 
+TEST_F(Diff, OfTwoDevicesOpensBothAndSaysWhichTheyAre) {
+    const Finished same = strata("diff panes.strata --gpu-a 0 --gpu-b llvmpipe --json");
+    EXPECT_EQ(same.code, 0) << same.err;
+    const json diff = json::parse(same.out);
+    EXPECT_THAT(diff["b"]["device"]["name"].get<std::string>(), HasSubstr("llvmpipe"));
+    EXPECT_EQ(diff["a"]["device"], diff["b"]["device"]);
+    const Finished none = strata("diff panes.strata --gpu-b no_such_device");
+    EXPECT_EQ(none.code, 2);
+    EXPECT_THAT(none.err, HasSubstr("no_such_device"));
+    const Finished lacking = strata("diff panes.strata --use transparency/weighted --memory-budget 1KiB");
+    EXPECT_EQ(lacking.code, 4) << lacking.err;
+}
+
 TEST_F(Diff, FindsTheStepThatDiffersFirst) {
     ASSERT_EQ(strata("record three_panes --seed 1 -o a.strata").code, 0);
     ASSERT_EQ(strata("record red_and_green_glass --size 64x36 -o b.strata").code, 0);

@@ -17,7 +17,9 @@ void main() {
     // Colored glass covers less than its alpha: alpha (1 - mean k) = mean (1 - t) (McGuire and Mara 2016).
     const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
     const vec3 color = event.p + event.e;
-    const float weight = weight_of(params.weight, event.z * params.scale, view.near * params.scale, coverage, color);
+    const bool weighs = params.form == form_normalized;
+    const float weight =
+        weighs ? weight_of(params.weight, event.z * params.scale, view.near * params.scale, coverage, color) : 1.0;
     out_sum = vec4(color, coverage) * weight;
-    out_reveal = vec4(event.t, 1.0);
+    out_reveal = params.form == form_average ? vec4(1.0) : vec4(event.t, 1.0);  // added there: counts layers
 }

@@ -33,6 +33,12 @@ double weight_in_double(const WeightedParams& params, double near, const Fragmen
             return coverage(f) * bounded(3e3 * std::pow(near / f.depth, 3));
         case weight_blog:
             return std::max(std::min(1., std::max({p.x, p.y, p.z})), coverage(f)) * ninth;
+        case weight_2015:
+        case weight_2015_plain: {
+            const double a = 8 * std::min(1., coverage(f)) + .01, b = .05 + .95 * near / f.depth;
+            const double range = params.weight == weight_2015 ? std::sqrt(1e4 * z) : 1;
+            return std::clamp(1e8 * std::pow(a * b / range, 3), 1e-2, 3e2);
+        }
         default:
             return 1;
     }
@@ -42,11 +48,14 @@ glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind
     glm::dvec3 colors(0), through(1);
     double coverages = 0;
     for (const Fragment& fragment : fragments) {
-        const double weight = weight_in_double(params, near, fragment);
+        const double weight = params.form == form_normalized ? weight_in_double(params, near, fragment) : 1;
         colors += (fragment.color + fragment.emission) * weight;
         coverages += coverage(fragment) * weight;
         through *= fragment.transmittance;
     }
+    if (params.form == form_sum) return colors + behind * (1 - coverages);
+    const auto layers = double(fragments.size());
+    if (params.form == form_average) through = glm::dvec3(fragments.empty() ? 1 : std::pow(1 - coverages / layers, layers));
     colors = glm::clamp(colors, -largest_half, largest_half);
     return colors / std::max(std::min(coverages, largest_half), 1e-5) * (glm::dvec3(1) - through) + through * behind;
 }

@@ -8,7 +8,8 @@ namespace strata::transparency {
 namespace {
 
 // In the order of the constants in weighted.shared.h.
-constexpr std::string_view weights[] = {"w7", "w8", "w9", "w10", "blog", "constant"};
+constexpr std::string_view weights[] = {"w7", "w8", "w9", "w10", "blog", "w2015", "w2015_plain", "constant"};
+constexpr std::string_view forms[] = {"normalized", "average", "sum"};
 
 /// Drawn with the frame's samples, read by sample.
 Image create_target(Graph& graph, const FrameImages& images, std::string name, Format format) {
@@ -16,16 +17,20 @@ Image create_target(Graph& graph, const FrameImages& images, std::string name, F
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
-    const bool chromatic = images.features->has(Feature::chromatic);
+    const auto params = settings.as<WeightedParams>();
+    const bool counts = params.form == form_average, chromatic = images.features->has(Feature::chromatic) && !counts;
     Image sum = create_target(graph, images, "weighted sum", Format::rgba16f);
     Image reveal = create_target(graph, images, "weighted reveal", chromatic ? Format::rgba16f : Format::r16f);
     graph.clear(sum, {{0, 0, 0, 0}});
-    graph.clear(reveal, {{1, 1, 1, 1}});
+    graph.clear(reveal, counts ? ClearValue{} : ClearValue{{1, 1, 1, 1}});
 
-    draw_events(graph, "transparency/weighted/accumulate", images.transparent, images)
-        .adds_to(sum)
-        .multiplies(reveal)
-        .push(settings.as<WeightedParams>());
+    DrawPass draw = draw_events(graph, "transparency/weighted/accumulate", images.transparent, images);
+    draw.adds_to(sum).push(params);
+    if (counts) {
+        draw.adds_to(reveal);
+    } else {
+        draw.multiplies(reveal);
+    }
 
     const Image sum_layers = spread(graph, sum, "weighted sum by sample");
     const Image reveal_layers = spread(graph, reveal, "weighted reveal by sample");
@@ -34,6 +39,7 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
         .samples("reveal", reveal_layers)
         .updates("color", images.color)
         .fixes("chromatic", chromatic ? 1u : 0u)
+        .fixes("form", params.form)
         .over({images.extent.width, images.extent.height, images.samples});
 }
 
@@ -44,13 +50,15 @@ Technique weighted() {
         .stage = Stage::transparency,
         .name = "transparency/weighted",
         .title = "Weighted blended",
-        .source = "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D",
+        .source =
+            "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D; average: Bavoil and Myers 2008; sum: "
+            "Meshkin 2007",
         .summary =
             "Averages all fragments with weights falling with depth: one pass, fixed memory; near-opaque layers show what is "
             "behind.",
         .params = {param<&WeightedParams::weight>({.name = "weight",
                                                    .low = 0,
-                                                   .high = 5,
+                                                   .high = 7,
                                                    .fallback = weight_w7,
                                                    .help = "equation of the weight",
                                                    .choices = weights}),
@@ -59,7 +67,13 @@ Technique weighted() {
                                                   .high = 100,
                                                   .fallback = 1,
                                                   .help = "multiplies view depth: the weights were made for 0.1 to 500 units",
-                                                  .scale = Scale::logarithmic})},
+                                                  .scale = Scale::logarithmic}),
+                   param<&WeightedParams::form>({.name = "form",
+                                                 .low = 0,
+                                                 .high = 2,
+                                                 .fallback = form_normalized,
+                                                 .help = "what the sums become; average and sum know no weight",
+                                                 .choices = forms})},
         .counters = {counter<&WeightedCounters::fragments>(
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(WeightedCounters),

@@ -12,7 +12,8 @@ namespace strata::transparency {
 namespace {
 
 constexpr double near_plane = .1;
-constexpr std::array all_weights{weight_w7, weight_w8, weight_w9, weight_w10, weight_blog, weight_constant};
+constexpr std::array all_weights{weight_w7,   weight_w8,   weight_w9,         weight_w10,
+                                 weight_blog, weight_2015, weight_2015_plain, weight_constant};
 
 Fragment layer(double depth, double alpha, double color) {
     return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
@@ -47,10 +48,10 @@ TEST(WeightedBlending, WeighsByTheCubeOfReversedDepthInEquationTen) {
 }
 
 TEST(WeightedBlending, IsNotAnAverageInDisguise) {
-    // A public port and the form of 2015 came out constant over every scene: nothing but the constant weight may.
+    // The form of 2015 is one without its depth range, and so was a public port.
     for (const std::uint32_t weight : all_weights) {
         const double ratio = share_of_alpha(weight, 1) / share_of_alpha(weight, 100);
-        if (weight == weight_constant) {
+        if (weight == weight_constant || weight == weight_2015_plain) {
             EXPECT_EQ(ratio, 1);
         } else {
             EXPECT_GT(ratio, 100) << weight;
@@ -120,6 +121,36 @@ TEST(WeightedBlending, SaturatesItsSumsWhereHalfFloatsEnd) {
     const std::vector<Fragment> wall(100, layer(.05, 1, 2));
     EXPECT_DOUBLE_EQ(blend(weight_w7, wall, 0), 1);
     EXPECT_DOUBLE_EQ(blend(weight_w7, std::vector<Fragment>(10, layer(.05, 1, 2)), 0), 2);
+}
+
+TEST(WeightedBlending, WeighsByTheFormOf2015) {
+    // 100 a^3 b^3 z^-1.5 with a = 8 alpha + .01 and b = .05 + .95 near / z.
+    EXPECT_NEAR(.5 * share_of_alpha(weight_2015, 1), 100 * std::pow(4.01 * .145, 3), 1e-9);
+    EXPECT_NEAR(.5 * share_of_alpha(weight_2015, 4), 100 * std::pow(4.01 * .07375, 3) / 8, 1e-9);
+    const auto plain = [](double alpha, double depth) {
+        return weight_in_double({.weight = weight_2015_plain, .scale = 1}, near_plane, layer(depth, alpha, 0));
+    };
+    EXPECT_EQ(plain(.036, 500), 300);  // saturated however far
+    EXPECT_LT(plain(.034, 500), 300);
+}
+
+double blend_as(std::uint32_t form, std::span<const Fragment> fragments, double behind) {
+    return weighted_blend(fragments, glm::dvec3(behind), {.weight = weight_w7, .scale = 1, .form = form}, near_plane).x;
+}
+
+TEST(WeightedAverage, IsExactForEqualLayersAndForgetsUnequalAlphas) {
+    const std::array equal{layer(1, .5, .7), layer(9, .5, .7), layer(20, .5, .7)};
+    EXPECT_NEAR(blend_as(form_average, equal, 2), exact_blend(equal, glm::dvec3(2)).x, 1e-12);
+    EXPECT_NEAR(blend_as(form_average, std::array{layer(1, .5, 1), layer(5, .5, 0)}, 0), .375, 1e-12);
+    // .9 and .1 let .09 through; twice their mean lets .25.
+    EXPECT_NEAR(blend_as(form_average, std::array{layer(1, .9, 0), layer(2, .1, 0)}, 1), .25, 1e-12);
+    EXPECT_EQ(blend_as(form_average, {}, .123), .123);
+}
+
+TEST(WeightedSum, IsExactForOneLayerAndSubtractsTheBackgroundFromThree) {
+    EXPECT_NEAR(blend_as(form_sum, std::array{layer(1, .4, 1)}, .5), .4 + .6 * .5, 1e-12);
+    EXPECT_NEAR(blend_as(form_sum, std::vector<Fragment>(3, layer(1, .5, 0)), 1), -.5, 1e-12);
+    EXPECT_EQ(blend_as(form_sum, {}, .123), .123);
 }
 
 TEST(WeightedBlending, LeavesThePixelAloneWithoutFragments) { EXPECT_EQ(blend(weight_w7, {}, .123), .123); }

@@ -3,7 +3,7 @@
 #define PASSES_TRANSPARENCY_WEIGHTED_WEIGHTS_GLSL
 #include "passes/transparency/weighted/weighted.shared.h"
 
-const float least_weight = 1e-2, largest_weight = 3e3;
+const float least_weight = 1e-2, largest_weight = 3e3, largest_weight_2015 = 3e2;
 
 float power4(float x) { return x * x * x * x; }
 float power6(float x) { return x * x * x * x * x * x; }
@@ -19,6 +19,12 @@ float weight_of(uint kind, float z, float near, float alpha, vec3 p) {
     // 1 - D of an infinite far plane is near / z.
     if (kind == weight_w10) return alpha * bounded(3e3 * (near / z) * (near / z) * (near / z));
     if (kind == weight_blog) return max(min(1.0, max(p.r, max(p.g, p.b))), alpha) * ninth;
+    if (kind == weight_2015 || kind == weight_2015_plain) {
+        const float a = 8.0 * min(1.0, alpha) + 0.01;
+        float b = 0.05 + 0.95 * near / z;  // 1 - .95 D
+        if (kind == weight_2015) b *= inversesqrt(1e4 * z);
+        return clamp(1e8 * a * a * a * b * b * b, least_weight, largest_weight_2015);
+    }
     return 1.0;
 }
 
