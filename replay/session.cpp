@@ -51,7 +51,7 @@ Result<Frame> DeviceSession::frame(std::size_t index) {
 Result<Run> DeviceSession::run(const Request& request) {
     if (request.acts == Acts::brought_back) return run_with_acts(request);
     RunOptions options;
-    auto declared = prepare_with_memo(request, options);
+    auto declared = request.once ? prepare(request, nullptr, Keep::outputs) : prepare_with_memo(request, options);
     if (!declared) return declared.error();
     Declaration& d = *declared;
     if (!request.until.empty()) {

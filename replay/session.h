@@ -32,6 +32,7 @@ struct Request {
     std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
     Acts acts = Acts::left;                          ///< not with `until`
+    bool once = false;                               ///< nothing is kept for later runs that share stages with this one
 };
 
 struct StepRecord {

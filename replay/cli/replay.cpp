@@ -182,6 +182,7 @@ Result<void> replay(const Options& options) {
     }
 
     const bool acts = options.repeat > 1 || options.json || known;
+    request->once = true;
     request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones

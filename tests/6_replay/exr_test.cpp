@@ -73,6 +73,19 @@ TEST(Exr, ALayerWithoutTheOnesBeforeItIsAnError) {
     std::filesystem::remove(file_of_this_test());
 }
 
+TEST(Png, WhatIsWrittenIsReadByteForByte) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "strata_picture.png";
+    for (const Extent extent : {Extent{1, 1, 1}, Extent{3, 5, 1}, Extent{200, 90, 1}}) {
+        std::vector<std::byte> rgb(std::size_t{extent.width} * extent.height * 3);
+        for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::byte>(i * i / 7);
+        must(write_png(path, extent, rgb));
+        const HostImage read = must(read_png(path));
+        ASSERT_EQ(read.shape.extent, extent);
+        for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_EQ(read.texels[i / 3 * 4 + i % 3], rgb[i]) << i;
+    }
+    std::filesystem::remove(path);
+}
+
 TEST(DisplayByte, IsTheNearestOfTheSrgbCurve) {
     for (int i = 0; i <= 100000; ++i) {
         const double light = i / 100000.;

@@ -14,14 +14,14 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Every command that writes, with {} for where to, and whether that is a folder.
+/// A command that writes, up to the file or folder that it writes.
 struct Writing {
     const char* command;
     const char* target;
 };
 constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
-    {"replay sound.strata -o", "out"},
+    {"replay sound.strata --outputs color -o", "out"},
     {"report sound.strata --repeats 1 -o", "report.txt"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
     {"export sound.strata --deep --transmittance mean -o", "deep.exr"},
