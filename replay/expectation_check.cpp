@@ -65,7 +65,8 @@ ImageDeviation deviation_of(const std::string& name, const HostImage& got, const
     const WorstPixel& at = error.worst_pixel;
     // Numbers that stand for things (lists, ids) are the same or they are not; so is what is no number.
     const bool is_out = error.disagreeing > 0 || (error.kind == ImageError::Kind::integers && error.over_limit > 0);
-    return {.rmse = is_out ? HUGE_VAL : error.relative_rmse,
+    // Light where black is expected is far off, however little.
+    return {.rmse = is_out ? HUGE_VAL : error.rmse / std::max(error.reference, 1e-9),
             .texels = error.pixels,
             .differing = error.over_limit,
             .worst = {name, at.x, at.y, at.layer, texel(got, at.x, at.y, at.layer), texel(expected, at.x, at.y, at.layer)}};

@@ -20,11 +20,11 @@
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
-#include <libdeflate.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <stb/stb_image.h>
 #include <xxhash.h>
 
+#include "capture_format/export/png.h"
 #include "capture_format/srgb.h"
 #include "capture_format/whole_file.h"
 
@@ -187,20 +187,6 @@ Result<void> add_part(NamedImages& images, const std::string& part, HostImage re
     return {};
 }
 
-/// Of zlib's 1 to 12 the level from which on a picture of 640 x 360 takes more than a few milliseconds.
-constexpr int png_level = 4;
-
-std::string big_endian(std::size_t number) {
-    return {static_cast<char>(number >> 24), static_cast<char>(number >> 16), static_cast<char>(number >> 8),
-            static_cast<char>(number)};
-}
-
-/// Length, name, content, checksum (PNG specification, 5.3).
-std::string png_chunk(std::string_view name, std::string_view content) {
-    const std::string named = fmt::format("{}{}", name, content);
-    return big_endian(content.size()) + named + big_endian(libdeflate_crc32(0, named.data(), named.size()));
-}
-
 }  // namespace
 
 Result<void> write_exr(const std::filesystem::path& path, const NamedImages& images, const Metadata& metadata) {
@@ -276,22 +262,7 @@ Result<void> write_png(const std::filesystem::path& path, const HostImage& image
 }
 
 Result<void> write_png(const std::filesystem::path& path, const Extent& extent, std::span<const std::byte> rgb) {
-    const std::size_t row = std::size_t{extent.width} * 3;
-    std::string filtered;  // "up": every row as what it adds to the one above it
-    filtered.reserve((row + 1) * extent.height);
-    for (std::size_t at = 0; at < rgb.size(); ++at) {
-        if (at % row == 0) filtered += '\2';
-        const std::byte above = at < row ? std::byte{0} : rgb[at - row];
-        filtered += static_cast<char>(std::to_integer<int>(rgb[at]) - std::to_integer<int>(above));
-    }
-    const auto compressor = std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)>(
-        libdeflate_alloc_compressor(png_level), libdeflate_free_compressor);
-    std::string packed(libdeflate_zlib_compress_bound(compressor.get(), filtered.size()), '\0');
-    packed.resize(libdeflate_zlib_compress(compressor.get(), filtered.data(), filtered.size(), packed.data(), packed.size()));
-    // Eight bits of red, green and blue; no other way of packing, filtering or interlacing has a number.
-    const std::string header = big_endian(extent.width) + big_endian(extent.height) + std::string("\x8\x2\0\0\0", 5);
-    const std::string png = "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", packed) + png_chunk("IEND", "");
-    return write_whole_file(path, png);
+    return write_whole_file(path, encode_png(extent.width, extent.height, 3, rgb));
 }
 
 Result<HostImage> read_png(const std::filesystem::path& path) {

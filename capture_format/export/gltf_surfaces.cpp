@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <fmt/core.h>
-#include <stb_image_write.h>
 
 #include "capture_format/export/gltf_glass.h"
+#include "capture_format/export/png.h"
 #include "capture_format/srgb.h"
 #include "capture_format/texture_mips.h"
 
@@ -30,18 +30,6 @@ std::vector<std::byte> finest_texels(const Texture& texture, TextureFormat wante
         texels[i] = unorm8(wanted == TextureFormat::rgba8_srgb ? encode_srgb(value) : decode_srgb(value));
     }
     return texels;
-}
-
-std::vector<std::byte> png(const Texture& texture, std::span<const std::byte> texels) {
-    std::vector<std::byte> file;
-    const auto append = [](void* target, void* bytes, int size) {
-        const auto* begin = static_cast<const std::byte*>(bytes);
-        static_cast<std::vector<std::byte>*>(target)->insert(static_cast<std::vector<std::byte>*>(target)->end(), begin,
-                                                             begin + size);
-    };
-    const auto width = static_cast<int>(texture.width), height = static_cast<int>(texture.height);
-    stbi_write_png_to_func(append, &file, width, height, 4, texels.data(), width * 4);
-    return file;
 }
 
 constexpr int wrap_mode(AddressMode mode) {
@@ -88,9 +76,10 @@ std::size_t Surfaces::texture(std::uint32_t index, Encoding encoding) {
         warnings_.push_back(fmt::format("texture '{}' is {}; its texels are converted with 8 bits", source.name,
                                         encoding == Encoding::srgb ? "linear where glTF has sRGB" : "sRGB where glTF is linear"));
     }
-    const std::size_t image = parts_.add("images", {{"name", source.name},
-                                                    {"mimeType", "image/png"},
-                                                    {"bufferView", parts_.add_view(png(source, finest_texels(source, wanted)))}});
+    const std::size_t image = parts_.add(
+        "images", {{"name", source.name},
+                   {"mimeType", "image/png"},
+                   {"bufferView", parts_.add_view(encode_png(source.width, source.height, 4, finest_texels(source, wanted)))}});
     const int wrap = wrap_mode(source.address);
     constexpr int linear = 9729, linear_mipmap_linear = 9987;
     const std::size_t sampler =

@@ -108,7 +108,7 @@ vec4 texture_at(TextureUseRecord use, Footprint f) {
     return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, turn * dx, turn * dy));
 }
 
-// A material's textures by kind. One loop, because drivers inline: five calls took lavapipe five times as long to translate.
+// A material's textures by kind. One loop, because drivers inline: five calls took lavapipe twice as long to translate.
 struct MaterialTexels {
     vec4 of[texture_kinds];
 };

@@ -108,7 +108,9 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                 error.over_limit += worst > limit;
                 error.over_warn_limit += worst > warn_limit;
             }
-    error.rmse = std::sqrt(sums.squares / double(std::max<std::uint64_t>(1, sums.values)));
+    const auto values = double(std::max<std::uint64_t>(1, sums.values));
+    error.rmse = std::sqrt(sums.squares / values);
+    error.reference = std::sqrt(sums.power / values);
     error.relative_rmse = sums.power > 0 ? std::sqrt(sums.squares / sums.power) : error.rmse;
     return error;
 }

@@ -37,7 +37,8 @@ struct ImageError {
     std::uint64_t pixels = 0, channels = 0;
     // Over the values that are finite in both.
     double rmse = 0;
-    double relative_rmse = 0;  ///< over the root mean square of A; rmse where that is 0
+    double reference = 0;      ///< root mean square of A
+    double relative_rmse = 0;  ///< rmse over that; rmse where that is 0
     double worst = 0;          ///< difference of values; of depth: in ULPs; infinite where one is not a number or not finite
     WorstPixel worst_pixel;
     std::uint64_t over_limit = 0, over_warn_limit = 0;  ///< pixels

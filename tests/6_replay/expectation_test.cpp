@@ -122,6 +122,13 @@ TEST(Expectation, AToleranceCountsWhereImagesAreKept) {
     EXPECT_EQ(Expecting({Given(plain)}).verdict(Given(brighter), .1).agreement, Agreement::diverges);
 }
 
+TEST(Expectation, LightWhereBlackIsExpectedIsWithinNoTolerance) {
+    const std::vector<float> black(plain.size(), 0);
+    std::vector<float> speck = black;
+    speck[0] = 1e-6f;
+    EXPECT_EQ(Expecting({Given(black)}, Expecting::Images::kept).verdict(Given(speck), .1).agreement, Agreement::diverges);
+}
+
 TEST(Expectation, WhatIsNotANumberIsOnlyLikeItself) {
     std::vector<float> broken = plain;
     broken[3] = std::numeric_limits<float>::quiet_NaN();
