@@ -138,6 +138,13 @@ struct Tolerance {
     std::string_view because;
 };
 
+/// A hard case (replay/report/hard_cases.h) that a method is known not to hold, and by how much: neither more nor less.
+struct KnownFailure {
+    std::string_view hard_case;
+    double error = 0;
+    std::string_view because;
+};
+
 struct Technique {
     Stage stage;
     std::string_view name;  ///< "transparency/weighted": its folder below passes/
@@ -145,14 +152,19 @@ struct Technique {
     std::string_view source;   ///< paper or talk
     std::string_view summary;  ///< one sentence: what it does and how it fails
     std::vector<Param> params = {};
+    /// Settings beside the defaults that a report measures, too: "layers=4 tail=drop".
+    std::vector<std::string_view> points = {};
     std::vector<Counter> counters = {};
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct
     std::vector<DebugView> views = {};
     Capabilities needs = {};
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
+    std::vector<KnownFailure> known_failures = {};
     /// Exact up to rounding: may stand in for the stage's truth where that is too slow, once its own error is known.
     bool stands_in_for_truth = false;
+    /// The common way to do the stage: reports give the others' times as multiples of its time.
+    bool is_time_unit = false;
     AddFunction add = nullptr;
     std::vector<Act> also = {};
     Model model = {};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +67,20 @@ TEST_P(Description, AcceptsEveryLineItsSettingsWrite) {
         EXPECT_TRUE(set) << set.error().sentence;
     }
     EXPECT_TRUE(settings == again);
+}
+
+TEST_P(Description, HasPointsForTheReportThatCanBeSet) {
+    for (const std::string_view point : GetParam().points) {
+        Settings settings(GetParam().params);
+        std::istringstream lines{std::string(point)};
+        for (std::string line; lines >> line;) {
+            const std::size_t equals = line.find('=');
+            ASSERT_NE(equals, line.npos) << point;
+            const Result<void> set = settings.set(line.substr(0, equals), std::string_view(line).substr(equals + 1));
+            EXPECT_TRUE(set) << point << ": " << set.error().sentence;
+        }
+        EXPECT_FALSE(settings == Settings(GetParam().params)) << point << " is the default already";
+    }
 }
 
 TEST_P(Description, HasCountersInsideTheirStruct) {
