@@ -260,7 +260,7 @@ Result<void> check_attachments(const Graph& graph, const PlannedStep& planned) {
         if (row(graph.shape(attachment.image).format).kind != FormatKind::depth) ++colors;
     }
     const std::uint32_t outputs = planned.shaders.back()->color_outputs;
-    if (colors != outputs)
+    if (colors > outputs || (colors < outputs && !step.drops_other_colors))
         return fail(Fault::usage, "{} writes {} colors, but the step has {} color attachments", planned.shaders.back()->name,
                     outputs, colors);
     if (step.attachments.empty() && !(draw ? draw->viewport : fullscreen->viewport))

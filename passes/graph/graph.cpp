@@ -170,6 +170,12 @@ Self& RasterBuilder<Self>::writes_depth(Image& image, Part part) {
 }
 
 template <typename Self>
+Self& RasterBuilder<Self>::drops_other_colors() {
+    this->step().drops_other_colors = true;
+    return this->self();
+}
+
+template <typename Self>
 Self& RasterBuilder<Self>::within(Extent pixels) {
     Work& work = this->step().work;
     if (auto* draw = std::get_if<DrawWork>(&work)) draw->viewport = pixels;

@@ -72,6 +72,8 @@ public:
     Self& composites(Image&, Part = {});
     Self& tests_depth(const Image&, Part = {});
     Self& writes_depth(Image&, Part = {});
+    /// The shader's outputs beyond the attachments go nowhere: one shader for more targets and for fewer.
+    Self& drops_other_colors();
     /// Pixels drawn: needed without attachments.
     Self& within(Extent);
 

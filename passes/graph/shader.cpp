@@ -200,8 +200,11 @@ void read_group(const Compiler& compiler, Shader& shader) {
 
 std::uint32_t color_outputs_of(const Compiler& compiler, const spirv_cross::ShaderResources& resources) {
     std::uint32_t outputs = 0;
-    for (const Resource& r : resources.stage_outputs)
-        outputs = std::max(outputs, compiler.get_decoration(r.id, spv::DecorationLocation) + 1);
+    for (const Resource& r : resources.stage_outputs) {
+        const auto& array = compiler.get_type(r.type_id).array;
+        const std::uint32_t locations = array.empty() ? 1 : array.front();
+        outputs = std::max(outputs, compiler.get_decoration(r.id, spv::DecorationLocation) + locations);
+    }
     return outputs;
 }
 

@@ -145,6 +145,7 @@ struct Step {
     Work work = {};
     std::vector<Binding> bindings = {};
     std::vector<Attachment> attachments = {};  ///< colors in order; depth may stand anywhere
+    bool drops_other_colors = false;           ///< the shader may write more colors than there are attachments
     std::vector<std::byte> push = {};
     std::vector<Fixed> fixed = {};
 };

@@ -98,6 +98,16 @@ TEST(Names, ColorAttachmentsMustBeAsManyAsColorOutputs) {
     EXPECT_EQ(refusal(f.graph), "paint.frag writes 1 colors, but the step has 2 color attachments");
 }
 
+TEST(Names, ColorsWithoutAnAttachmentAreDroppedOnlyWhereTheStepSaysSo) {
+    TwoImages f;
+    f.graph.fullscreen("paint").within({8, 8, 1});
+    EXPECT_EQ(refusal(f.graph), "paint.frag writes 1 colors, but the step has 0 color attachments");
+    TwoImages g;
+    g.graph.fullscreen("paint").within({8, 8, 1}).drops_other_colors();
+    g.graph.keep(g.a);
+    EXPECT_EQ(refusal(g.graph), "");
+}
+
 TEST(Names, AttachmentsMustAgreeInTheirSamples) {
     Graph graph;
     Shape shape = small_depth();

@@ -7,7 +7,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/object_order.h"
 #include "passes/transparency/truth.h"
-#include "tests/support/cards.h"
+#include "captures/cards.h"
 
 namespace strata {
 namespace transparency {

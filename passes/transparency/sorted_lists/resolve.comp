@@ -1,15 +1,14 @@
 // Composites the band's sorted lists over what is there, front to back: C += T (p + e), T *= t (transparency chapter 1).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/transparency/sorted_lists/lists.glsl"
+#extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/lists.shared.h"
+
+layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/list_events.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
-layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
-layout(set = 0, binding = 4, scalar) readonly buffer Keys { ListKey keys[]; };
-layout(set = 0, binding = 5, scalar) readonly buffer Events { ListEvent events[]; };
-layout(set = 0, binding = 6, scalar) buffer Counters { SortedListsCounters counters; };
 
 vec3 composite(uint start, uint count, vec3 behind) {
     vec3 sum = vec3(0.0), through = vec3(1.0);
@@ -29,10 +28,4 @@ void main() {
     const uint start = list_start(cell), count = stored(start, counts[cell]);
     const vec4 behind = imageLoad(color, texel);
     if (count > 0u) imageStore(color, texel, vec4(composite(start, count, behind.rgb), behind.a));
-
-    const uint together = subgroupAdd(count), longest = subgroupMax(count);
-    if (subgroupElect()) {
-        atomicAdd(counters.fragments, together);
-        atomicMax(counters.deepest, longest);
-    }
 }

@@ -11,7 +11,7 @@
 
 #include "passes/transparency/row_bounds.h"
 #include "passes/transparency/truth.h"
-#include "tests/support/cards.h"
+#include "captures/cards.h"
 
 namespace strata {
 namespace {

@@ -1,0 +1,31 @@
+// T(z) is that of the last node in front.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/adaptive/adaptive.shared.h"
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/function_outputs.glsl"
+
+layout(early_fragment_tests) in;
+layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
+layout(constant_id = 10) const uint curve_nodes = 8u;
+layout(constant_id = 11) const uint width = 1u;  // pixels of a row
+layout(constant_id = 12) const uint samples = 1u;
+layout(set = 0, binding = 1, scalar) readonly buffer Curves { CurveNode curves[]; };
+
+vec3 transmittance(float z) {
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uint first = ((pixel.y * width + pixel.x) * samples + gl_SampleID) * curve_nodes;
+    vec3 through = vec3(1.0);
+    for (uint i = 0u; i < curve_nodes; ++i) {
+        const CurveNode node = curves[first + i];
+        if (node.z < z) through = node.t;
+    }
+    return through;
+}
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    atomicAdd(counters.drawn, 1u);
+    write_event(event, transmittance(event.z));
+}

@@ -1,0 +1,74 @@
+// Adaptive transparency: T(z) of a sample as a step curve of a few nodes, compressed as fragments come.
+#include "passes/technique.h"
+#include "passes/transparency/adaptive/model.h"
+#include "passes/transparency/function_draw.h"
+#include "passes/transparency/lists.h"
+
+namespace strata::transparency {
+namespace {
+
+constexpr std::string_view node_counts[] = {"4", "8", "16"};
+
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<AdaptiveParams>();
+    const std::uint32_t nodes = curve_nodes(params);
+    const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
+    Buffer curves = graph.create("adaptive curves", samples * nodes * sizeof(CurveNode));
+    EventLists lists = create_lists(graph, images, params.pool);
+    for (const Band& band : lists.bands) {
+        make_lists(graph, images, lists, band, list_order_submission);
+        read_lists(graph.compute("transparency/adaptive/compress.comp"), lists, band)
+            .updates("Curves", curves)
+            .fixes("curve_nodes", nodes)
+            .over(over(band));
+    }
+    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    draw_into(graph, "transparency/adaptive/accumulate", images, drawn)
+        .loads("Curves", curves)
+        .fixes("curve_nodes", nodes)
+        .fixes("width", images.extent.width)
+        .fixes("samples", images.samples);
+    return drawn;
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    resolve_sums(graph, images, sums(graph, images, settings));
+}
+
+Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
+    return normalization_view(graph, images, sums(graph, images, settings));
+}
+
+}  // namespace
+
+Technique adaptive() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/adaptive",
+        .title = "Adaptive transparency",
+        .source = "Salvi, Montgomery and Lefohn 2011, HPG",
+        .summary =
+            "Compresses each sample's T(z) into a few steps by removing the least area, then weights a second draw by it: what is "
+            "compressed darkens fragments behind a removed step, and the curve depends on the order of drawing.",
+        .params = {param<&AdaptiveParams::nodes>({.name = "nodes",
+                                                  .low = 0,
+                                                  .high = 2,
+                                                  .fallback = 1,
+                                                  .help = "steps of a sample's curve",
+                                                  .choices = node_counts}),
+                   param<&AdaptiveParams::accumulation>(accumulation_row),
+                   param<&AdaptiveParams::pool>(pool_row)},
+        .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
+        .counters = function_counters_with_lists(),
+        .counter_bytes = sizeof(FunctionCounters),
+        .views = {layers_view_row, normalization_row(factor_view)},
+        .add = add,
+        .model = adaptive_model,
+        .tolerance = {.rmse = 5e-3,
+                      .worst = 5e-2,
+                      .because = "sums are rounded to half floats at every blend, and of equal areas a last float bit decides which "
+                                 "step is removed: 2.8e-3 measured on 200 layers"},
+    };
+}
+
+}  // namespace strata::transparency

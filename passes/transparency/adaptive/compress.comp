@@ -1,0 +1,64 @@
+// Builds the step curve of every sample of the band from its fragments in the order of submission, as an ordered interlock would
+// (Salvi, Montgomery and Lefohn 2011, algorithm 1).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/adaptive/adaptive.shared.h"
+#include "passes/transparency/lists.shared.h"
+
+layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/list_events.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint curve_nodes = 8u;
+layout(set = 0, binding = 6, scalar) writeonly buffer Curves { CurveNode curves[]; };
+
+const float far_away = 3.402823466e38;
+
+CurveNode nodes[most_curve_nodes + 1u];
+uint used = 0u;
+
+float grey(vec3 t) { return dot(t, vec3(1.0 / 3.0)); }
+
+// A fragment hides everything behind it, whatever was there before.
+void insert(float z, vec3 t) {
+    uint at = used;
+    while (at > 0u) {
+        if (nodes[at - 1u].z < z) break;
+        nodes[at] = CurveNode(nodes[at - 1u].z, nodes[at - 1u].t * t);
+        --at;
+    }
+    nodes[at] = CurveNode(z, (at > 0u ? nodes[at - 1u].t : vec3(1.0)) * t);
+    ++used;
+}
+
+// Removes the node whose step moved to the one before it changes the least area: T is underestimated between them. Neither the
+// first nor the last step moves beyond the nodes there are, so what shows through everything stays exact.
+void remove_least() {
+    uint least = 1u;
+    float least_area = far_away;
+    for (uint i = 1u; i < used; ++i) {
+        const float area = (nodes[i].z - nodes[i - 1u].z) * (grey(nodes[i - 1u].t) - grey(nodes[i].t));
+        if (area < least_area) {
+            least = i;
+            least_area = area;
+        }
+    }
+    nodes[least - 1u].t = nodes[least].t;
+    --used;
+    for (uint i = least; i < used; ++i) nodes[i] = nodes[i + 1u];
+}
+
+void main() {
+    const uvec3 at = gl_GlobalInvocationID;
+    if (at.x >= band.width || at.y >= band.rows) return;
+    const uvec2 pixel = uvec2(at.x, at.y + band.first_row);
+    const uint cell = cell_of(pixel, at.z), start = list_start(cell), count = stored(start, counts[cell]);
+    for (uint i = 0u; i < count; ++i) {
+        const ListKey key = keys[start + i];
+        insert(key.z, events[key.event].t);
+        if (used > curve_nodes) remove_least();
+    }
+    const uint first = ((pixel.y * band.width + pixel.x) * band.samples + at.z) * curve_nodes;
+    for (uint i = 0u; i < curve_nodes; ++i) curves[first + i] = i < used ? nodes[i] : CurveNode(far_away, vec3(0.0));
+}

@@ -1,0 +1,59 @@
+// The step function itself, from sorted lists, through the draw and the resolve of all function methods: what they cost and how
+// exact they can be when T(z) is.
+#include "passes/technique.h"
+#include "passes/transparency/exact_function/exact_function.shared.h"
+#include "passes/transparency/function_draw.h"
+#include "passes/transparency/lists.h"
+
+namespace strata::transparency {
+
+ImageSet exact_function_model(const StageInput&, const Settings&);  // model.cpp
+
+namespace {
+
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<ExactFunctionParams>();
+    EventLists lists = create_lists(graph, images, params.pool);
+    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    for (const Band& band : lists.bands) {
+        make_lists(graph, images, lists, band, list_order_depth);
+        read_lists(draw_into(graph, "transparency/exact_function/accumulate", images, drawn), lists, band);
+    }
+    return drawn;
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    resolve_sums(graph, images, sums(graph, images, settings));
+}
+
+Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
+    return normalization_view(graph, images, sums(graph, images, settings));
+}
+
+}  // namespace
+
+Technique exact_function() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/exact_function",
+        .title = "Exact transmittance function",
+        .source = "Salvi, Montgomery and Lefohn 2011, HPG, section 3: the step function that the others compress",
+        .summary =
+            "Every fragment looks its exact T(z) up in sorted lists and is added: shows what the shared draw and resolve cost in "
+            "accuracy; slow in deep pixels, and fragments of equal depth do not hide each other.",
+        .params = {param<&ExactFunctionParams::pool>(pool_row),
+                   param<&ExactFunctionParams::accumulation>(accumulation_row)},
+        .points = {"accumulation=packed", "accumulation=single"},
+        .counters = function_counters_with_lists(),
+        .counter_bytes = sizeof(FunctionCounters),
+        .views = {layers_view_row, normalization_row(factor_view)},
+        .add = add,
+        .model = exact_function_model,
+        .tolerance = {.rmse = 2e-3,
+                      .worst = 2e-2,
+                      .because = "sums are rounded to half floats at every blend, in the model, too, but a last float bit of a term "
+                                 "can turn the rounding of each"},
+    };
+}
+
+}  // namespace strata::transparency

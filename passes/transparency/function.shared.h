@@ -1,0 +1,33 @@
+// What methods that are a transmittance function T(z) share: their sums' formats and their counters.
+#ifndef PASSES_TRANSPARENCY_FUNCTION_SHARED_H
+#define PASSES_TRANSPARENCY_FUNCTION_SHARED_H
+#include "passes/shader_interop.h"
+#ifdef __cplusplus
+namespace strata::transparency {
+#endif
+
+// Formats of the sums: RGBA16F and R16F; R11G11B10F and R16F; RGBA32F and R32F.
+const uint accumulation_half = 0u;
+const uint accumulation_packed = 1u;
+const uint accumulation_single = 2u;
+
+// The first three are those of lists.shared.h, for methods that make lists, too.
+struct FunctionCounters {
+    uint fragments;
+    uint deepest;
+    uint dropped;
+    uint drawn;
+    uint scrubbed;
+};
+
+// Optical depth is written up to here: exp(-32) = 1.3e-14, and a half float can hold 2047 such layers. INF * 0 would be NaN.
+const float largest_optical_depth = 32.0f;
+// Radiance up to here is weighted and added.
+const float largest_radiance = 1e4f;
+// Below this sum of weights nothing is normalized: emission has none.
+const float least_normalizer = 1e-5f;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,41 @@
+// How every method that is a transmittance function T(z) draws and resolves: C = sum p T(z), X = sum of optical depths,
+// N = sum (1 - t) T(z), E = sum e T(z), then L = L_behind exp(-X) + C (1 - exp(-X)) / N + E. For the exact T the factor is 1:
+// sum (1 - t_i) T_i telescopes (transparency chapter 1 and 7). Methods differ in T alone.
+#pragma once
+
+#include <string>
+
+#include "passes/technique.h"
+#include "passes/transparency/function.shared.h"
+
+namespace strata::transparency {
+
+/// Drawn with the frame's samples. X and N have three channels where the frame has colored transmission; E is there only
+/// where something emits.
+struct FunctionSums {
+    Image color, extinction, normalizer, emission;
+};
+
+/// Cleared sums. accumulation: see function.shared.h.
+FunctionSums create_sums(Graph&, const FrameImages&, std::uint32_t accumulation);
+
+/// Declares the draw that adds every fragment to the sums. The fragment shader includes function_outputs.glsl and calls
+/// write_event(). Chain the technique's own verbs.
+DrawPass draw_into(Graph&, std::string shader, const FrameImages&, FunctionSums&);
+
+/// Blends the sums over images.color.
+void resolve_sums(Graph&, FrameImages&, const FunctionSums&);
+
+/// The row of the `accumulation` parameter.
+extern const Param accumulation_row;
+
+/// Rows of FunctionCounters: what is drawn; with those of the lists in front for methods that make lists.
+std::vector<Counter> function_counters();
+std::vector<Counter> function_counters_with_lists();
+
+/// (1 - exp(-X)) / N of the first sample's first channel, 1 where nothing is drawn: how far T(z) is from a function that telescopes.
+Image normalization_view(Graph&, const FrameImages&, const FunctionSums&);
+/// The row of such a view; `add` is the technique's own.
+DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&));
+
+}  // namespace strata::transparency

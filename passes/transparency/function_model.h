@@ -1,0 +1,41 @@
+// The draw and the resolve of function_draw.h in double: for methods that are a transmittance function.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "passes/reference/fragments.h"
+#include "passes/stages.h"
+#include "passes/transparency/function.shared.h"
+#include "passes/transparency/sample_blend.h"
+
+namespace strata::transparency {
+
+/// T(z) at a fragment, per channel.
+using Transmittance = std::function<glm::dvec3(const Fragment&)>;
+
+/// One sample: fragments in submission order weighted by T over what is behind. `accumulation`: the sums are rounded to its
+/// formats at every blend; accumulation_single stays in double.
+glm::dvec3 function_blend(std::span<const Fragment>, glm::dvec3 behind, const Transmittance&,
+                          std::uint32_t accumulation = accumulation_single);
+
+/// tau = -ln t, at most largest_optical_depth.
+double optical_depth_in_double(double t);
+
+/// T of a sample from all its fragments, in submission order.
+using FunctionOfSample = std::function<Transmittance(std::span<const Fragment>)>;
+ImageSet function_model(const StageInput&, std::uint32_t accumulation, const FunctionOfSample&);
+
+/// A method with a prepass at the extent divided by `divisor`, at one sample per texel.
+struct PrepassModel {
+    std::uint32_t divisor = 1;
+    enum class Filter { linear, nearest } filter = Filter::linear;
+    /// What the prepass keeps of a texel's fragments.
+    std::function<std::vector<double>(std::span<const Fragment>, Place texel)> project;
+    /// T of a sample from the (filtered) numbers of its place; `texel` is the nearest.
+    std::function<Transmittance(std::span<const double>, Place texel)> function;
+};
+ImageSet function_model(const StageInput&, std::uint32_t accumulation, const PrepassModel&);
+
+}  // namespace strata::transparency

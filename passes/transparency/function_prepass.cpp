@@ -1,0 +1,92 @@
+#include "passes/transparency/function_prepass.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
+
+namespace strata::transparency {
+namespace {
+
+constexpr std::string_view channel_choices[] = {"automatic", "mono", "rgb"};
+constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth"};
+
+struct Range {
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    void take(double z, double near) {
+        nearest = std::min(nearest, std::max(z, near));
+        farthest = std::max(farthest, z);
+    }
+};
+
+void take_draw(Range& range, const Frame& frame, const Draw& draw) {
+    for (const glm::vec3& position : frame.meshes[draw.mesh].positions) {
+        const glm::dvec3 world(draw.to_world * glm::dvec4(glm::dvec3(position), 1));
+        range.take(to_view(frame, world).z, double(frame.view.near));
+    }
+}
+
+}  // namespace
+
+Extent prepass_extent(Extent extent, std::uint32_t divisor) {
+    return {(extent.width + divisor - 1) / divisor, (extent.height + divisor - 1) / divisor, 1};
+}
+
+FrameImages prepass_images(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
+    if (divisor == 1 && images.samples == 1) return images;
+    FrameImages low = images;
+    low.extent = prepass_extent(images.extent, divisor);
+    low.samples = 1;
+    low.depth = graph.create("prepass depth", Shape{.extent = low.extent, .format = Format::d32f});
+    low.depth_layers = graph.create("prepass depth to read", Shape{.extent = low.extent, .format = Format::r32f});
+    graph.clear(low.depth, {});
+    graph.fullscreen("transparency/farthest_depth")
+        .samples("depth_layers", images.depth_layers)
+        .fixes("width", low.extent.width)
+        .fixes("height", low.extent.height)
+        .covers(low.depth_layers)
+        .writes_depth(low.depth);
+    return low;
+}
+
+DepthRange transparent_depth_range(const Frame& frame) {
+    Range range;
+    for (const std::uint32_t index : transparent_draws(frame)) {
+        if (index < frame.draws.size()) {
+            take_draw(range, frame, frame.draws[index]);
+            continue;
+        }
+        for (const Particle& particle : frame.emitters[index - frame.draws.size()].particles) {
+            const double z = to_view(frame, particle.center).z;
+            if (z > double(frame.view.near)) range.take(z - double(particle.depth_offset), double(frame.view.near));
+        }
+    }
+    const double near = double(frame.view.near);
+    if (range.farthest <= near) return {frame.view.near, 2 * frame.view.near};
+    // Flat geometry has no range of its own.
+    return {static_cast<float>(range.nearest), static_cast<float>(std::max(range.farthest, range.nearest * 1.001))};
+}
+
+const Param resolution_row = {.name = "resolution",
+                              .low = 0,
+                              .high = 3,
+                              .fallback = 0,
+                              .help = "extent of the pass that gathers optical depth, of the frame's",
+                              .choices = resolutions};
+
+const Param channels_row = {.name = "channels",
+                            .low = 0,
+                            .high = 2,
+                            .fallback = 0,
+                            .help = "functions per texel, one or one per color; automatic: three where transmission is colored",
+                            .choices = channel_choices};
+
+std::uint32_t channel_count(std::uint32_t channels, const Features& features) {
+    if (channels == 0) return features.has(Feature::chromatic) ? 3 : 1;
+    return channels == 1 ? 1 : 3;
+}
+
+std::uint32_t divisor_of(std::uint32_t resolution) { return 1u << resolution; }
+
+}  // namespace strata::transparency

@@ -1,0 +1,32 @@
+// The draw before the draw: where moments, wavelets and voxels gather the optical depths of all fragments, at one sample per
+// texel and at the frame's extent divided by 1, 2, 4 or 8. Depth is tested against the farthest opaque surface of a texel's
+// block, or what is visible beside an edge would be missing.
+#pragma once
+
+#include "passes/technique.h"
+
+namespace strata::transparency {
+
+/// The frame's images with extent, samples and opaque depth of the prepass: what draw_events() draws a prepass with. At
+/// divisor 1 and one sample they are the frame's own, and nothing is declared.
+FrameImages prepass_images(Graph&, const FrameImages&, std::uint32_t divisor);
+
+/// Texels of the prepass: each axis rounded up.
+Extent prepass_extent(Extent, std::uint32_t divisor);
+
+/// Nearest and farthest view depth of transparent geometry in front of the near plane, in metres, depth offsets applied:
+/// what depth is mapped by. Of a frame without any: the near plane and twice that.
+struct DepthRange {
+    float nearest = 0, farthest = 0;
+};
+DepthRange transparent_depth_range(const Frame&);
+
+/// The row of the `resolution` parameter: a choice by name; divisor_of() is what it stands for.
+extern const Param resolution_row;
+std::uint32_t divisor_of(std::uint32_t resolution);
+
+/// The row of the `channels` parameter: automatic, mono, rgb. channel_count() is how many functions a texel has: 1 or 3.
+extern const Param channels_row;
+std::uint32_t channel_count(std::uint32_t channels, const Features&);
+
+}  // namespace strata::transparency

@@ -1,0 +1,111 @@
+#include "passes/transparency/lists.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/row_bounds.h"
+
+namespace strata::transparency {
+namespace {
+
+std::uint32_t cells(const Band& band) { return band.width * band.rows * band.samples; }
+std::uint32_t groups(const Band& band) { return (cells(band) + cells_per_group - 1) / cells_per_group; }
+
+std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
+    const double limit = double(pool_millions) * 1e6 / images.samples;
+    const auto row_bounds = transparent_row_bounds(*images.recorded, images.extent);
+    std::vector<Band> bands;
+    std::uint64_t pool = 1;
+    for (const RowBand& rows : row_bands(row_bounds, static_cast<std::uint64_t>(limit))) {
+        pool = std::max(pool, rows.bound * images.samples);
+        bands.push_back({rows.first_row, rows.rows, images.extent.width, images.samples, 0});
+    }
+    assert(pool <= std::numeric_limits<std::uint32_t>::max());
+    for (Band& band : bands) band.pool = static_cast<std::uint32_t>(pool);
+    return bands;
+}
+
+void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
+    graph.clear(lists.counts, 0);
+    graph.draw("transparency/lists_count", images.transparent)
+        .tests_depth(images.depth)
+        .updates("Counts", lists.counts)
+        .push(band);
+    graph.compute("transparency/lists_scan_cells.comp")
+        .loads("Counts", lists.counts)
+        .stores("Starts", lists.starts)
+        .stores("GroupStarts", lists.group_starts)
+        .push(band)
+        .groups({groups(band), 1, 1});
+    graph.compute("transparency/lists_scan_groups.comp")
+        .updates("GroupStarts", lists.group_starts)
+        .push(band)
+        .groups({1, 1, 1});
+}
+
+void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
+    graph.clear(lists.counts, 0);
+    draw_events(graph, "transparency/lists_fill", images.transparent, images)
+        .updates("Counts", lists.counts)
+        .loads("Starts", lists.starts)
+        .loads("GroupStarts", lists.group_starts)
+        .stores("Keys", lists.keys)
+        .stores("Events", lists.events)
+        .push(band);
+}
+
+}  // namespace
+
+EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
+    EventLists lists{.bands = bands_within(images, pool)};
+    const Band& largest = *std::ranges::max_element(lists.bands, {}, &Band::rows);
+    const std::uint64_t words = std::uint64_t{cells(largest)} * sizeof(std::uint32_t);
+    lists.counts = graph.create("list counts", words);
+    lists.starts = graph.create("list starts", words);
+    lists.group_starts = graph.create("list group starts", groups(largest) * sizeof(std::uint32_t));
+    lists.keys = graph.create("list keys", std::uint64_t{largest.pool} * sizeof(ListKey));
+    lists.events = graph.create("list events", std::uint64_t{largest.pool} * sizeof(ListEvent));
+    return lists;
+}
+
+void make_lists(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band, std::uint32_t order) {
+    count_and_scan(graph, images, lists, band);
+    fill(graph, images, lists, band);
+    graph.compute("transparency/lists_sort.comp")
+        .loads("Counts", lists.counts)
+        .loads("Starts", lists.starts)
+        .loads("GroupStarts", lists.group_starts)
+        .updates("Keys", lists.keys)
+        .fixes("list_order", order)
+        .push(band)
+        .over(over(band));
+}
+
+std::vector<Counter> list_counters() {
+    return {
+        counter<&ListCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
+        counter<&ListCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
+        counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room: always 0"}),
+    };
+}
+
+Image layers_view(Graph& graph, FrameImages& images, const Settings&) {
+    const Band frame{0, images.extent.height, images.extent.width, images.samples, 0};
+    Buffer counts = graph.create("layer counts", std::uint64_t{cells(frame)} * sizeof(std::uint32_t));
+    Image picture = graph.create("layers view", Shape{.extent = images.extent, .format = Format::rgba32f});
+    graph.clear(counts, 0);
+    graph.draw("transparency/lists_count", images.transparent)
+        .tests_depth(images.depth)
+        .updates("Counts", counts)
+        .push(frame);
+    graph.compute("transparency/lists_layers.comp")
+        .loads("Counts", counts)
+        .stores("picture", picture)
+        .push(frame)
+        .over(images.extent);
+    return picture;
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,49 @@
+// What the lists of fragments' C++ and shaders share.
+#ifndef PASSES_TRANSPARENCY_LISTS_SHARED_H
+#define PASSES_TRANSPARENCY_LISTS_SHARED_H
+#include "passes/shader_interop.h"
+#ifdef __cplusplus
+namespace strata::transparency {
+#endif
+
+// Rows of the frame whose lists are made together: push constants of every step. A cell is a sample of a pixel of the band.
+struct Band {
+    uint first_row;
+    uint rows;
+    uint width;  // pixels
+    uint samples;
+    uint pool;  // nodes there are
+};
+
+// A fragment's place in the order, sorted in place; 16 bytes. Later submission is nearer at equal z.
+struct ListKey {
+    float z;
+    uint draw;
+    uint primitive;
+    uint event;  // index into events
+};
+
+struct ListEvent {
+    vec3 p;
+    vec3 t;
+    vec3 e;
+};
+
+// The counters of a technique that makes lists begin with these.
+struct ListCounters {
+    uint fragments;
+    uint deepest;
+    uint dropped;
+};
+
+// What a list is sorted by: near to far, or in the order of submission.
+const uint list_order_depth = 0u;
+const uint list_order_submission = 1u;
+
+// Cells whose counts one workgroup sums: 256 threads, 4 cells each.
+const uint cells_per_group = 1024u;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

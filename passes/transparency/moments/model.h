@@ -1,0 +1,32 @@
+// The method in double precision, from the paper and not from the shader: weights of the canonical representation by a linear
+// system, roots between the extrema of the polynomial, instead of closed forms.
+#pragma once
+
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/function_model.h"
+#include "passes/transparency/moments/moments.shared.h"
+
+namespace strata::transparency {
+
+/// The bias Muenstermann et al. publish for a kind and a storage; 5e-3 for FP16 sums, which the paper does not have.
+double published_bias(const MomentsParams&);
+
+/// b0 and the normalized, biased b1, b2, ... of power moments; or cos, sin, cos, sin, ... of trigonometric ones.
+/// Share of the absorbance in front of w in [-1, 1], `overestimation` of what is at w included.
+double absorbance_share(std::uint32_t kind, std::span<const double> moments, double w, double overestimation);
+
+/// What 16 bits make of normalized moments, and back.
+std::vector<double> quantized(std::uint32_t kind, std::span<const double> moments);
+std::vector<double> dequantized(std::uint32_t kind, std::span<const double> stored);
+
+/// T(w) of optical depths at warped depths, through the whole method at full precision or as stored.
+struct WarpedEvent {
+    double w = 0, optical_depth = 0;
+};
+double transmittance_in_double(const MomentsParams&, std::span<const WarpedEvent>, double w, double own_optical_depth = 0);
+
+ImageSet moments_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

@@ -1,0 +1,177 @@
+// Moment-based transparency: T(z) of a texel from a few sums of powers of depth, or of its multiples as phases.
+#include <cmath>
+
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/lists.h"
+#include "passes/transparency/moments/model.h"
+
+namespace strata::transparency {
+namespace {
+
+// In the order of the constants in moments.shared.h.
+constexpr std::string_view kinds[] = {"power4", "power6", "power8", "trig2", "trig3", "trig4"};
+constexpr std::string_view storages[] = {"single", "half", "normalized"};
+constexpr std::string_view compensations[] = {"none", "own"};
+
+/// What a texel keeps; layer = channel.
+struct Moments {
+    Image total, head, tail;
+};
+
+std::uint32_t reals(const MomentsParams& params) { return 4 + 2 * (params.kind % 3); }
+
+MomentsPush push_of(const MomentsParams& params, const FrameImages& images) {
+    const DepthRange range = transparent_depth_range(*images.recorded);
+    return {.log_nearest = std::log(range.nearest),
+            .per_log = 2 / std::log(range.farthest / range.nearest),
+            .bias = static_cast<float>(double(params.bias) * published_bias(params)),
+            .overestimation = params.overestimation,
+            .compensation = params.compensation,
+            .channels = channel_count(params.channels, *images.features)};
+}
+
+Moments create_moments(Graph& graph, const FrameImages& low, const MomentsParams& params) {
+    const bool half = params.storage == storage_half, fixed = params.storage == storage_normalized;
+    const auto created = [&](const char* name, Format single, Format half_float) {
+        const Format format = half ? half_float : fixed && single != Format::r32f ? Format::rgba16_unorm : single;
+        return graph.create(name, Shape{.extent = low.extent, .format = format, .layers = channel_count(params.channels, *low.features)});
+    };
+    Moments moments{.total = created("moment 0", Format::r32f, Format::r16f),
+                    .head = created("moments 1 to 4", Format::rgba32f, Format::rgba16f)};
+    if (reals(params) == 6) moments.tail = created("moments 5 and 6", Format::rg32f, Format::rg16f);
+    if (reals(params) == 8) moments.tail = created("moments 5 to 8", Format::rgba32f, Format::rgba16f);
+    return moments;
+}
+
+void add_up(Graph& graph, const FrameImages& low, const MomentsParams& params, const MomentsPush& push, Moments& moments) {
+    graph.clear(moments.total, {});
+    graph.clear(moments.head, {});
+    if (moments.tail) graph.clear(moments.tail, {});
+    for (std::uint32_t channel = 0; channel < push.channels; ++channel) {
+        DrawPass draw = draw_events(graph, "transparency/moments/project", low.transparent, low);
+        draw.adds_to(moments.total, {.layer = channel}).adds_to(moments.head, {.layer = channel});
+        if (moments.tail) draw.adds_to(moments.tail, {.layer = channel});
+        draw.drops_other_colors().fixes("kind", params.kind).fixes("channel", push.channels == 1 ? 3u : channel).push(push);
+    }
+}
+
+void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params, const MomentsPush& push, Moments& moments) {
+    struct BandAndMoments {
+        Band band;
+        MomentsPush push;
+    };
+    EventLists lists = create_lists(graph, low, params.pool);
+    for (const Band& band : lists.bands) {
+        make_lists(graph, low, lists, band, list_order_submission);
+        ComputePass pass = graph.compute("transparency/moments/quantize.comp");
+        read_lists(pass, lists, band).updates("total", moments.total).updates("head", moments.head);
+        if (moments.tail) pass.updates("tail", moments.tail);
+        pass.fixes("kind", params.kind).push(BandAndMoments{band, push}).over(over(band));
+    }
+}
+
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<MomentsParams>();
+    const MomentsPush push = push_of(params, images);
+    const FrameImages low = prepass_images(graph, images, divisor_of(params.resolution));
+    Moments moments = create_moments(graph, low, params);
+    if (params.storage == storage_normalized) {
+        quantize(graph, low, params, push, moments);
+    } else {
+        add_up(graph, low, params, push, moments);
+    }
+    const Filter filter = params.resolution == 0 ? Filter::nearest : Filter::linear;
+    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    draw_into(graph, "transparency/moments/accumulate", images, drawn)
+        .samples("total", moments.total, filter)
+        .samples("head", moments.head, filter)
+        .samples("tail", moments.tail, filter)
+        .fixes("kind", params.kind)
+        .fixes("storage", params.storage)
+        .push(push);
+    return drawn;
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    resolve_sums(graph, images, sums(graph, images, settings));
+}
+
+Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
+    return normalization_view(graph, images, sums(graph, images, settings));
+}
+
+std::vector<Counter> counters() {
+    std::vector<Counter> rows = function_counters_with_lists();
+    rows.push_back(counter<&MomentsCounters::repaired>(
+        {.name = "repaired", .help = "transmittances that were no number and became exp(-b0 / 2)"}));
+    return rows;
+}
+
+std::vector<Param> params() {
+    return {
+        param<&MomentsParams::kind>({.name = "kind",
+                                     .low = 0,
+                                     .high = 5,
+                                     .fallback = moments_power4,
+                                     .help = "power moments 4, 6, 8 or trigonometric ones 2, 3, 4",
+                                     .choices = kinds}),
+        param<&MomentsParams::storage>({.name = "storage",
+                                        .low = 0,
+                                        .high = 2,
+                                        .fallback = storage_single,
+                                        .help = "FP32 added, FP16 added, or 16 bits of the normalized moments written in order",
+                                        .choices = storages}),
+        param<&MomentsParams::bias>({.name = "bias",
+                                     .low = 0.01,
+                                     .high = 1000,
+                                     .fallback = 1,
+                                     .help = "multiplies the published bias of kind and storage: more is smoother and leaks",
+                                     .scale = Scale::logarithmic}),
+        param<&MomentsParams::overestimation>({.name = "overestimation",
+                                               .low = 0,
+                                               .high = 1,
+                                               .fallback = 0.25,
+                                               .help = "share of the absorbance at a depth that counts as in front of it"}),
+        param<&MomentsParams::compensation>({.name = "compensation",
+                                             .low = 0,
+                                             .high = 1,
+                                             .fallback = compensation_none,
+                                             .help = "own: a fragment does not hide itself by its share of overestimation",
+                                             .choices = compensations}),
+        param<&MomentsParams::channels>(channels_row),
+        param<&MomentsParams::resolution>(resolution_row),
+        param<&MomentsParams::accumulation>(accumulation_row),
+        param<&MomentsParams::pool>(pool_row),
+    };
+}
+
+}  // namespace
+
+Technique moments() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/moments",
+        .title = "Moment-based",
+        .source = "Muenstermann, Krumpen, Klein and Peters 2018, I3D; half resolution: Sharpe 2018, HPG",
+        .summary =
+            "Reconstructs T(z) from a few additive moments of depth: order independent, fixed memory, good in smoke; leaks between "
+            "near-opaque cards, and every further layer bends the whole curve.",
+        .params = params(),
+        .points = {"kind=power6", "kind=power8", "kind=trig2", "kind=trig3", "kind=trig4", "storage=half", "storage=normalized",
+                   "kind=power8 storage=normalized", "overestimation=0", "compensation=own", "resolution=half",
+                   "resolution=quarter", "resolution=eighth"},
+        .counters = counters(),
+        .counter_bytes = sizeof(MomentsCounters),
+        .views = {normalization_row(factor_view)},
+        .add = add,
+        .model = moments_model,
+        .tolerance = {.rmse = 1e-2,
+                      .worst = 1e-1,
+                      .because = "to be measured"},
+    };
+}
+
+}  // namespace strata::transparency

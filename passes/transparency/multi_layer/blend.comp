@@ -1,0 +1,79 @@
+// Inserts a sample's fragments into its nodes in the order of submission, as an ordered interlock would, and composites the nodes
+// (Salvi and Vaidyanathan 2014). Buckets are done one after the other, near to far, with the same nodes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/multi_layer/multi_layer.shared.h"
+
+layout(push_constant, scalar) uniform Push {
+    Band band;
+    float log_nearest, buckets_per_log;
+};
+#include "passes/transparency/list_events.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint layers = 4u;
+layout(constant_id = 1) const uint buckets = 1u;
+layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
+layout(set = 0, binding = 6, scalar) buffer Counters { MultiLayerCounters counters; };
+
+struct Node {
+    float z;
+    vec3 rgb;
+    vec3 t;
+};
+Node nodes[most_layers + 1u];
+uint used, merged = 0u;
+
+uint bucket_of(float z) { return uint(clamp((log(z) - log_nearest) * buckets_per_log, 0.0, float(buckets - 1u))); }
+
+// Before what is not nearer: of equal depths the later submission is in front.
+void insert(Node node) {
+    uint at = used;
+    while (at > 0u) {
+        if (nodes[at - 1u].z < node.z) break;
+        nodes[at] = nodes[at - 1u];
+        --at;
+    }
+    nodes[at] = node;
+    ++used;
+}
+
+void merge_last_two() {
+    const Node far = nodes[layers];
+    nodes[layers - 1u].rgb += nodes[layers - 1u].t * far.rgb;
+    nodes[layers - 1u].t *= far.t;
+    used = layers;
+    ++merged;
+}
+
+void fill_nodes(uint start, uint count, uint bucket) {
+    used = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        const ListKey key = keys[start + i];
+        if (buckets > 1u && bucket_of(key.z) != bucket) continue;
+        const ListEvent event = events[key.event];
+        insert(Node(key.z, event.p + event.e, event.t));
+        if (used > layers) merge_last_two();
+    }
+}
+
+void main() {
+    const uvec3 at = gl_GlobalInvocationID;
+    if (at.x >= band.width || at.y >= band.rows) return;
+    const ivec3 texel = ivec3(at.x, at.y + band.first_row, at.z);
+    const uint cell = cell_of(texel.xy, at.z), start = list_start(cell), count = stored(start, counts[cell]);
+    if (count == 0u) return;
+
+    vec3 sum = vec3(0.0), through = vec3(1.0);
+    for (uint bucket = 0u; bucket < buckets; ++bucket) {
+        fill_nodes(start, count, bucket);
+        for (uint i = 0u; i < used; ++i) {
+            sum += through * nodes[i].rgb;
+            through *= nodes[i].t;
+        }
+    }
+    const vec4 behind = imageLoad(color, texel);
+    imageStore(color, texel, vec4(sum + through * behind.rgb, behind.a));
+    if (merged > 0u) atomicAdd(counters.merged, merged);
+}

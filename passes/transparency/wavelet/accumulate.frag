@@ -1,0 +1,75 @@
+// T(z) from the coefficients of the texel under the fragment: the values of two cells, mixed.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/wavelet/wavelet.shared.h"
+
+layout(push_constant, scalar) uniform Push { WaveletPush push; };
+#include "passes/transparency/wavelet/cells.glsl"
+
+layout(early_fragment_tests) in;
+layout(constant_id = 12) const uint correction = correction_none;
+layout(set = 0, binding = 1) uniform sampler2DArray coefficients0;
+layout(set = 0, binding = 2) uniform sampler2DArray coefficients1;
+layout(set = 0, binding = 3) uniform sampler2DArray coefficients2;
+layout(set = 0, binding = 4) uniform sampler2DArray coefficients3;
+layout(set = 0, binding = 5) uniform sampler2DArray coefficients4;
+layout(set = 0, binding = 6) uniform sampler2DArray coefficients5;
+layout(set = 0, binding = 7) uniform sampler2DArray coefficients6;
+layout(set = 0, binding = 8) uniform sampler2DArray coefficients7;
+layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
+
+float c[32];
+
+void keep(uint first, vec4 four) {
+    for (uint i = 0u; i < 4u; ++i) c[first + i] = four[i];
+}
+
+void read_coefficients(vec3 at) {
+    keep(0u, textureLod(coefficients0, at, 0.0));
+    if (rank >= 2u) keep(4u, textureLod(coefficients1, at, 0.0));
+    if (rank >= 3u) {
+        keep(8u, textureLod(coefficients2, at, 0.0));
+        keep(12u, textureLod(coefficients3, at, 0.0));
+    }
+    if (rank >= 4u) {
+        keep(16u, textureLod(coefficients4, at, 0.0));
+        keep(20u, textureLod(coefficients5, at, 0.0));
+        keep(24u, textureLod(coefficients6, at, 0.0));
+        keep(28u, textureLod(coefficients7, at, 0.0));
+    }
+}
+
+// Optical depth up to the cell: the wavelets that contain it, by the half of each in which it lies.
+float cell_value(uint cell) {
+    float value = c[cells - 1u];
+    for (uint p = 0u; p <= rank; ++p) {
+        const uint half_cells = cells >> (p + 1u), k = cell / (2u * half_cells);
+        const float wavelet = root_of_two_to(p) * c[(1u << p) - 1u + k];
+        value += (cell / half_cells) % 2u == 0u ? -wavelet : wavelet;
+    }
+    return value;
+}
+
+float transmittance(uint channel, float s, float own_depth) {
+    read_coefficients(vec3(gl_FragCoord.xy / vec2(view.extent), float(channel)));
+    const uint cell = uint(s);
+    const float share = s - float(cell);
+    float depth = mix(cell > 0u ? cell_value(cell - 1u) : 0.0, cell_value(cell), share);
+    if (correction == correction_own) depth -= share * (1.0 - share) * own_depth;
+    return exp(-max(depth, 0.0));
+}
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const uvec2 texel = uvec2(vec2(push.width, push.height) * gl_FragCoord.xy / vec2(view.extent));
+    const float s = cell_of_depth(event.z, texel);
+    vec3 through = vec3(0.0);
+    for (uint channel = 0u; channel < push.channels; ++channel)
+        through[channel] = transmittance(channel, s, wavelet_depth(event.t, push.channels == 1u ? 3u : channel));
+    if (push.channels == 1u) through = through.rrr;
+    atomicAdd(counters.drawn, 1u);
+    write_event(event, through);
+}

@@ -1,0 +1,18 @@
+// The nearest and the farthest transparent depth of every texel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/wavelet/wavelet.shared.h"
+
+layout(push_constant, scalar) uniform Push { WaveletPush push; };
+#include "passes/transparency/wavelet/cells.glsl"
+
+layout(early_fragment_tests) in;
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const uint at = index_of(uvec2(gl_FragCoord.xy)), bits = floatBitsToUint(max(event.z, 1e-30));
+    atomicMin(bits_of_bounds[at].x, bits);
+    atomicMin(bits_of_bounds[at].y, ~bits);
+}

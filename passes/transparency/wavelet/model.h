@@ -1,0 +1,28 @@
+// The method in double precision: as the column of cells that the Haar coefficients stand for (transparency chapter 5: the master
+// test), except where the storage rounds the coefficients themselves.
+#pragma once
+
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/function_model.h"
+#include "passes/transparency/wavelet/wavelet.shared.h"
+
+namespace strata::transparency {
+
+/// An event of optical depth at a place from 0 to N - 1, in cells.
+struct CellEvent {
+    double place = 0, optical_depth = 0;
+};
+
+/// The coefficients in heap order, the scaling coefficient last, rounded at every addition if the storage is half floats.
+std::vector<double> haar_coefficients(std::uint32_t rank, std::uint32_t storage, std::span<const CellEvent>);
+/// Optical depth in front of a place, mixed from two cells.
+double haar_depth(std::span<const double> coefficients, double place);
+
+/// The same without wavelets: every event splatted linearly on two slices, summed up, read linearly with a bias of one slice.
+double voxel_column_depth(std::uint32_t slices, std::span<const CellEvent>, double place);
+
+ImageSet wavelet_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

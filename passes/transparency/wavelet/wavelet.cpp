@@ -1,0 +1,143 @@
+// Wavelet transparency: the optical depth along a texel's ray in a Haar basis, added fragment by fragment.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/wavelet/model.h"
+
+namespace strata::transparency {
+namespace {
+
+constexpr std::string_view storages[] = {"half", "single"};
+constexpr std::string_view corrections[] = {"none", "own"};
+constexpr std::string_view bounds_choices[] = {"frame", "pixel"};
+
+/// Four coefficients each; layer = channel. As many as the rank asks for.
+using Coefficients = std::vector<Image>;
+
+Coefficients create_coefficients(Graph& graph, const FrameImages& low, const WaveletParams& params, std::uint32_t channels) {
+    const Format format = params.storage == storage_half_float ? Format::rgba16f : Format::rgba32f;
+    Coefficients created;
+    for (std::uint32_t i = 0; i < (2u << params.rank) / 4; ++i) {
+        created.push_back(graph.create(fmt::format("coefficients {} to {}", 4 * i, 4 * i + 3),
+                                       Shape{.extent = low.extent, .format = format, .layers = channels}));
+        graph.clear(created.back(), {});
+    }
+    return created;
+}
+
+/// Per texel: the bits of the nearest depth and the inverted ones of the farthest; none where the frame's range serves all.
+Buffer find_bounds(Graph& graph, const FrameImages& low, const WaveletParams& params, const WaveletPush& push) {
+    if (params.bounds == bounds_frame) return graph.create("no bounds", 8);
+    Buffer bounds = graph.create("depth bounds", std::uint64_t{low.extent.width} * low.extent.height * 8);
+    graph.clear(bounds, 0xffffffffu);
+    draw_events(graph, "transparency/wavelet/bounds", low.transparent, low).updates("Bounds", bounds).push(push);
+    return bounds;
+}
+
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<WaveletParams>();
+    const FrameImages low = prepass_images(graph, images, divisor_of(params.resolution));
+    const DepthRange range = transparent_depth_range(*images.recorded);
+    const WaveletPush push{.log_nearest = std::log(range.nearest),
+                           .log_farthest = std::log(range.farthest),
+                           .jitter = params.jitter,
+                           .width = low.extent.width,
+                           .height = low.extent.height,
+                           .channels = channel_count(params.channels, *images.features)};
+    Buffer bounds = find_bounds(graph, low, params, push);
+    Coefficients coefficients = create_coefficients(graph, low, params, push.channels);
+    for (std::uint32_t channel = 0; channel < push.channels; ++channel) {
+        DrawPass draw = draw_events(graph, "transparency/wavelet/project", low.transparent, low);
+        for (Image& four : coefficients) draw.adds_to(four, {.layer = channel});
+        draw.drops_other_colors()
+            .updates("Bounds", bounds)
+            .fixes("rank", params.rank)
+            .fixes("bounds", params.bounds)
+            .fixes("channel", push.channels == 1 ? 3u : channel)
+            .push(push);
+    }
+    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    DrawPass draw = draw_into(graph, "transparency/wavelet/accumulate", images, drawn);
+    // Coefficients of pixels with bounds of their own do not mix.
+    const bool linear = params.resolution != 0 && params.bounds == bounds_frame;
+    for (std::uint32_t i = 0; i < 8; ++i)
+        draw.samples(fmt::format("coefficients{}", i), i < coefficients.size() ? coefficients[i] : Image{},
+                     linear ? Filter::linear : Filter::nearest);
+    draw.updates("Bounds", bounds)
+        .fixes("rank", params.rank)
+        .fixes("bounds", params.bounds)
+        .fixes("correction", params.correction)
+        .push(push);
+    return drawn;
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    resolve_sums(graph, images, sums(graph, images, settings));
+}
+
+Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
+    return normalization_view(graph, images, sums(graph, images, settings));
+}
+
+std::vector<Param> params() {
+    return {
+        param<&WaveletParams::rank>(
+            {.name = "rank", .low = 1, .high = 4, .fallback = 2, .help = "levels of wavelets: 2^(rank + 1) coefficients"}),
+        param<&WaveletParams::storage>({.name = "storage",
+                                        .low = 0,
+                                        .high = 1,
+                                        .fallback = storage_half_float,
+                                        .help = "of a coefficient: 16 or 32 bits",
+                                        .choices = storages}),
+        param<&WaveletParams::correction>({.name = "correction",
+                                           .low = 0,
+                                           .high = 1,
+                                           .fallback = correction_own,
+                                           .help = "own: what a fragment reads back of itself is taken out",
+                                           .choices = corrections}),
+        param<&WaveletParams::bounds>({.name = "bounds",
+                                       .low = 0,
+                                       .high = 1,
+                                       .fallback = bounds_frame,
+                                       .help = "the range of depth that the cells divide: the frame's or the pixel's",
+                                       .choices = bounds_choices}),
+        param<&WaveletParams::jitter>({.name = "jitter",
+                                       .low = 0,
+                                       .high = 2,
+                                       .fallback = 0,
+                                       .help = "cells by which depth is dithered from texel to texel, against bands"}),
+        param<&WaveletParams::channels>(channels_row),
+        param<&WaveletParams::resolution>(resolution_row),
+        param<&WaveletParams::accumulation>(accumulation_row),
+    };
+}
+
+}  // namespace
+
+Technique wavelet() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/wavelet",
+        .title = "Wavelet",
+        .source = "Aizenshtein, Smal and McGuire 2022, arXiv 2201.00094",
+        .summary =
+            "Adds optical depth in a Haar basis per texel: order independent, sharp where steps meet cells; within a cell layers "
+            "do not hide each other, and what they hide changes as they move through it.",
+        .params = params(),
+        .points = {"rank=1", "rank=3", "rank=4", "storage=single", "correction=none", "bounds=pixel", "rank=3 bounds=pixel",
+                   "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
+        .counters = function_counters(),
+        .counter_bytes = sizeof(FunctionCounters),
+        .views = {normalization_row(factor_view)},
+        .add = add,
+        .model = wavelet_model,
+        .tolerance = {.rmse = 1e-2, .worst = 1e-1, .because = "to be measured"},
+    };
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,148 @@
+// The prefix sums and the sort of the lists of fragments on the device against the CPU: its own steps on lists made here.
+// lavapipe 22.3 returned a bubble sort unsorted from 8 elements on; every length around its limits is tried.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <random>
+#include <tuple>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "passes/graph/plan.h"
+#include "passes/transparency/lists.shared.h"
+#include "tests/support/device.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using transparency::Band;
+using transparency::cells_per_group;
+using transparency::ListKey;
+
+template <typename T>
+std::vector<T> values_of(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+class ListsOnDevice : public testing::Test {
+protected:
+    template <typename T>
+    Buffer import(Graph& graph, const char* name, const std::vector<T>& values) {
+        const ImportId id{++imports_};
+        const auto bytes = std::as_bytes(std::span(values));
+        shared_executor().upload(id, bytes);
+        return graph.import(name, bytes.size(), id);
+    }
+
+    std::vector<std::byte> run(const Graph& graph, const Buffer& wanted) {
+        return shared_executor().run(must(compile(graph, ShaderLibrary::built_in())), {}).buffers.at(wanted.id);
+    }
+
+    /// Counts of one cell each become the places where the cells' lists start.
+    std::vector<std::uint32_t> starts(const std::vector<std::uint32_t>& counts) {
+        const auto cells = static_cast<std::uint32_t>(counts.size());
+        const std::uint32_t groups = (cells + cells_per_group - 1) / cells_per_group;
+        const Band band{0, 1, cells, 1, 0};
+        Graph graph;
+        const Buffer counted = import(graph, "counts", counts);
+        Buffer within = graph.create("starts", cells * sizeof(std::uint32_t));
+        Buffer of_groups = graph.create("group starts", groups * sizeof(std::uint32_t));
+        graph.compute("transparency/lists_scan_cells.comp")
+            .loads("Counts", counted)
+            .stores("Starts", within)
+            .stores("GroupStarts", of_groups)
+            .push(band)
+            .groups({groups, 1, 1});
+        graph.compute("transparency/lists_scan_groups.comp")
+            .updates("GroupStarts", of_groups)
+            .push(band)
+            .groups({1, 1, 1});
+        graph.keep(within);
+        graph.keep(of_groups);
+        const Execution done = shared_executor().run(must(compile(graph, ShaderLibrary::built_in())), {});
+        auto result = values_of<std::uint32_t>(done.buffers.at(within.id));
+        const auto group_starts = values_of<std::uint32_t>(done.buffers.at(of_groups.id));
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] += group_starts[i / cells_per_group];
+        return result;
+    }
+
+    /// Lists of these lengths lie one after the other in `keys`, one per cell.
+    std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const std::vector<ListKey>& keys) {
+        const Band band{0, 1, static_cast<std::uint32_t>(lengths.size()), 1, static_cast<std::uint32_t>(keys.size())};
+        std::vector<std::uint32_t> places;
+        std::uint32_t place = 0;
+        for (const std::uint32_t length : lengths) places.push_back(std::exchange(place, place + length));
+        Graph graph;
+        // What is read back is created: imports outlive the frame and stay on the device.
+        Buffer listed = graph.create("sorted keys", keys.size() * sizeof(ListKey));
+        graph.copy(import(graph, "keys", keys), listed);
+        graph.compute("transparency/lists_sort.comp")
+            .loads("Counts", import(graph, "counts", lengths))
+            .loads("Starts", import(graph, "starts", places))
+            .loads("GroupStarts", import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)))
+            .updates("Keys", listed)
+            .push(band)
+            .over({band.width, 1, 1});
+        graph.keep(listed);
+        return values_of<ListKey>(run(graph, listed));
+    }
+
+private:
+    std::uint64_t imports_ = 5000;  // ids are the device's: away from those of scenes
+};
+
+/// Seeded keys with many equal depths, so that every part of the key decides somewhere.
+std::vector<ListKey> random_keys(std::size_t count) {
+    std::mt19937 random(7);
+    const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
+    std::vector<ListKey> keys;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t depth = below(40), draw = below(3);
+        keys.push_back({.z = .25f * float(depth), .draw = draw, .primitive = i ^ 0x55u, .event = i});
+    }
+    return keys;
+}
+
+void expect_sorted(std::span<const ListKey> got, std::vector<ListKey> wanted) {
+    std::ranges::sort(wanted, [](const ListKey& a, const ListKey& b) {
+        return std::tuple(a.z, b.draw, b.primitive) < std::tuple(b.z, a.draw, a.primitive);
+    });
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i << " of a list of " << wanted.size();
+}
+
+TEST_F(ListsOnDevice, AreSortedNearToFarAtEveryLength) {
+    const std::vector<std::uint32_t> lengths{0, 1, 2, 3, 8, 12, 13, 16, 31, 32, 33, 64, 0, 300, 2000};
+    std::size_t total = 0;
+    for (const std::uint32_t length : lengths) total += length;
+    const std::vector<ListKey> keys = random_keys(total);
+    const std::vector<ListKey> result = sorted(lengths, keys);
+    std::size_t first = 0;
+    for (const std::uint32_t length : lengths) {
+        const auto at = keys.begin() + static_cast<std::ptrdiff_t>(first);
+        expect_sorted(std::span(result).subspan(first, length), std::vector<ListKey>(at, at + length));
+        first += length;
+    }
+}
+
+TEST_F(ListsOnDevice, StartWhereTheListsBeforeThemEnd) {
+    // One group, its edges, and more groups than the second level sums at a time (256).
+    for (const std::size_t cells : std::array<std::size_t, 5>{1, 1023, 1024, 1025, 300 * 1024 + 7}) {
+        std::mt19937 random(11);
+        std::vector<std::uint32_t> counts(cells);
+        for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(random() % 5);
+        const std::vector<std::uint32_t> got = starts(counts);
+        std::uint32_t wanted = 0;
+        for (std::size_t i = 0; i < cells; ++i) {
+            ASSERT_EQ(got[i], wanted) << "cell " << i << " of " << cells;
+            wanted += counts[i];
+        }
+    }
+}
+
+}  // namespace
+}  // namespace strata
