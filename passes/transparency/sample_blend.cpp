@@ -13,15 +13,17 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
 
 }  // namespace
 
-ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend) {
+ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend,
+                       const SampleDoubt& doubtful) {
     const FragmentLists lists = transparent_fragments(frame, opaque_depth(before, color));
     if (color.undecided.empty()) color.undecided.assign(color.texels.size(), false);
     for (std::uint32_t s = 0; s < color.layers; ++s) {
         for (std::uint32_t y = 0; y < color.height; ++y) {
             for (std::uint32_t x = 0; x < color.width; ++x) {
                 glm::dvec4& texel = color.at(x, y, s);
-                texel = glm::dvec4(blend(lists.at(x, y, s), glm::dvec3(texel)), texel.w);
-                if (lists.undecided(x, y, s)) color.undecided[color.index(x, y, s)] = true;
+                const std::span<const Fragment> fragments = lists.at(x, y, s);
+                texel = glm::dvec4(blend(fragments, glm::dvec3(texel)), texel.w);
+                if (lists.undecided(x, y, s) || (doubtful && doubtful(fragments))) color.undecided[color.index(x, y, s)] = true;
             }
         }
     }
