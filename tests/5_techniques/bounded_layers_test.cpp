@@ -1,5 +1,6 @@
 // What transparency/k_buffer, a_buffer and depth_peeling count, lose and store, on cards whose fragments can be counted by hand.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -99,6 +100,22 @@ TEST(LayersBeyond, AreShownByEveryTechniqueThatKeepsSome) {
         const auto run = run_on(stack_of_cards(40, .5f), technique, {set}, view);
         EXPECT_EQ(texel(run.images.at(view), 2, 9), glm::dvec4(beyond, beyond, beyond, 1)) << view;
     }
+}
+
+TEST(BoundedLayers, OrderByTheOffsetDepthAndHideByTheSurfaces) {
+    // A white puff behind a black pane, brought before it, even before the eye; and one behind the wall, where it stays.
+    for (const float offset : {3.f, 20.f})
+        for (const char* technique : {"transparency/k_buffer", "transparency/a_buffer", "transparency/depth_peeling"}) {
+            Frame frame =
+                frame_of_cards(std::array{Card{.center = {0, 0, 6}}, Card{.center = {0, 0, 3}, .color = {0, 0, 0, .5}}}, extent);
+            frame.materials[0].alpha_mode = AlphaMode::opaque;
+            frame.materials[0].double_sided = true;
+            const Particle puff{.center = {0, 0, 5}, .size = 20, .color = glm::vec3(1), .alpha = .5f, .depth_offset = offset};
+            frame.emitters.push_back({.name = "smoke", .particles = {puff, puff}});
+            frame.emitters[0].particles[1].center.z = 8;
+            const auto run = run_on(frame, technique, {});
+            EXPECT_NEAR(texel(run.images.at("color"), 4, 4).x, .75, 3e-3) << technique << " by " << offset;
+        }
 }
 
 /// Numbers of every size the formats have, some halfway between two of theirs, and some beyond them.

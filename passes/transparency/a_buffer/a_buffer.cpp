@@ -22,11 +22,15 @@ struct Merged {
     Image sum, through;
 };
 
+/// Of the recorded frame, whatever features are forced on: those change no pixel, and another format would.
+bool is_chromatic(const FrameImages& images, std::uint32_t stored_as) {
+    if (stored_as != layout_automatic) return stored_as == layout_rgb;
+    return frame_features(*images.recorded).has(Feature::chromatic);
+}
+
 ABufferPush push_of(const FrameImages& images, const Settings& settings) {
     const auto params = settings.as<ABufferParams>();
-    const bool chromatic =
-        params.stored_as == layout_automatic ? images.features->has(Feature::chromatic) : params.stored_as == layout_rgb;
-    return {params.layers, chromatic ? 1u : 0u};
+    return {params.layers, is_chromatic(images, params.stored_as) ? 1u : 0u};
 }
 
 Layers create_layers(Graph& graph, const FrameImages& images, const ABufferPush& push) {

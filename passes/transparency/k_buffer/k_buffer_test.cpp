@@ -82,6 +82,18 @@ TEST(KBuffer, BreaksTiesByCoverageAndThenByColorWhateverTheOrder) {
     EXPECT_DOUBLE_EQ(blend(std::array{black, thin}, 0, 2, tail_drop), .25) << "the thinner one is in front";
 }
 
+TEST(KBuffer, GivesTheSameBitsForCoincidentLayersInAnyOrder) {
+    for (const std::size_t n : {2u, 3u, 6u}) {
+        std::vector<Fragment> fragments;
+        for (std::size_t i = 0; i < n; ++i) fragments.push_back(layer(3, .125 * double(1 + i), .5 * double(i)));
+        const double kept = blend(fragments, 1, 8, tail_drop), averaged = blend(fragments, 1, 2, tail_hybrid);
+        while (std::ranges::next_permutation(fragments, {}, &Fragment::alpha).found) {
+            EXPECT_EQ(blend(fragments, 1, 8, tail_drop), kept) << n;
+            EXPECT_NEAR(blend(fragments, 1, 2, tail_hybrid), averaged, 1e-15) << n;
+        }
+    }
+}
+
 TEST(KBuffer, TellsDepthsApartToSixteenBits) {
     EXPECT_LT(k_buffer_key(layer(1, .5, 1)), k_buffer_key(layer(1 + 0x1p-16, .5, 0)));
     const std::uint64_t here = k_buffer_key(layer(1, .5, 1)) >> 40, a_bit_on = k_buffer_key(layer(1 + 0x1p-18, .5, 1)) >> 40;
