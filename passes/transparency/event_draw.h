@@ -11,5 +11,7 @@ namespace strata {
 /// Declares a draw of `list` with a fragment shader that includes passes/transparency/event.glsl. Chain the technique's own
 /// verbs.
 DrawPass draw_events(Graph&, std::string shader, const DrawList& list, const FrameImages&);
+/// The same without the test, for a technique with a depth of its own: `depth_layers` is bound whether the frame needs it or not.
+DrawPass draw_events_untested(Graph&, std::string shader, const DrawList& list, const FrameImages&);
 
 }  // namespace strata

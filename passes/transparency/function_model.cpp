@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/transparency/rounding.h"
+#include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 namespace {
@@ -87,7 +88,7 @@ Projected project(const StageInput& input, const PrepassModel& model) {
     Projected projected{low.view.width, low.view.height, {}, {}};
     for (std::uint32_t y = 0; y < low.view.height; ++y)
         for (std::uint32_t x = 0; x < low.view.width; ++x) {
-            projected.texels.push_back(model.project(lists.at(x, y), {x, y}));
+            projected.texels.push_back(model.project(lists.at(x, y), glm::uvec2(x, y)));
             projected.undecided.push_back(lists.undecided(x, y));
         }
     return projected;
@@ -96,15 +97,15 @@ Projected project(const StageInput& input, const PrepassModel& model) {
 /// What is read at a pixel's center.
 struct Read {
     std::vector<double> numbers;
-    Place texel;  ///< the nearest
+    glm::uvec2 texel{0};  ///< the nearest
     bool undecided = false;
 };
 
 /// Bilinear, clamped at the edges, or the nearest texel.
-Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 extent, Place pixel) {
+Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 extent, glm::uvec2 pixel) {
     const glm::dvec2 place = glm::dvec2(pixel.x + .5, pixel.y + .5) / glm::dvec2(extent) *
                              glm::dvec2(projected.width, projected.height);
-    Read read{.texel = {std::uint32_t(place.x), std::uint32_t(place.y)}};
+    Read read{.texel = glm::uvec2(place)};
     const bool linear = model.filter == PrepassModel::Filter::linear;
     const glm::dvec2 at = linear ? place - .5 : glm::floor(place);
     const glm::dvec2 corner = glm::floor(at), share = at - corner;
@@ -147,16 +148,13 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     const Projected projected = project(input, model);
     ReferenceImage color = input.before.at("color");
     const glm::uvec2 extent(color.width, color.height);
-    std::vector<std::size_t> undecided;
-    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, Place place) {
-        if (fragments.empty()) return behind;
-        const Read read = read_at(projected, model, extent, place);
-        if (read.undecided) undecided.push_back((std::size_t(place.sample) * extent.y + place.y) * extent.x + place.x);
-        return resolved(sums_of(fragments, model.function(read.numbers, read.texel), accumulation, chromatic), behind);
+    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
+        if (fragments.empty()) return {behind};
+        const Read read = read_at(projected, model, extent, glm::uvec2(at));
+        const Sums sums = sums_of(fragments, model.function(read.numbers, read.texel), accumulation, chromatic);
+        return {resolved(sums, behind), read.undecided};
     };
-    color = blended(std::move(color), input.frame, input.before, blend);
-    for (const std::size_t texel : undecided) color.undecided[texel] = true;
-    return {{"color", std::move(color)}};
+    return {{"color", blended(std::move(color), input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

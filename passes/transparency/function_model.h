@@ -8,7 +8,6 @@
 #include "passes/reference/fragments.h"
 #include "passes/stages.h"
 #include "passes/transparency/function.shared.h"
-#include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 
@@ -32,9 +31,9 @@ struct PrepassModel {
     std::uint32_t divisor = 1;
     enum class Filter { linear, nearest } filter = Filter::linear;
     /// What the prepass keeps of a texel's fragments.
-    std::function<std::vector<double>(std::span<const Fragment>, Place texel)> project;
+    std::function<std::vector<double>(std::span<const Fragment>, glm::uvec2 texel)> project;
     /// T of a sample from the (filtered) numbers of its place; `texel` is the nearest.
-    std::function<Transmittance(std::span<const double>, Place texel)> function;
+    std::function<Transmittance(std::span<const double>, glm::uvec2 texel)> function;
 };
 ImageSet function_model(const StageInput&, std::uint32_t accumulation, const PrepassModel&);
 

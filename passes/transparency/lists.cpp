@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "passes/transparency/event_draw.h"
+#include "passes/transparency/layers_beyond.h"
 #include "passes/transparency/row_bounds.h"
 
 namespace strata::transparency {
@@ -91,21 +92,6 @@ std::vector<Counter> list_counters() {
     };
 }
 
-Image layers_view(Graph& graph, FrameImages& images, const Settings&) {
-    const Band frame{0, images.extent.height, images.extent.width, images.samples, 0};
-    Buffer counts = graph.create("layer counts", std::uint64_t{cells(frame)} * sizeof(std::uint32_t));
-    Image picture = graph.create("layers view", Shape{.extent = images.extent, .format = Format::rgba32f});
-    graph.clear(counts, 0);
-    graph.draw("transparency/lists_count", images.transparent)
-        .tests_depth(images.depth)
-        .updates("Counts", counts)
-        .push(frame);
-    graph.compute("transparency/lists_layers.comp")
-        .loads("Counts", counts)
-        .stores("picture", picture)
-        .push(frame)
-        .over(images.extent);
-    return picture;
-}
+Image layers_view(Graph& graph, FrameImages& images, const Settings&) { return layers_beyond(graph, images, 0, "layers view"); }
 
 }  // namespace strata::transparency

@@ -47,10 +47,10 @@ inline constexpr Param pool_row = {
 /// The rows of ListCounters, which a technique's counters begin with.
 std::vector<Counter> list_counters();
 
-/// Covered fragments per pixel, the deepest sample's.
+/// Visible fragments per pixel, the deepest sample's.
 Image layers_view(Graph&, FrameImages&, const Settings&);
 inline constexpr DebugView layers_view_row = {.name = "layers",
-                                              .help = "covered fragments per pixel, the deepest sample's",
+                                              .help = "visible fragments per pixel, the deepest sample's",
                                               .unit = "fragments",
                                               .low = 0,
                                               .high = 32,

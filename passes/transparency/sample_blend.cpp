@@ -15,10 +15,9 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
 }  // namespace
 
 ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend) {
-    const PlacedBlend anywhere = [&](std::span<const Fragment> fragments, glm::dvec3 behind, Place) {
-        return blend(fragments, behind);
-    };
-    return blended(std::move(color), frame, before, anywhere);
+    return blended(std::move(color), frame, before, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
+        return BlendedSample{blend(fragments, behind)};
+    });
 }
 
 ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const PlacedBlend& blend) {
@@ -28,8 +27,9 @@ ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet&
         for (std::uint32_t y = 0; y < color.height; ++y) {
             for (std::uint32_t x = 0; x < color.width; ++x) {
                 glm::dvec4& texel = color.at(x, y, s);
-                texel = glm::dvec4(blend(lists.at(x, y, s), glm::dvec3(texel), {x, y, s}), texel.w);
-                if (lists.undecided(x, y, s)) color.undecided[color.index(x, y, s)] = true;
+                const BlendedSample result = blend(lists.at(x, y, s), glm::dvec3(texel), {x, y, s});
+                texel = glm::dvec4(result.radiance, texel.w);
+                if (lists.undecided(x, y, s) || result.undecided) color.undecided[color.index(x, y, s)] = true;
             }
         }
     }

@@ -15,11 +15,12 @@ namespace strata::transparency {
 /// The new radiance of a sample: its fragments in submission order over what is behind.
 using SampleBlend = std::function<glm::dvec3(std::span<const Fragment>, glm::dvec3 behind)>;
 
-/// The same for methods to which it matters where the sample is.
-struct Place {
-    std::uint32_t x = 0, y = 0, sample = 0;
+/// The same where the method asks which sample it is (x, y, sample), and may find that its result hangs on rounding.
+struct BlendedSample {
+    glm::dvec3 radiance{0};
+    bool undecided = false;
 };
-using PlacedBlend = std::function<glm::dvec3(std::span<const Fragment>, glm::dvec3 behind, Place)>;
+using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::dvec3 behind, glm::uvec3 at)>;
 
 /// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth of `before`. Samples
 /// whose fragments are undecided become so in the image.

@@ -123,7 +123,7 @@ ImageSet moments_model(const StageInput& input, const Settings& settings) {
     const auto warped = [=](double z) { return std::clamp(2 * (std::log(z) - log_nearest) / log_range - 1, -1., 1.); };
 
     PrepassModel prepass{.divisor = divisor_of(params.resolution)};
-    prepass.project = [=](std::span<const Fragment> fragments, Place) {
+    prepass.project = [=](std::span<const Fragment> fragments, glm::uvec2) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {
             std::vector<WarpedEvent> events;
@@ -133,7 +133,7 @@ ImageSet moments_model(const StageInput& input, const Settings& settings) {
         }
         return all;
     };
-    prepass.function = [=](std::span<const double> kept, Place) -> Transmittance {
+    prepass.function = [=](std::span<const double> kept, glm::uvec2) -> Transmittance {
         return [=](const Fragment& f) {
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel)

@@ -9,7 +9,7 @@
 namespace strata::transparency {
 namespace {
 
-double noise(Place texel) { return double((texel.x * 3242174889u + texel.y * 2447445414u) >> 8) / 16777216 - .5; }
+double noise(glm::uvec2 texel) { return double((texel.x * 3242174889u + texel.y * 2447445414u) >> 8) / 16777216 - .5; }
 
 /// Of a texel: where its cells begin and end, in ln z, and how far they are shifted.
 struct Cells {
@@ -34,7 +34,7 @@ double depth_of(const Fragment& f, std::size_t channel, std::size_t channels) {
 }
 
 /// The whole frame's, or those of a texel's fragments.
-Cells cells_of(const WaveletParams& params, const DepthRange& range, std::span<const Fragment> fragments, Place texel) {
+Cells cells_of(const WaveletParams& params, const DepthRange& range, std::span<const Fragment> fragments, glm::uvec2 texel) {
     Cells cells{2u << params.rank, std::log(double(range.nearest)), std::log(double(range.farthest)),
                 double(params.jitter) * noise(texel)};
     if (params.bounds == bounds_frame || fragments.empty()) return cells;
@@ -100,7 +100,7 @@ ImageSet wavelet_model(const StageInput& input, const Settings& settings) {
     PrepassModel prepass{.divisor = divisor_of(params.resolution)};
     if (params.bounds == bounds_pixel) prepass.filter = PrepassModel::Filter::nearest;
     // The texel's range comes first, then the coefficients of each channel.
-    prepass.project = [=](std::span<const Fragment> fragments, Place texel) {
+    prepass.project = [=](std::span<const Fragment> fragments, glm::uvec2 texel) {
         const Cells cells = cells_of(params, range, fragments, texel);
         std::vector<double> all{cells.first, cells.last};
         for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -111,7 +111,7 @@ ImageSet wavelet_model(const StageInput& input, const Settings& settings) {
         }
         return all;
     };
-    prepass.function = [=](std::span<const double> kept, Place texel) -> Transmittance {
+    prepass.function = [=](std::span<const double> kept, glm::uvec2 texel) -> Transmittance {
         const Cells cells{2u << params.rank, kept[0], kept[1], double(params.jitter) * noise(texel)};
         return [=](const Fragment& f) {
             glm::dvec3 through(0);

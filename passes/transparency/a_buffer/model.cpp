@@ -1,0 +1,94 @@
+#include "passes/transparency/a_buffer/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/transparency/sample_blend.h"
+
+namespace strata::transparency {
+namespace {
+
+/// A float with 5 bits of exponent, this many of mantissa and no sign.
+double nearest_small_float(double x, int mantissa_bits) {
+    const double largest = std::ldexp(2 - std::ldexp(1., -mantissa_bits), 15);
+    x = std::clamp(x, 0., largest);
+    const int lowest_bit = (x > 0 ? std::max(std::ilogb(x), -14) : -14) - mantissa_bits;
+    return std::ldexp(std::round(std::ldexp(x, -lowest_bit)), lowest_bit);
+}
+
+double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
+
+glm::dvec3 through(const Fragment& f, Transmittance kind) {
+    return kind == Transmittance::rgb ? f.transmittance : glm::dvec3(1 - coverage(f));
+}
+
+Fragment stored(const Fragment& f, Transmittance kind) {
+    const glm::dvec3 t = through(f, kind);
+    return {.depth = nearest_half(f.depth),
+            .color = nearest_r11g11b10(f.color + f.emission),
+            .transmittance = kind == Transmittance::rgb ? nearest_r11g11b10(t) : glm::dvec3(nearest_unorm8(t.x))};
+}
+
+/// Everything that came too late, as one layer over what is behind.
+glm::dvec3 merged_over(std::span<const Fragment> late, glm::dvec3 behind, Transmittance kind) {
+    glm::dvec3 sum(0), remains(1);
+    double coverages = 0;
+    for (const Fragment& f : late) {
+        sum += f.color + f.emission;
+        remains *= through(f, kind);
+        coverages += coverage(f);
+    }
+    if (coverages > 0) sum *= (1. - remains) / coverages;
+    return sum + remains * behind;
+}
+
+Transmittance stored_by(std::uint32_t layout, const Frame& frame) {
+    if (layout == layout_automatic && !frame_features(frame).has(Feature::chromatic)) return Transmittance::mono;
+    return layout == layout_mono ? Transmittance::mono : Transmittance::rgb;
+}
+
+/// Whether two depths that are not equal would share a half float, or no longer share one, were floats rounded otherwise.
+bool hang_on_rounding(const Fragment& a, const Fragment& b) {
+    const auto order = [&](double nudge) { return nearest_half(a.depth * (1 + nudge)) <=> nearest_half(b.depth * (1 - nudge)); };
+    return a.depth != b.depth && order(0x1p-20) != order(-0x1p-20);
+}
+
+/// As in FragmentLists, of half floats: among those that are stored.
+bool is_doubtful(std::span<const Fragment> fragments, std::size_t layers) {
+    std::vector<Fragment> sorted(fragments.begin(), fragments.begin() + std::ptrdiff_t(std::min(layers, fragments.size())));
+    std::ranges::stable_sort(sorted, {}, &Fragment::depth);
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (hang_on_rounding(sorted[i - 1], sorted[i])) return true;
+    return false;
+}
+
+}  // namespace
+
+glm::dvec3 nearest_r11g11b10(glm::dvec3 c) {
+    return {nearest_small_float(c.x, 6), nearest_small_float(c.y, 6), nearest_small_float(c.z, 5)};
+}
+
+double nearest_half(double x) { return nearest_small_float(x, 10); }
+
+double nearest_unorm8(double x) { return std::floor(std::clamp(x, 0., 1.) * 255 + .5 - 1. / 256) / 255; }
+
+glm::dvec3 a_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, std::size_t layers, Transmittance kind) {
+    const std::size_t kept = std::min(layers, fragments.size());
+    std::vector<Fragment> first;
+    for (const Fragment& f : fragments.first(kept)) first.push_back(stored(f, kind));
+    glm::dvec3 radiance = merged_over(fragments.subspan(kept), behind, kind);
+    const std::vector<Fragment> sorted = nearest_first(first);
+    for (auto f = sorted.rbegin(); f != sorted.rend(); ++f) radiance = f->color + f->transmittance * radiance;
+    return radiance;
+}
+
+ImageSet a_buffer_model(const StageInput& input, const Settings& settings) {
+    const auto params = settings.as<ABufferParams>();
+    const Transmittance kind = stored_by(params.stored_as, input.frame);
+    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
+        return {a_buffer_blend(fragments, behind, params.layers, kind), is_doubtful(fragments, params.layers)};
+    };
+    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,23 @@
+// The method in double precision. What it stores is rounded to the stored formats: that is part of it.
+#pragma once
+
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/a_buffer/a_buffer.shared.h"
+
+namespace strata::transparency {
+
+/// To the nearest R11G11B10F, R16F (not negative) and R8_UNORM.
+glm::dvec3 nearest_r11g11b10(glm::dvec3);
+double nearest_half(double);
+double nearest_unorm8(double);
+
+enum class Transmittance { mono, rgb };
+
+/// One sample, its fragments in submission order.
+glm::dvec3 a_buffer_blend(std::span<const Fragment>, glm::dvec3 behind, std::size_t layers, Transmittance);
+
+ImageSet a_buffer_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

@@ -1,0 +1,54 @@
+// The first K fragments of a sample are stored in their order of arrival; what comes later is merged into one layer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/a_buffer/a_buffer.shared.h"
+#include "passes/transparency/a_buffer/counts.glsl"
+#include "passes/transparency/a_buffer/rounding.glsl"
+#include "passes/transparency/event.glsl"
+
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_sum;      // of p + e, and of coverage
+layout(location = 1) out vec4 out_through;  // multiplied
+layout(push_constant, scalar) uniform Push { ABufferPush params; };
+// Layer = slot * samples + sample.
+layout(set = 0, binding = 1) uniform writeonly image2DArray colors;
+layout(set = 0, binding = 2) uniform writeonly image2DArray transmittances;
+layout(set = 0, binding = 3) uniform writeonly image2DArray depths;
+layout(set = 0, binding = 4, scalar) buffer Counts { uint counts[]; };
+layout(set = 0, binding = 5, scalar) buffer Counters { ABufferCounters counters; };
+
+// How many came before; 255 are as good as more. Helper invocations, which cover nothing, must not wait for their swap.
+uint arrival(ivec3 texel) {
+    const CountPlace place = count_place(texel);
+    uint seen = counts[place.word], expected = ~seen;
+    while (seen != expected && count_in(seen, place) < most_counted && gl_SampleMaskIn[0] != 0) {
+        expected = seen;
+        seen = atomicCompSwap(counts[place.word], expected, expected + (1u << place.shift));
+    }
+    return count_in(seen, place);
+}
+
+void store(ivec3 texel, uint slot, Event event, vec3 through) {
+    const ivec3 at = ivec3(texel.xy, slot * view.samples + texel.z);
+    const vec3 kept = params.chromatic != 0u ? rounded_r11g11b10(through) : vec3(rounded_unorm8(through.r));
+    imageStore(colors, at, vec4(rounded_r11g11b10(event.p + event.e), 1.0));
+    imageStore(transmittances, at, vec4(kept, 1.0));
+    imageStore(depths, at, vec4(rounded_half(event.z)));
+}
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
+    const vec3 through = params.chromatic != 0u ? event.t : vec3(1.0 - coverage);
+    const ivec3 texel = ivec3(gl_FragCoord.xy, gl_SampleID);
+    const uint slot = arrival(texel);
+    atomicAdd(counters.fragments, 1u);
+    if (slot < params.layers) {
+        store(texel, slot, event, through);
+        discard;
+    }
+    atomicAdd(counters.overflow, 1u);
+    out_sum = vec4(event.p + event.e, coverage);
+    out_through = vec4(through, 1.0);
+}

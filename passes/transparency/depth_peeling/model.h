@@ -1,0 +1,16 @@
+// The method in double precision.
+#pragma once
+
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/depth_peeling/depth_peeling.shared.h"
+
+namespace strata::transparency {
+
+/// One sample, its fragments in submission order. `near` is the near plane's distance: nothing is before it.
+glm::dvec3 peeled_blend(std::span<const Fragment>, glm::dvec3 behind, std::uint32_t passes, double near);
+
+ImageSet depth_peeling_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

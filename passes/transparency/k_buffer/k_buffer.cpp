@@ -1,0 +1,112 @@
+// The K nearest fragments of a sample, kept in order by 64-bit atomics; what is behind them becomes a tail.
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/k_buffer/k_buffer.shared.h"
+#include "passes/transparency/k_buffer/model.h"
+
+namespace strata::transparency {
+
+Image k_buffer_beyond_view(Graph&, FrameImages&, const Settings&);  // views.cpp
+
+namespace {
+
+// In the order of the constants in k_buffer.shared.h.
+constexpr std::string_view tails[] = {"drop", "blend", "hybrid"};
+constexpr const char* keeping_shaders[] = {"transparency/k_buffer/keep_and_drop", "transparency/k_buffer/keep_and_blend",
+                                           "transparency/k_buffer/keep_and_average"};
+
+/// What fell out. No image where it is dropped.
+struct Tail {
+    Image color, count;
+};
+
+/// Drawn with the frame's samples, read by sample. Floats: light of any brightness and 200 layers of .01 add up in it.
+Image create_target(Graph& graph, const FrameImages& images, std::string name, Format format, ClearValue value) {
+    Image target = graph.create(std::move(name), Shape{.extent = images.extent, .format = format, .samples = images.samples});
+    graph.clear(target, value);
+    return target;
+}
+
+Tail create_tail(Graph& graph, const FrameImages& images, std::uint32_t kind) {
+    Tail tail;
+    if (kind == tail_drop) return tail;
+    const ClearValue nothing = kind == tail_blend ? ClearValue{{0, 0, 0, 1}} : ClearValue{};
+    tail.color = create_target(graph, images, "k_buffer tail", Format::rgba32f, nothing);
+    if (kind == tail_hybrid) tail.count = create_target(graph, images, "k_buffer tail count", Format::r32f, {});
+    return tail;
+}
+
+/// Keeps what is nearest in the slots and adds the rest to the tail.
+void keep(Graph& graph, const FrameImages& images, const KBufferParams& params, Buffer& slots, Tail& tail) {
+    DrawPass draw = draw_events(graph, keeping_shaders[params.tail], images.transparent, images);
+    draw.updates("Slots", slots).push(params);
+    if (params.tail == tail_blend) draw.composites(tail.color);
+    if (params.tail == tail_hybrid) draw.adds_to(tail.color).adds_to(tail.count);
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<KBufferParams>();
+    const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
+    Buffer slots = graph.create("k_buffer slots", samples * params.layers * sizeof(std::uint64_t));
+    graph.clear(slots, 0xffffffffu);
+    Tail tail = create_tail(graph, images, params.tail);
+    keep(graph, images, params, slots, tail);
+
+    const Image color = tail.color ? spread(graph, tail.color, "k_buffer tail by sample") : Image{};
+    const Image count = tail.count ? spread(graph, tail.count, "k_buffer tail count by sample") : Image{};
+    graph.compute("transparency/k_buffer/resolve.comp")
+        .updates("color", images.color)
+        .loads("Slots", slots)
+        .samples("tail", color)
+        .samples("tail_count", count)
+        .push(params)
+        .over({images.extent.width, images.extent.height, images.samples});
+}
+
+}  // namespace
+
+Technique k_buffer() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/k_buffer",
+        .title = "K-buffer",
+        .source =
+            "Bavoil et al. 2007, I3D; hybrid tail: Maule, Comba, Torchelsen and Bastos 2013, I3D; 64-bit chain of "
+            "atomicMin: nvpro vk_order_independent_transparency",
+        .summary =
+            "The K nearest fragments exactly sorted, the rest a tail: wrong where much lies behind the K, and to 8 bits of "
+            "coverage.",
+        .params =
+            {param<&KBufferParams::layers>(
+                 {.name = "layers", .low = 1, .high = 16, .fallback = 8, .help = "fragments kept per sample, 8 bytes each"}),
+             param<&KBufferParams::tail>({.name = "tail",
+                                          .low = 0,
+                                          .high = 2,
+                                          .fallback = tail_hybrid,
+                                          .help = "what becomes of the fragments behind those",
+                                          .choices = tails})},
+        .points = {"layers=2", "layers=4", "layers=16", "layers=4 tail=drop", "layers=4 tail=blend"},
+        .counters = {counter<&KBufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
+                     counter<&KBufferCounters::displaced>(
+                         {.name = "displaced", .help = "fragments that had no place among the nearest: the tail"}),
+                     counter<&KBufferCounters::steps>({.name = "steps", .help = "64-bit atomics issued"})},
+        .counter_bytes = sizeof(KBufferCounters),
+        .views = {{.name = "beyond",
+                   .help = "visible fragments of a pixel beyond those kept, the worst sample's",
+                   .unit = "fragments",
+                   .low = 0,
+                   .high = 32,
+                   .add = k_buffer_beyond_view}},
+        .needs = {Capability::buffer_int64_atomics},
+        .cannot = {Feature::chromatic},
+        .add = add,
+        .model = k_buffer_model,
+        .tolerance = {.rmse = 1e-4,
+                      .worst = 5e-3,
+                      .because =
+                          "both round to the key's codes; where a float's last bits decide, one is a code off, 2^-9 of the "
+                          "color or 2^-8 of the coverage: 8e-6 and 1.7e-3 measured on lavapipe"},
+    };
+}
+
+}  // namespace strata::transparency

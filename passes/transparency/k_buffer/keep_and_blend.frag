@@ -1,0 +1,17 @@
+// Keeps the K nearest; what falls out is blended over the tail at once, in whatever order it comes.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/k_buffer/keep.glsl"
+
+layout(location = 0, index = 0) out vec4 out_added;    // the tail's radiance, and 0
+layout(location = 0, index = 1) out vec4 out_through;  // multiplies the radiance and the tail's transmittance
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const uint64_t fallen = keep(event);
+    if (fallen == empty_slot) discard;
+    const Layer layer = layer_of(fallen);
+    out_added = vec4(layer.color, 0.0);
+    out_through = vec4(1.0 - layer.alpha);
+}

@@ -1,0 +1,12 @@
+// What the K-buffer has no place for.
+#include "passes/technique.h"
+#include "passes/transparency/k_buffer/k_buffer.shared.h"
+#include "passes/transparency/layers_beyond.h"
+
+namespace strata::transparency {
+
+Image k_buffer_beyond_view(Graph& graph, FrameImages& images, const Settings& settings) {
+    return layers_beyond(graph, images, settings.as<KBufferParams>().layers, "k_buffer beyond");
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,90 @@
+// Every transparency technique on frames of 1 to 300 full-screen cards at shuffled depths, against its model. Sorts and lists
+// with bounds known at run time only are where drivers break: lavapipe 22.3 returned a bubble sort unsorted from 8 elements on.
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "tests/support/cards.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+constexpr std::array layer_counts{1u, 2u, 8u, 31u, 32u, 33u, 64u, 300u};
+
+/// So many cards between 2 and 8 m, submitted in random order: two neighbours are at least 1 cm apart. Coverage falls with their
+/// number: 300 layers let 2 % through, and none is so thin that half floats cannot add it.
+Frame frame_of_layers(std::uint32_t count) {
+    std::mt19937 random(count);
+    const auto unit = [&] { return double(random() >> 8) / double(1u << 24); };
+    std::vector<Card> cards;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double depth = 2 + 6 * (i + .5 * unit()) / count;
+        const auto tint = glm::vec3(glm::dvec3{unit(), unit(), unit()});  // braces: in this order
+        cards.push_back(
+            {.center = {0, 0, depth}, .color = glm::vec4(tint, float(std::min(1., (.5 + unit()) * 4 / (3 + count))))});
+    }
+    for (std::size_t i = cards.size(); i > 1; --i) std::swap(cards[i - 1], cards[random() % i]);
+    return frame_of_cards(cards, 16);
+}
+
+Session& session_of_layers() {
+    static const std::unique_ptr<Session> session = [] {
+        std::vector<Frame> frames;
+        for (const std::uint32_t count : layer_counts) frames.push_back(frame_of_layers(count));
+        return must(Session::open(std::move(frames), {.validation = true}));
+    }();
+    return *session;
+}
+
+class ShuffledLayers : public testing::TestWithParam<Technique> {};
+
+/// The settings of a point, "key=value key=value", apart.
+std::vector<std::string> lines_of(std::string_view point) {
+    std::istringstream words{std::string(point)};
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
+    const Technique& technique = GetParam();
+    std::vector<std::string_view> points{""};
+    points.insert(points.end(), technique.points.begin(), technique.points.end());
+    for (const std::string_view point : points)
+        for (std::size_t frame = 0; frame < layer_counts.size(); ++frame) {
+            SCOPED_TRACE(fmt::format("{} layers, {}", layer_counts[frame], point));
+            const Request request{.frame = frame, .uses = {std::string(technique.name)}, .sets = lines_of(point)};
+            const Accuracy accuracy = must(session_of_layers().judge(request, Stage::transparency));
+            if (!accuracy.not_supported.empty()) continue;
+            const WorstTexel& w = accuracy.worst;
+            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
+            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst)
+                << fmt::format("({}, {}): got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}", w.x, w.y, w.got.x,
+                               w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z);
+            EXPECT_GT(accuracy.compared, 0u) << "all undecided";
+        }
+}
+
+std::vector<Technique> of_the_stage() {
+    std::vector<Technique> found;
+    for (const Technique* technique : techniques_of(Stage::transparency)) found.push_back(*technique);
+    return found;
+}
+
+std::string test_name(const testing::TestParamInfo<Technique>& info) {
+    std::string text(info.param.name);
+    std::ranges::replace(text, '/', '_');
+    return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, ShuffledLayers, testing::ValuesIn(of_the_stage()), test_name);
+
+}  // namespace
+}  // namespace strata
