@@ -1,6 +1,7 @@
 #include "passes/transparency/sample_blend.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace strata::transparency {
 namespace {
@@ -14,14 +15,21 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
 }  // namespace
 
 ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend) {
+    return blended(std::move(color), frame, before, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
+        return BlendedSample{blend(fragments, behind)};
+    });
+}
+
+ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const PlacedBlend& blend) {
     const FragmentLists lists = transparent_fragments(frame, opaque_depth(before, color));
     if (color.undecided.empty()) color.undecided.assign(color.texels.size(), false);
     for (std::uint32_t s = 0; s < color.layers; ++s) {
         for (std::uint32_t y = 0; y < color.height; ++y) {
             for (std::uint32_t x = 0; x < color.width; ++x) {
                 glm::dvec4& texel = color.at(x, y, s);
-                texel = glm::dvec4(blend(lists.at(x, y, s), glm::dvec3(texel)), texel.w);
-                if (lists.undecided(x, y, s)) color.undecided[color.index(x, y, s)] = true;
+                const BlendedSample result = blend(lists.at(x, y, s), glm::dvec3(texel), {x, y, s});
+                texel = glm::dvec4(result.radiance, texel.w);
+                if (lists.undecided(x, y, s) || result.undecided) color.undecided[color.index(x, y, s)] = true;
             }
         }
     }

@@ -15,9 +15,17 @@ namespace strata::transparency {
 /// The new radiance of a sample: its fragments in submission order over what is behind.
 using SampleBlend = std::function<glm::dvec3(std::span<const Fragment>, glm::dvec3 behind)>;
 
+/// The same where the method asks which sample it is (x, y, sample), and may find that its result hangs on rounding.
+struct BlendedSample {
+    glm::dvec3 radiance{0};
+    bool undecided = false;
+};
+using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::dvec3 behind, glm::uvec3 at)>;
+
 /// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth of `before`. Samples
 /// whose fragments are undecided become so in the image.
 ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const SampleBlend&);
+ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const PlacedBlend&);
 
 /// The fragments near to far; of equal depths the later submission is nearer.
 std::vector<Fragment> nearest_first(std::span<const Fragment> in_submission_order);
