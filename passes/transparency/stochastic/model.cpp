@@ -107,7 +107,8 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
         result.radiance += (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share;
     }
     const auto seen = std::count(nearest.begin(), nearest.begin() + subsamples, uncovered);
-    const bool corrects = params.correction == correction_alpha;
+    // Without a covered subsample there is no color to correct; hashed alpha is meant to be all or nothing.
+    const bool corrects = params.correction == correction_alpha && params.mode != mode_hashed && weights > 0;
     const glm::dvec3 through = corrects ? reveal : glm::dvec3(double(seen) / subsamples);
     const bool normalizes = corrects || params.mode != mode_depth_based;
     result.radiance += colors * (normalizes ? (1.0 - through) / std::max(weights, 1e-7) : glm::dvec3(1)) + behind * through;

@@ -27,10 +27,12 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const ivec3 texel = ivec3(at.x, at.y + band.first_row, at.z);
-    const bool corrects = band.params.correction == correction_alpha;
+    // A sample that chance left uncovered has no color to correct: dimming what is behind it would leave a dark speck. Hashed
+    // alpha is meant to be all or nothing.
+    const vec4 total = min(texelFetch(sum, texel, 0), largest_half);
+    const bool corrects = band.params.correction == correction_alpha && band.params.mode != mode_hashed && total.a > 0.0;
     const vec3 revealed = texelFetch(reveal, texel, 0).rgb;
     const vec3 through = !corrects ? vec3(uncovered(at)) : chromatic != 0u ? revealed : revealed.rrr;
-    const vec4 total = min(texelFetch(sum, texel, 0), largest_half);
     // Weights beyond what is covered are fragments at one depth, and share it. An uncorrected T(z) stays as estimated.
     const bool normalizes = corrects || band.params.mode != mode_depth_based;
     const vec3 share = normalizes ? (1.0 - through) / max(total.a, 1e-7) : vec3(1.0);

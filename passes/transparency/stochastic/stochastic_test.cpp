@@ -137,10 +137,11 @@ TEST(AlphaCorrection, MakesOneLayerExactAndTheBackgroundOfManyWithoutNoise) {
     EXPECT_LT(black.deviation, 1e-5);
 }
 
-TEST(AlphaCorrection, LosesTheColorOfThinLayersThatNoSubsampleCovers) {
-    // The background is dimmed by .99 everywhere, the layer's own light is there in 8 % of the pixels.
+TEST(AlphaCorrection, LosesThinLayersThatNoSubsampleCovers) {
+    // Where one does the pixel is exact; elsewhere, in 92 % of the pixels, the layer is not there at all.
     const StochasticParams params{.samples = 1, .subset = subset_stratified, .correction = correction_alpha};
     EXPECT_NEAR(blends(std::array{layer(1, .01, 1)}, 0, params).mean, .01 * .08, 5e-5);
+    EXPECT_NEAR(blends(std::array{layer(1, .01, 0)}, 1, params).mean, 1 - .01 * .08, 5e-5);
     StochasticParams by_depth = params;
     by_depth.mode = mode_depth_based;
     EXPECT_NEAR(blends(std::array{layer(1, .01, 1)}, 0, by_depth).mean, .01, 1e-9);
