@@ -73,6 +73,18 @@ TEST(AdditiveLayers, LetThroughOfTwoHundredThinOnesWhatTheirStorageCan) {
     EXPECT_NEAR(through("reveal=r16f"), .1340, .009);
 }
 
+/// Half floats differ from the model by rounding alone; bytes have a tolerance that would hide a small mistake.
+TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
+    for (const char* scenario : {"two_hundred_layers", "smoke_grenade", "additive_sparks"})
+        for (const char* normalization : {"normalization=published", "normalization=corrected"}) {
+            Request request = on_scenario(scenario);
+            request.uses = {std::string(additive)};
+            request.sets = {"reveal=r16f", normalization};
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency));
+            EXPECT_LE(accuracy.model_rmse, 8e-3) << scenario << " " << normalization;
+        }
+}
+
 std::uint64_t counted(const Run& run, std::string_view name) {
     const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
     if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
