@@ -32,9 +32,9 @@ void print(const Technique& technique, const Options& options) {
         fmt::print("{}\n", technique.name);
         return;
     }
-    fmt::print("  {:<28}{}. {}\n", technique.name, technique.title, technique.source);
+    fmt::print("  {:<32}{}. {}\n", technique.name, technique.title, technique.source);
     if (options.what.empty()) return;
-    fmt::print("  {:<28}{}\n", "", technique.summary);
+    fmt::print("  {:<32}{}\n", "", technique.summary);
     for (const Param& param : technique.params)
         fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
     for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);

@@ -28,12 +28,14 @@ void zero_unless_finite(float& value) { value = std::isfinite(value) ? value : 0
 Frame without_bad_numbers() {
     Frame frame = bad_frame();
     for (Emitter& emitter : frame.emitters) {
-        std::erase_if(emitter.particles, [](const Particle& p) { return !std::isfinite(p.alpha) || p.alpha < 0; });
-        for (Particle& particle : emitter.particles)
+        for (Particle& particle : emitter.particles) {
+            // Not erased: a method may draw lots by a particle's place in the frame.
+            particle.alpha = std::isfinite(particle.alpha) && particle.alpha > 0 ? particle.alpha : 0;
             for (int c = 0; c < 3; ++c) {
                 zero_unless_finite(particle.color[c]);
                 zero_unless_finite(particle.emissive[c]);
             }
+        }
     }
     return frame;
 }

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "tests/support/cards.h"
+#include "captures/cards.h"
 #include "tests/support/session.h"
 
 namespace strata {

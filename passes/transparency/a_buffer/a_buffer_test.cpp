@@ -8,7 +8,7 @@
 
 #include "passes/transparency/a_buffer/model.h"
 #include "passes/transparency/truth.h"
-#include "tests/support/cards.h"
+#include "captures/cards.h"
 
 namespace strata::transparency {
 

@@ -14,6 +14,10 @@ void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     atomicAdd(counters.fragments, 1u);
+    const uint depth = floatBitsToUint(max(event.z, 0.0));
+    // Reading first saves the atomics for all but a few fragments.
+    if (counters.nearest_inverted < ~depth) atomicMax(counters.nearest_inverted, ~depth);
+    if (counters.farthest < depth) atomicMax(counters.farthest, depth);
     // Colored glass covers less than its alpha: alpha (1 - mean k) = mean (1 - t) (McGuire and Mara 2016).
     const float coverage = dot(1.0 - event.t, vec3(1.0 / 3.0));
     const vec3 color = event.p + event.e;

@@ -39,7 +39,7 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
         .samples("reveal", reveal_layers)
         .updates("color", images.color)
         .fixes("chromatic", chromatic ? 1u : 0u)
-        .fixes("form", params.form)
+        .push(params)
         .over({images.extent.width, images.extent.height, images.samples});
 }
 
@@ -75,7 +75,10 @@ Technique weighted() {
                                                  .help = "what the sums become; average and sum know no weight",
                                                  .choices = forms})},
         .counters = {counter<&WeightedCounters::fragments>(
-            {.name = "fragments", .help = "visible transparent fragments blended"})},
+                         {.name = "fragments", .help = "visible transparent fragments blended"}),
+                     counter<&WeightedCounters::weights_differ>(
+                         {.name = "weights differ",
+                          .help = "1 where the nearest fragment weighs more than the farthest; 0 is an average in disguise"})},
         .counter_bytes = sizeof(WeightedCounters),
         .cannot = {Feature::additive},
         .add = add,

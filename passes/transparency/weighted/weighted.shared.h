@@ -31,6 +31,9 @@ struct WeightedParams {
 
 struct WeightedCounters {
     uint fragments;
+    uint weights_differ;
+    uint nearest_inverted;  // bits of the least depth, inverted because counters begin at 0
+    uint farthest;          // bits of the largest
 };
 
 #ifdef __cplusplus

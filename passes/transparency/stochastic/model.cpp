@@ -1,0 +1,182 @@
+#include "passes/transparency/stochastic/model.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "passes/reference/shade.h"
+#include "passes/reference/triangles.h"
+#include "passes/transparency/stochastic/subset.shared.h"
+
+namespace strata::transparency {
+namespace {
+
+constexpr double largest_half = 65504;
+// How far a float alpha may be from ours: textures are filtered and particles faded in float.
+constexpr double alpha_rounding = 4e-6;
+// And a threshold: its octave comes from a float logarithm.
+constexpr double threshold_rounding = 1e-4;
+
+double coverage(const Fragment& f) {
+    const double coverage = 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3;
+    return coverage < double(least_coverage) ? 0 : std::min(coverage, 1.);
+}
+
+std::uint32_t subsample_count(const StochasticParams& params) { return params.mode == mode_hashed ? 1 : 4u << params.samples; }
+
+double lattice_number(const glm::dvec3& position, double scale, std::uint32_t seed) {
+    const glm::uvec3 cell(glm::ivec3(glm::floor(position * scale + .5)));
+    return ((hashed(hashed(seed), cell) >> 8) + .5) * 0x1p-24;
+}
+
+struct CoveredSubset {
+    std::uint64_t bits = 0;
+    bool undecided = false;
+};
+
+CoveredSubset covered_by(const SeededFragment& fragment, const StochasticParams& params) {
+    const double alpha = coverage(fragment.event);
+    if (alpha == 0) return {};
+    if (params.mode == mode_hashed)
+        return {alpha >= fragment.threshold, std::abs(alpha - fragment.threshold) < threshold_rounding};
+    const auto subset = [&](double a) { return covered_subset(a, fragment.key, subsample_count(params), params.subset); };
+    return {subset(alpha), subset(alpha - alpha_rounding) != subset(alpha + alpha_rounding)};
+}
+
+}  // namespace
+
+std::uint64_t covered_subset(double alpha, std::uint32_t key, std::uint32_t subsamples, std::uint32_t subset) {
+    const auto fixed_alpha = static_cast<std::uint32_t>(std::clamp(alpha, 0., 1.) * 0x1p24);
+    std::uint32_t wanted = subset_size(key, fixed_alpha, subsamples);
+    std::uint64_t covered = 0;
+    for (std::uint32_t s = 0; s < subsamples; ++s) {
+        const bool is_in =
+            subset == subset_bernoulli ? random_24_bits(key, s) < fixed_alpha : is_selected(key, s, wanted, subsamples - s);
+        if (!is_in) continue;
+        covered |= std::uint64_t{1} << s;
+        --wanted;
+    }
+    return covered;
+}
+
+double mixed_uniformly(double u1, double u2, double l) {
+    const double m = std::lerp(u1, u2, l), a = std::min(l, 1 - l);
+    if (a == 0) return m;
+    if (m < a) return m * m / (2 * a * (1 - a));
+    if (m < 1 - a) return (m - a / 2) / (1 - a);
+    return 1 - (1 - m) * (1 - m) / (2 * a * (1 - a));
+}
+
+double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed) {
+    const double coarse = std::floor(octave);
+    const double mixed = mixed_uniformly(lattice_number(position, std::exp2(coarse), seed),
+                                         lattice_number(position, std::exp2(coarse + 1), seed), octave - coarse);
+    return std::clamp(mixed, 1e-6, 1.);
+}
+
+BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::dvec3 behind, const StochasticParams& params) {
+    const std::uint32_t subsamples = subsample_count(params);
+    constexpr double uncovered = std::numeric_limits<double>::infinity();
+    std::array<double, 64> nearest;
+    nearest.fill(uncovered);
+    std::vector<CoveredSubset> covered;
+    BlendedSample result;
+    glm::dvec3 reveal(1);
+    for (const SeededFragment& fragment : fragments) {
+        covered.push_back(covered_by(fragment, params));
+        result.undecided |= covered.back().undecided;
+        if (coverage(fragment.event) > 0) reveal *= fragment.event.transmittance;
+        for (std::uint32_t s = 0; s < subsamples; ++s)
+            if (covered.back().bits >> s & 1) nearest[s] = std::min(nearest[s], std::max(fragment.event.depth, 0.));
+    }
+
+    glm::dvec3 colors(0);
+    double weights = 0;
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+        const Fragment& event = fragments[i].event;
+        std::uint64_t shown = 0;
+        for (std::uint32_t s = 0; s < subsamples; ++s)
+            if (std::max(event.depth, 0.) <= nearest[s]) shown |= std::uint64_t{1} << s;
+        const double share = std::popcount(shown) / double(subsamples), alpha = coverage(event);
+        const double weight =
+            params.mode == mode_depth_based ? alpha * share : std::popcount(shown & covered[i].bits) / double(subsamples);
+        if (alpha > 0) colors += glm::min(event.color / alpha, glm::dvec3(largest_half)) * weight;
+        weights += weight;
+        result.radiance += (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share;
+    }
+    const auto seen = std::count(nearest.begin(), nearest.begin() + subsamples, uncovered);
+    // Without a covered subsample there is no color to correct; hashed alpha is meant to be all or nothing.
+    const bool corrects = params.correction == correction_alpha && params.mode != mode_hashed && weights > 0;
+    const glm::dvec3 through = corrects ? reveal : glm::dvec3(double(seen) / subsamples);
+    const bool normalizes = corrects || params.mode != mode_depth_based;
+    result.radiance += colors * (normalizes ? (1.0 - through) / std::max(weights, 1e-7) : glm::dvec3(1)) + behind * through;
+    return result;
+}
+
+namespace {
+
+/// What a fragment is a fragment of, from its place among all triangles of the transparent draws.
+class Origins {
+public:
+    explicit Origins(const Frame& frame) : frame_(frame) {
+        std::uint32_t first = 0;
+        for (const std::uint32_t draw : transparent_draws(frame)) {
+            origins_.push_back({draw, first, draw_space(frame, draw)});
+            first += triangle_count(frame, draw);
+        }
+    }
+
+    SeededFragment seeded(const Fragment& fragment, glm::uvec3 at, const StochasticParams& params) const {
+        const Origin& origin = *--std::ranges::upper_bound(origins_, fragment.submission, {}, &Origin::first_ordinal);
+        const std::uint32_t triangle = fragment.submission - origin.first_ordinal;
+        SeededFragment result{fragment, fragment_key(params.seed, at, origin.draw, triangle)};
+        if (params.mode == mode_hashed)
+            result.threshold = threshold(origin, fragment.depth + offset(origin, triangle), at, params);
+        return result;
+    }
+
+private:
+    struct Origin {
+        std::uint32_t draw = 0, first_ordinal = 0;
+        DrawSpace space;
+    };
+
+    double offset(const Origin& origin, std::uint32_t triangle) const {
+        if (origin.draw < frame_.draws.size()) return 0;
+        return double(frame_.emitters[origin.draw - frame_.draws.size()].particles[triangle / 2].depth_offset);
+    }
+
+    /// Cells are as large as a pixel on a surface that faces the eye there.
+    double threshold(const Origin& origin, double z, glm::uvec3 at, const StochasticParams& params) const {
+        const View& view = frame_.view;
+        const glm::dvec2 pixel = glm::dvec2(at) + sample_position(view.samples, at.z);
+        const glm::dvec3 position = pixel_ray(frame_, pixel.x, pixel.y) * z;
+        const bool flat = std::abs(glm::determinant(origin.space.linear)) < 1e-30;
+        const glm::dmat3 to_object = flat ? glm::transpose(origin.space.linear) : glm::inverse(origin.space.linear);
+        const glm::dvec2 size(2 * z / (double(view.projection[0][0]) * view.width),
+                              2 * z / (std::abs(double(view.projection[1][1])) * view.height));
+        const double footprint = std::max(glm::length(to_object[0]) * size.x, glm::length(to_object[1]) * size.y);
+        return hashed_threshold(to_object * (position - origin.space.offset), -std::log2(footprint), params.seed);
+    }
+
+    const Frame& frame_;
+    std::vector<Origin> origins_;
+};
+
+}  // namespace
+
+ImageSet stochastic_model(const StageInput& input, const Settings& settings) {
+    const auto params = settings.as<StochasticParams>();
+    const Origins origins(input.frame);
+    std::vector<SeededFragment> seeded;
+    const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) {
+        seeded.clear();
+        for (const Fragment& fragment : fragments) seeded.push_back(origins.seeded(fragment, at, params));
+        return stochastic_blend(seeded, behind, params);
+    };
+    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,34 @@
+// The method in double, from the papers. It shares the integer hash with the shaders: which subsamples a fragment covers is part
+// of the method, not a rounding of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "passes/technique.h"
+#include "passes/transparency/sample_blend.h"
+#include "passes/transparency/stochastic/stochastic.shared.h"
+
+namespace strata::transparency {
+
+/// A fragment with what its subset is made from.
+struct SeededFragment {
+    Fragment event;
+    std::uint32_t key = 0;  ///< fragment_key()
+    double threshold = 0;   ///< of hashed alpha
+};
+
+/// Bit s: subsample s is covered.
+std::uint64_t covered_subset(double alpha, std::uint32_t key, std::uint32_t subsamples, std::uint32_t subset);
+
+/// Uniform in 0..1 if u1 and u2 are; l from 0 (u1 alone) to 1 (u2 alone).
+double mixed_uniformly(double u1, double u2, double l);
+/// At a point in object space, where cells have the size 2^-octave.
+double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed);
+
+/// One sample. Undecided where an alpha is within float rounding of covering one subsample more or less.
+BlendedSample stochastic_blend(std::span<const SeededFragment>, glm::dvec3 behind, const StochasticParams&);
+
+ImageSet stochastic_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

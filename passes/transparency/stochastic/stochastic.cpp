@@ -1,0 +1,157 @@
+// Stochastic transparency: every fragment covers a random subset of subsamples, and an ordinary depth test does the rest.
+#include <algorithm>
+
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/stochastic/model.h"
+#include "passes/transparency/stochastic/stochastic.shared.h"
+
+namespace strata::transparency {
+namespace {
+
+// In the order of the constants in stochastic.shared.h; subsamples are 4 << choice.
+constexpr std::string_view sample_counts[] = {"4", "8", "16", "32", "64"};
+constexpr std::string_view subsets[] = {"bernoulli", "stratified"};
+constexpr std::string_view corrections[] = {"none", "alpha"};
+constexpr std::string_view modes[] = {"layered", "depth_based", "hashed"};
+
+/// Sums of the whole frame, and the depths of a band's subsamples.
+struct Targets {
+    Image sum, emitted, reveal;
+    Buffer depths;
+};
+
+/// The rows as few bands whose subsample depths fit `memory`; always two rows at least, so that no 2x2 quad straddles two bands.
+std::vector<StochasticBand> bands(const FrameImages& images, const StochasticParams& params) {
+    const std::uint32_t subsamples = params.mode == mode_hashed ? 1 : 4u << params.samples;
+    const std::uint64_t row_bytes = std::uint64_t{images.extent.width} * images.samples * subsamples * sizeof(std::uint32_t);
+    const auto fitting = static_cast<std::uint64_t>(double(params.memory) * 1024 * 1024) / row_bytes / 2 * 2;
+    const auto rows = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 2, std::max(2u, images.extent.height)));
+    std::vector<StochasticBand> listed;
+    for (std::uint32_t first = 0; first < images.extent.height; first += rows)
+        listed.push_back({.params = params,
+                          .first_row = first,
+                          .rows = std::min(rows, images.extent.height - first),
+                          .width = images.extent.width,
+                          .samples = images.samples,
+                          .subsamples = subsamples});
+    return listed;
+}
+
+Targets create_targets(Graph& graph, const FrameImages& images, const StochasticBand& largest) {
+    const auto create = [&](std::string name, Format format, double value) {
+        Image image = graph.create(std::move(name), Shape{.extent = images.extent, .format = format, .samples = images.samples});
+        graph.clear(image, {{value, value, value, value}});
+        return image;
+    };
+    const bool chromatic = images.features->has(Feature::chromatic);
+    const std::uint64_t words = std::uint64_t{largest.rows} * largest.width * largest.samples * largest.subsamples;
+    return {.sum = create("stochastic sum", Format::rgba16f, 0),
+            .emitted = create("stochastic emitted", Format::rgba16f, 0),
+            .reveal = create("stochastic reveal", chromatic ? Format::rgba16f : Format::r16f, 1),
+            .depths = graph.create("stochastic depths", words * sizeof(std::uint32_t))};
+}
+
+void draw(Graph& graph, const FrameImages& images, Targets& targets, const StochasticBand& band) {
+    graph.clear(targets.depths, uncovered_depth);
+    draw_events(graph, "transparency/stochastic/cover", images.transparent, images)
+        .multiplies(targets.reveal)
+        .updates("Depths", targets.depths)
+        .push(band);
+    draw_events(graph, "transparency/stochastic/shade", images.transparent, images)
+        .adds_to(targets.sum)
+        .adds_to(targets.emitted)
+        .loads("Depths", targets.depths)
+        .push(band);
+}
+
+void resolve(Graph& graph, FrameImages& images, const Targets& targets, const StochasticBand& band) {
+    const Image sum = spread(graph, targets.sum, "stochastic sum by sample");
+    const Image emitted = spread(graph, targets.emitted, "stochastic emitted by sample");
+    const Image reveal = spread(graph, targets.reveal, "stochastic reveal by sample");
+    graph.compute("transparency/stochastic/resolve.comp")
+        .updates("color", images.color)
+        .loads("Depths", targets.depths)
+        .samples("sum", sum)
+        .samples("emitted", emitted)
+        .samples("reveal", reveal)
+        .fixes("chromatic", images.features->has(Feature::chromatic) ? 1u : 0u)
+        .push(band)
+        .over({band.width, band.rows, band.samples});
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    const std::vector<StochasticBand> listed = bands(images, settings.as<StochasticParams>());
+    Targets targets = create_targets(graph, images, listed.front());
+    for (const StochasticBand& band : listed) {
+        draw(graph, images, targets, band);
+        resolve(graph, images, targets, band);
+    }
+}
+
+std::vector<Param> params() {
+    return {
+        param<&StochasticParams::samples>({.name = "samples",
+                                           .low = 0,
+                                           .high = 4,
+                                           .fallback = 1,
+                                           .help = "subsamples of each sample; noise falls with their root",
+                                           .choices = sample_counts}),
+        param<&StochasticParams::subset>({.name = "subset",
+                                          .low = 0,
+                                          .high = 1,
+                                          .fallback = subset_stratified,
+                                          .help = "each subsample by chance, or a number of them that alpha fixes",
+                                          .choices = subsets}),
+        param<&StochasticParams::correction>(
+            {.name = "correction",
+             .low = 0,
+             .high = 1,
+             .fallback = correction_alpha,
+             .help = "alpha: the background shows by the exact product of transmittances; not in mode hashed",
+             .choices = corrections}),
+        param<&StochasticParams::mode>({.name = "mode",
+                                        .low = 0,
+                                        .high = 2,
+                                        .fallback = mode_layered,
+                                        .help = "nearest layers, T(z) from depths, or hashed alpha with one subsample",
+                                        .choices = modes}),
+        param<&StochasticParams::seed>(
+            {.name = "seed", .low = 0, .high = 65535, .fallback = 0, .help = "another one gives other noise"}),
+        param<&StochasticParams::memory>({.name = "memory",
+                                          .low = 0.01,
+                                          .high = 4095,
+                                          .fallback = 128,
+                                          .help = "MiB of subsample depths at a time; a frame with more is done in bands of rows",
+                                          .scale = Scale::logarithmic}),
+    };
+}
+
+}  // namespace
+
+Technique stochastic() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/stochastic",
+        .title = "Stochastic",
+        .source =
+            "Enderton, Sintorn, Shirley and Luebke 2010, I3D; hashed: Wyman and McGuire 2017, I3D; hash: Jarzynski and Olano "
+            "2020, JCGT 9(3)",
+        .summary = "Fragments cover random subsamples that an ordinary depth test sorts: right on average, noisy in every frame.",
+        .params = params(),
+        .points = {"mode=depth_based", "samples=64", "samples=64 mode=depth_based", "mode=hashed"},
+        .counters = {counter<&StochasticCounters::fragments>(
+            {.name = "fragments", .help = "visible transparent fragments shaded"})},
+        .counter_bytes = sizeof(StochasticCounters),
+        .add = add,
+        .model = stochastic_model,
+        .tolerance =
+            {.rmse = 5e-3,
+             .worst = 3e-2,
+             .because =
+                 "which subsamples are covered is the same to the bit; sums and products are rounded to half floats at every "
+                 "blend: 200 layers of .01 reveal .1406, not .1340"},
+    };
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,91 @@
+// The weighted average, amplified by how many layers were additive, over what still shows through (Kircher, GDC 2018;
+// transparency chapter 3.2). One workgroup per tile and sample; a tile no fragment touched is left alone.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/weighted_additive/weighted_additive.shared.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint chromatic = 0u;       // 1: reveal has three channels
+layout(constant_id = 1) const uint low_resolution = 0u;  // 1: there are targets at half resolution to merge
+layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
+layout(set = 0, binding = 1) uniform sampler2DArray sum;
+layout(set = 0, binding = 2) uniform sampler2DArray reveal;
+layout(set = 0, binding = 3) uniform sampler2DArray additiveness;
+layout(set = 0, binding = 4) uniform sampler2DArray emitted;
+layout(set = 0, binding = 5) uniform sampler2DArray low_sum;
+layout(set = 0, binding = 6) uniform sampler2DArray low_reveal;
+layout(set = 0, binding = 7) uniform sampler2DArray low_additiveness;
+layout(set = 0, binding = 8) uniform sampler2DArray low_emitted;
+layout(set = 0, binding = 9, scalar) readonly buffer Written { uint written[]; };
+layout(set = 0, binding = 10, scalar) buffer Counters { WeightedAdditiveCounters counters; };
+layout(push_constant, scalar) uniform Push { WeightedAdditiveParams params; };
+
+// Half floats end here: past it hardware adds to infinity and lavapipe 22.3 stays. Both become the largest half.
+const float largest_half = 65504.0, overflowed = 100.0;
+
+struct Totals {
+    vec4 sum;  // weighted colors, weights
+    vec4 emitted;
+    vec3 reveal;
+    float additiveness;  // layers
+};
+
+vec4 bounded(vec4 value) { return clamp(value, -largest_half, largest_half); }
+
+// Not the sampler's filter: infinity times a weight of zero is no number.
+vec4 bilinear(sampler2DArray image, vec2 at) {
+    const vec2 texel = at * vec2(textureSize(image, 0).xy) - 0.5, share = fract(texel);
+    const ivec2 last = textureSize(image, 0).xy - 1, low = clamp(ivec2(floor(texel)), ivec2(0), last),
+                high = clamp(ivec2(floor(texel)) + 1, ivec2(0), last);
+    const vec4 top = mix(bounded(texelFetch(image, ivec3(low, 0), 0)), bounded(texelFetch(image, ivec3(high.x, low.y, 0), 0)),
+                         share.x);
+    const vec4 bottom = mix(bounded(texelFetch(image, ivec3(low.x, high.y, 0), 0)),
+                            bounded(texelFetch(image, ivec3(high, 0), 0)), share.x);
+    return mix(top, bottom, share.y);
+}
+
+vec3 channels(vec4 revealed) { return chromatic != 0u ? revealed.rgb : revealed.rrr; }
+
+// Product, sum and sum: the two resolutions need no order between them.
+Totals totals_at(ivec3 at) {
+    Totals t = Totals(bounded(texelFetch(sum, at, 0)), bounded(texelFetch(emitted, at, 0)),
+                      channels(texelFetch(reveal, at, 0)), 8.0 * texelFetch(additiveness, at, 0).r);
+    if (low_resolution != 0u) {
+        const vec2 place = (vec2(at.xy) + 0.5) / vec2(imageSize(color).xy);
+        t.sum = bounded(t.sum + bilinear(low_sum, place));
+        t.emitted = bounded(t.emitted + bilinear(low_emitted, place));
+        t.reveal *= channels(bilinear(low_reveal, place));
+        t.additiveness += 8.0 * bilinear(low_additiveness, place).r;
+    }
+    return t;
+}
+
+// What the transparent layers send to the eye.
+vec3 radiance_of(Totals t) {
+    const bool inf = any(greaterThanEqual(max(t.sum.rgb, t.emitted.rgb), vec3(largest_half)));
+    const float hidden = dot(1.0 - t.reveal, vec3(1.0 / 3.0)), additive = t.additiveness;
+    const vec3 average = t.sum.rgb / max(t.sum.a, 1e-5);
+    const float shown = 1.0 - hidden + 0.25 * hidden;  // of additive layers among those that cover
+    vec3 light = average * max(additive * shown + min(2.0 * hidden, 1.0), 1.0);
+    if (params.normalization == normalization_corrected)
+        light = average * (1.0 - t.reveal) + t.emitted.rgb / max(t.emitted.a, 1e-5) * max(additive, 1.0) * shown;
+    return inf ? vec3(overflowed) : light;
+}
+
+bool is_written(uvec2 tile) {
+    const uint index = tile.y * gl_NumWorkGroups.x + tile.x;
+    return (written[index / 32u] & (1u << (index % 32u))) != 0u;
+}
+
+void main() {
+    const ivec3 at = ivec3(gl_GlobalInvocationID);
+    if (params.tiles == tiles_written && !is_written(gl_WorkGroupID.xy)) {
+        if (gl_LocalInvocationIndex == 0u && at.z == 0) atomicAdd(counters.tiles_skipped, 1u);
+        return;
+    }
+    if (any(greaterThanEqual(at, imageSize(color)))) return;
+    const Totals totals = totals_at(at);
+    const vec4 behind = imageLoad(color, at);
+    imageStore(color, at, vec4(radiance_of(totals) + behind.rgb * totals.reveal, behind.a));
+}

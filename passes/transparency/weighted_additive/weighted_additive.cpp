@@ -1,0 +1,197 @@
+// Weighted blending that knows how additive a pixel is: one buffer set for alpha and for light, at full and half resolution.
+#include <cassert>
+
+#include "passes/technique.h"
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/weighted_additive/model.h"
+#include "passes/transparency/weighted_additive/weighted_additive.shared.h"
+
+namespace strata::transparency {
+namespace {
+
+// In the order of the constants in weighted_additive.shared.h.
+constexpr std::string_view reveals[] = {"r8", "r16f"};
+constexpr std::string_view normalizations[] = {"published", "corrected"};
+constexpr std::string_view tiles[] = {"written", "all"};
+
+/// What fragments of one resolution are summed in. `emitted` exists where the normalization keeps it apart.
+struct Targets {
+    Image sum, reveal, additiveness, emitted;
+};
+
+bool is_apart(const WeightedAdditiveParams& params) { return params.normalization == normalization_corrected; }
+
+Targets create_targets(Graph& graph, const FrameImages& images, const WeightedAdditiveParams& params, const std::string& prefix) {
+    const bool chromatic = images.features->has(Feature::chromatic), bytes = params.reveal == reveal_r8;
+    const auto create = [&](std::string_view name, Format format, double value) {
+        Image image =
+            graph.create(prefix + std::string(name), Shape{.extent = images.extent, .format = format, .samples = images.samples});
+        graph.clear(image, {{value, value, value, value}});
+        return image;
+    };
+    const Format one = bytes ? Format::r8_unorm : Format::r16f, three = bytes ? Format::rgba8_unorm : Format::rgba16f;
+    return {.sum = create("sum", Format::rgba16f, 0),
+            .reveal = create("reveal", chromatic ? three : one, 1),
+            .additiveness = create("additiveness", one, 0),
+            .emitted = is_apart(params) ? create("emitted", Format::rgba16f, 0) : Image{}};
+}
+
+/// The transparent draws of one resolution: stretches of the list, whose order transparent_draws() has, too.
+std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution) {
+    const Frame& frame = *images.recorded;
+    const std::vector<std::uint32_t> draws = transparent_draws(frame);
+    assert(draws.size() == images.transparent.count);
+    std::vector<DrawList> stretches;
+    bool goes_on = false;
+    for (std::uint32_t i = 0; i < draws.size(); ++i) {
+        const bool is_mesh = draws[i] < frame.draws.size();
+        const Resolution at =
+            is_mesh ? frame.draws[draws[i]].resolution : frame.emitters[draws[i] - frame.draws.size()].resolution;
+        if (at == resolution && !goes_on)
+            stretches.push_back({images.transparent.commands, images.transparent.indices, images.transparent.first + i, 0});
+        goes_on = at == resolution;
+        if (goes_on) ++stretches.back().count;
+    }
+    return stretches;
+}
+
+void accumulate(Graph& graph, const FrameImages& images, Targets& targets, Buffer& written, const WeightedAdditiveParams& params,
+                Resolution resolution) {
+    const std::string shader = is_apart(params) ? "accumulate_apart" : "accumulate";
+    for (const DrawList& list : drawn_at(images, resolution)) {
+        DrawPass draw = draw_events(graph, "transparency/weighted_additive/" + shader, list, images);
+        draw.adds_to(targets.sum)
+            .multiplies(targets.reveal)
+            .adds_to(targets.additiveness)
+            .updates("Written", written)
+            .fixes("low_resolution", resolution == Resolution::low ? 1u : 0u)
+            .push(params);
+        if (is_apart(params)) draw.adds_to(targets.emitted);
+    }
+}
+
+/// The frame's images as half-resolution draws meet them: one sample, the farthest depth of each block.
+FrameImages halved(Graph& graph, const FrameImages& images) {
+    FrameImages low = images;
+    low.extent = {(images.extent.width + 1) / 2, (images.extent.height + 1) / 2, 1};
+    low.samples = 1;
+    low.depth = graph.create("weighted_additive low depth", Shape{.extent = low.extent, .format = Format::d32f});
+    graph.clear(low.depth, {});
+    graph.fullscreen("transparency/weighted_additive/farthest_depth")
+        .samples("depth_layers", images.depth_layers)
+        .writes_depth(low.depth);
+    low.depth_layers = spread(graph, low.depth, "weighted_additive low depth layer");
+    return low;
+}
+
+Targets by_sample(Graph& graph, const Targets& targets) {
+    const auto layers = [&](const Image& image) {
+        return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
+    };
+    return {layers(targets.sum), layers(targets.reveal), layers(targets.additiveness), layers(targets.emitted)};
+}
+
+void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<WeightedAdditiveParams>();
+    const bool has_low = images.features->has(Feature::low_resolution);
+    const std::uint64_t tile_columns = (images.extent.width + tile_edge - 1) / tile_edge,
+                        tile_rows = (images.extent.height + tile_edge - 1) / tile_edge;
+    Buffer written =
+        graph.create("weighted_additive written tiles", (tile_columns * tile_rows + 31) / 32 * sizeof(std::uint32_t));
+    graph.clear(written, 0);
+
+    Targets full = create_targets(graph, images, params, "weighted_additive "), low;
+    accumulate(graph, images, full, written, params, Resolution::full);
+    if (has_low) {
+        const FrameImages half = halved(graph, images);
+        low = create_targets(graph, half, params, "weighted_additive low ");
+        accumulate(graph, half, low, written, params, Resolution::low);
+    }
+
+    const Targets layers = by_sample(graph, full);
+    graph.compute("transparency/weighted_additive/composite.comp")
+        .updates("color", images.color)
+        .samples("sum", layers.sum)
+        .samples("reveal", layers.reveal)
+        .samples("additiveness", layers.additiveness)
+        .samples("emitted", layers.emitted)
+        .samples("low_sum", low.sum)
+        .samples("low_reveal", low.reveal)
+        .samples("low_additiveness", low.additiveness)
+        .samples("low_emitted", low.emitted)
+        .loads("Written", written)
+        .fixes("chromatic", images.features->has(Feature::chromatic) ? 1u : 0u)
+        .fixes("low_resolution", has_low ? 1u : 0u)
+        .push(params)
+        .over({images.extent.width, images.extent.height, images.samples});
+}
+
+std::vector<Param> params() {
+    return {
+        param<&WeightedAdditiveParams::far>({.name = "far",
+                                             .low = 10,
+                                             .high = 10000,
+                                             .fallback = 300,
+                                             .help = "meters from which depth weighs the same",
+                                             .scale = Scale::logarithmic}),
+        param<&WeightedAdditiveParams::feather_start>(
+            {.name = "feather_start",
+             .low = 0.01,
+             .high = 1,
+             .fallback = 0.3333,
+             .help = "exposed emission that weighs as much as an opaque fragment; less: halos, more: background punches through",
+             .scale = Scale::logarithmic}),
+        param<&WeightedAdditiveParams::reveal>({.name = "reveal",
+                                                .low = 0,
+                                                .high = 1,
+                                                .fallback = reveal_r8,
+                                                .help = "format of what shows through and of additiveness",
+                                                .choices = reveals}),
+        param<&WeightedAdditiveParams::normalization>(
+            {.name = "normalization",
+             .low = 0,
+             .high = 1,
+             .fallback = normalization_published,
+             .help = "published darkens stacks of covering layers; corrected averages color by alpha and emission apart",
+             .choices = normalizations}),
+        param<&WeightedAdditiveParams::tiles>({.name = "tiles",
+                                               .low = 0,
+                                               .high = 1,
+                                               .fallback = tiles_written,
+                                               .help = "8x8 tiles that are composited: those with fragments, or all",
+                                               .choices = tiles}),
+    };
+}
+
+}  // namespace
+
+Technique weighted_additive() {
+    return {
+        .stage = Stage::transparency,
+        .name = "transparency/weighted_additive",
+        .title = "Weighted with additiveness",
+        .source = "Kircher 2018, Rendering Technology of Agents of Mayhem, GDC; after McGuire and Bavoil 2013, JCGT 2(2)",
+        .summary =
+            "Averages coverage and light in one set of targets at two resolutions; darkens covering stacks, saturates at 8 "
+            "additive "
+            "layers.",
+        .params = params(),
+        .points = {"normalization=corrected", "normalization=corrected reveal=r16f"},
+        .counters = {counter<&WeightedAdditiveCounters::fragments>(
+                         {.name = "fragments", .help = "visible transparent fragments blended, at both resolutions"}),
+                     counter<&WeightedAdditiveCounters::tiles_skipped>(
+                         {.name = "tiles skipped", .help = "8x8 tiles of the frame without fragments, not composited"})},
+        .counter_bytes = sizeof(WeightedAdditiveCounters),
+        .add = add,
+        .model = weighted_additive_model,
+        .tolerance =
+            {.rmse = 4e-2,
+             .worst = 2e-1,
+             .because =
+                 "llvmpipe rounds what it multiplies bytes with to a byte, too: after 200 layers of .01 what shows is .12 off "
+                 "(2.9e-2 over the image; 60 layers of .1: 4e-3; r16f: 6e-3 and less); sums are rounded to half floats at every "
+                 "blend"},
+    };
+}
+
+}  // namespace strata::transparency
