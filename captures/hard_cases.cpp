@@ -71,7 +71,7 @@ std::vector<Frame> two_hundred_thin_layers() {
     std::vector<Card> cards;
     for (int i = 0; i < 200; ++i) {
         const int layer_index = (i * 77) % 200;  // in no order
-        cards.push_back(layer(2 + layer_index * .1, {layer_index / 199.f, 0, 0}, .01f));
+        cards.push_back(layer(2 + layer_index * .1, {float(layer_index) / 199, 0, 0}, .01f));
     }
     return {frame_of(cards, {0, 1, 0})};
 }
