@@ -122,9 +122,10 @@ Technique a_buffer() {
         .add = add,
         .model = a_buffer_model,
         .tolerance = {.rmse = 3e-4,
-                      .worst = 1.6e-2,
-                      .because = "both round to the stored formats; where a float's last bits decide, one is a step off, 2^-6 in "
-                                 "blue: 4.5e-5 and 7.3e-3 measured on lavapipe"},
+                      .worst = 3.2e-2,
+                      .because =
+                          "both round to the stored formats; where a float's last bits decide, one is a step off, up to 2^-6, "
+                          "in blue 2^-5: 5.3e-5 and 1.1e-2 (LightsPunctualLamp) measured on lavapipe"},
     };
 }
 

@@ -26,10 +26,11 @@ double blend(std::span<const Fragment> fragments, double behind, Transmittance k
 }
 
 TEST(ABuffer, RoundsToTheNearestNumberOfItsFormats) {
-    EXPECT_EQ(nearest_r11g11b10(glm::dvec3(1 + 1. / 128 + 1e-9)), glm::dvec3(1 + 1. / 64, 1 + 1. / 64, 1));
+    EXPECT_EQ(nearest_r11g11b10(glm::dvec3(1 + 1.01 / 128)), glm::dvec3(1 + 1. / 64, 1 + 1. / 64, 1));
+    EXPECT_EQ(nearest_r11g11b10(glm::dvec3(1 + 1. / 128)), glm::dvec3(1)) << "halfway: down, whatever the last bit";
     EXPECT_EQ(nearest_r11g11b10(glm::dvec3(1e9)), glm::dvec3(65024, 65024, 64512));
     EXPECT_EQ(nearest_r11g11b10(glm::dvec3(.4 * 0x1p-19, .6 * 0x1p-20, 0)), glm::dvec3(0x1p-20, 0x1p-20, 0));
-    EXPECT_EQ(nearest_half(2049.0), 2050);  // a tie: upwards
+    EXPECT_EQ(nearest_half(2049), 2048);
     EXPECT_EQ(nearest_half(1e6), 65504);
     EXPECT_EQ(nearest_half(-3), 0);
     EXPECT_EQ(nearest_unorm8(.5), 127. / 255);

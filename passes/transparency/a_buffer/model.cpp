@@ -8,12 +8,15 @@
 namespace strata::transparency {
 namespace {
 
+/// To nearest, but down from .503: a number halfway between two codes must not hang on how a float was rounded.
+double nearest_code(double x) { return std::floor(x + .497); }
+
 /// A float with 5 bits of exponent, this many of mantissa and no sign.
 double nearest_small_float(double x, int mantissa_bits) {
     const double largest = std::ldexp(2 - std::ldexp(1., -mantissa_bits), 15);
     x = std::clamp(x, 0., largest);
     const int lowest_bit = (x > 0 ? std::max(std::ilogb(x), -14) : -14) - mantissa_bits;
-    return std::ldexp(std::round(std::ldexp(x, -lowest_bit)), lowest_bit);
+    return std::ldexp(nearest_code(std::ldexp(x, -lowest_bit)), lowest_bit);
 }
 
 double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
@@ -70,7 +73,7 @@ glm::dvec3 nearest_r11g11b10(glm::dvec3 c) {
 
 double nearest_half(double x) { return nearest_small_float(x, 10); }
 
-double nearest_unorm8(double x) { return std::floor(std::clamp(x, 0., 1.) * 255 + .5 - 1. / 256) / 255; }
+double nearest_unorm8(double x) { return nearest_code(std::clamp(x, 0., 1.) * 255) / 255; }
 
 glm::dvec3 a_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, std::size_t layers, Transmittance kind) {
     const std::size_t kept = std::min(layers, fragments.size());

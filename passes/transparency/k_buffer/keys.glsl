@@ -6,6 +6,9 @@
 #define PASSES_TRANSPARENCY_K_BUFFER_KEYS_GLSL
 #extension GL_ARB_gpu_shader_int64 : require
 
+// To nearest, but what lies halfway goes down however a float's last bit fell: every fourth of a deep image's half floats does. No such number lies near .503.
+const float to_nearest = 0.497;
+
 // Farther than any fragment: infinity, were it a depth.
 const uint64_t empty_slot = 0xffffffffffffffffUL;
 
@@ -18,7 +21,7 @@ struct Layer {
 uint depth_code(float z) { return z > 0.0 ? (floatBitsToUint(z) + 64u) >> 7 : 0u; }
 
 uint alpha_code(float alpha) {
-    const uint code = uint(alpha * 256.0 + 0.5);
+    const uint code = uint(alpha * 256.0 + to_nearest);
     return code > 128u ? code - 1u : code;
 }
 
@@ -31,8 +34,8 @@ uint color_code(vec3 color) {
     const vec3 c = clamp(color, 0.0, 65408.0);
     const float largest = max(c.r, max(c.g, c.b));
     int exponent = max(int(floatBitsToUint(largest) >> 23) - 127, -16) + 16;
-    if (floor(largest * power_of_two(24 - exponent) + 0.5) >= 512.0) ++exponent;
-    const uvec3 mantissas = uvec3(c * power_of_two(24 - exponent) + 0.5);
+    if (largest * power_of_two(24 - exponent) + to_nearest >= 512.0) ++exponent;
+    const uvec3 mantissas = uvec3(c * power_of_two(24 - exponent) + to_nearest);
     return mantissas.r | mantissas.g << 9 | mantissas.b << 18 | uint(exponent) << 27;
 }
 
