@@ -1,6 +1,6 @@
-// The draw before the draw: where moments, wavelets and voxels gather the optical depths of all fragments, at one sample per
-// texel and at the frame's extent divided by 1, 2, 4 or 8. Depth is tested against the farthest opaque surface of a texel's
-// block, or what is visible beside an edge would be missing.
+// Draws at one sample per texel and at the frame's extent divided by 1, 2, 4 or 8: where moments, wavelets and voxels gather the
+// optical depths of all fragments, and where low-resolution draws go. Depth is tested against the farthest opaque surface of a
+// texel's block, or what is visible beside an edge would be missing.
 #pragma once
 
 #include "passes/technique.h"

@@ -1,4 +1,6 @@
-// What is left of a number in the formats that sums are kept in, for models: a method's format is part of the method.
+// What is left of a number in the formats that sums are kept in, for models: a method's format is part of the method. Vulkan
+// leaves the direction open; the blending of lavapipe 22.3 rounds 16 and 11 bits towards zero (200 layers of .01 then stop at
+// 1.979 of 2.010, and R11G11B10F much earlier), hardware commonly to nearest.
 #pragma once
 
 namespace strata::transparency {
@@ -10,8 +12,9 @@ struct SmallFloat {
 };
 inline constexpr SmallFloat half_float = {10, 65504}, float11 = {6, 65024}, float10 = {5, 64512};
 
-/// Rounded to nearest, ties to even, denormals kept, saturated as lavapipe's blending is (hardware goes to infinity, which the
-/// resolves read as the largest number).
-double rounded(double value, SmallFloat);
+enum class Rounding { towards_zero, to_nearest };
+
+/// Denormals kept, saturated as lavapipe's blending is (hardware goes to infinity, which the resolves read as the largest number).
+double rounded(double value, SmallFloat, Rounding = Rounding::towards_zero);
 
 }  // namespace strata::transparency

@@ -20,7 +20,7 @@ Fragment layer(double depth, double alpha, double color) {
     return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
 }
 
-double blend(std::span<const Fragment> fragments, double behind, Transmittance kind = Transmittance::rgb,
+double blend(std::span<const Fragment> fragments, double behind, StoredAs kind = StoredAs::rgb,
              std::size_t layers = 9) {
     return a_buffer_blend(fragments, glm::dvec3(behind), layers, kind).x;
 }
@@ -43,7 +43,7 @@ TEST(ABuffer, IsAsExactAsItsFormatsUpToNineLayersInAnyOrder) {
     for (int turn = 0; turn < 9; ++turn) {
         std::ranges::rotate(fragments, fragments.begin() + 1);
         const glm::dvec3 exact = exact_blend(fragments, glm::dvec3(.3));
-        for (const Transmittance kind : {Transmittance::mono, Transmittance::rgb}) {
+        for (const StoredAs kind : {StoredAs::mono, StoredAs::rgb}) {
             const glm::dvec3 error = glm::abs(a_buffer_blend(fragments, glm::dvec3(.3), 9, kind) - exact) / exact;
             EXPECT_LT(error.x, 0x1p-7);
             EXPECT_LT(error.z, 0x1p-6);
@@ -71,9 +71,9 @@ TEST(ABuffer, MergesWhatComesLateWhereverItIs) {
 
 TEST(ABuffer, AveragesWhatItMergesByCoverage) {
     std::vector<Fragment> fragments{layer(1, .5, 0), layer(2, .5, 1), layer(3, .5, 0)};
-    EXPECT_DOUBLE_EQ(blend(fragments, 0, Transmittance::rgb, 1), .5 * .75 * .5);
+    EXPECT_DOUBLE_EQ(blend(fragments, 0, StoredAs::rgb, 1), .5 * .75 * .5);
     fragments.push_back({.depth = 9, .emission = glm::dvec3(8)});
-    EXPECT_DOUBLE_EQ(blend(std::array{fragments[0], fragments[3]}, 0, Transmittance::rgb, 1), .5 * 8) << "light just adds";
+    EXPECT_DOUBLE_EQ(blend(std::array{fragments[0], fragments[3]}, 0, StoredAs::rgb, 1), .5 * 8) << "light just adds";
 }
 
 TEST(ABuffer, PutsTheLaterSubmissionInFrontWhereHalfFloatsCannotTellDepths) {
@@ -93,33 +93,33 @@ TEST(ABuffer, PutsTheLaterSubmissionInFrontAtEqualDepthAsTheTruthDoes) {
 TEST(ABuffer, KeepsTwoHundredThinLayersButForItsNine) {
     // T_total is .1340, within .003 but for blue, whose nine stored layers are 63/64 each.
     const std::vector<Fragment> layers(200, layer(1, .01, 0));
-    const auto through = [&](Transmittance kind) { return a_buffer_blend(layers, glm::dvec3(1), 9, kind); };
-    EXPECT_NEAR(through(Transmittance::mono).x, .1319, 1e-4);
-    EXPECT_NEAR(through(Transmittance::rgb).x, .1367, 1e-4);
-    EXPECT_NEAR(through(Transmittance::rgb).z, .1273, 1e-4);
+    const auto through = [&](StoredAs kind) { return a_buffer_blend(layers, glm::dvec3(1), 9, kind); };
+    EXPECT_NEAR(through(StoredAs::mono).x, .1319, 1e-4);
+    EXPECT_NEAR(through(StoredAs::rgb).x, .1367, 1e-4);
+    EXPECT_NEAR(through(StoredAs::rgb).z, .1273, 1e-4);
 }
 
 TEST(ABuffer, SeesColoredGlassAsGreyInTheMonoLayout) {
     const Fragment red{.depth = 1, .transmittance = {1, .2, .2}, .alpha = 1};
-    const auto seen = [&](Transmittance kind) { return a_buffer_blend(std::array{red}, glm::dvec3(1), 9, kind); };
-    EXPECT_NEAR(seen(Transmittance::mono).x, 1.4 / 3, .5 / 255);
-    EXPECT_EQ(seen(Transmittance::mono).x, seen(Transmittance::mono).z);
-    EXPECT_EQ(seen(Transmittance::rgb).x, 1);
-    EXPECT_NEAR(seen(Transmittance::rgb).z, .2, .2 * 0x1p-6);
+    const auto seen = [&](StoredAs kind) { return a_buffer_blend(std::array{red}, glm::dvec3(1), 9, kind); };
+    EXPECT_NEAR(seen(StoredAs::mono).x, 1.4 / 3, .5 / 255);
+    EXPECT_EQ(seen(StoredAs::mono).x, seen(StoredAs::mono).z);
+    EXPECT_EQ(seen(StoredAs::rgb).x, 1);
+    EXPECT_NEAR(seen(StoredAs::rgb).z, .2, .2 * 0x1p-6);
 }
 
 TEST(ABuffer, ErrsByHalfAStepOfCoveragePerLayerInTheMonoLayout) {
     for (const double alpha : {.01, .1, .25, .5, .9})
         for (const std::size_t n : {1u, 3u, 9u}) {
             const std::vector<Fragment> layers(n, layer(1, alpha, 0));
-            EXPECT_NEAR(blend(layers, 1, Transmittance::mono), std::pow(1 - alpha, n), double(n) * .51 / 255);
+            EXPECT_NEAR(blend(layers, 1, StoredAs::mono), std::pow(1 - alpha, n), double(n) * .51 / 255);
         }
 }
 
 TEST(ABuffer, LosesThinLayersToItsFormats) {
     // 8 bits: alpha below 1/510 hides nothing. R11G11B10F: 1 - .01 becomes 1 - 1/128 in red and 1 - 1/64 in blue.
-    EXPECT_EQ(blend(std::array{layer(1, .0019, 0)}, 1, Transmittance::mono), 1);
-    const glm::dvec3 through = a_buffer_blend(std::array{layer(1, .01, 0)}, glm::dvec3(1), 9, Transmittance::rgb);
+    EXPECT_EQ(blend(std::array{layer(1, .0019, 0)}, 1, StoredAs::mono), 1);
+    const glm::dvec3 through = a_buffer_blend(std::array{layer(1, .01, 0)}, glm::dvec3(1), 9, StoredAs::rgb);
     EXPECT_EQ(through, glm::dvec3(127. / 128, 127. / 128, 63. / 64));
 }
 

@@ -21,19 +21,19 @@ double nearest_small_float(double x, int mantissa_bits) {
 
 double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
 
-glm::dvec3 through(const Fragment& f, Transmittance kind) {
-    return kind == Transmittance::rgb ? f.transmittance : glm::dvec3(1 - coverage(f));
+glm::dvec3 through(const Fragment& f, StoredAs kind) {
+    return kind == StoredAs::rgb ? f.transmittance : glm::dvec3(1 - coverage(f));
 }
 
-Fragment stored(const Fragment& f, Transmittance kind) {
+Fragment stored(const Fragment& f, StoredAs kind) {
     const glm::dvec3 t = through(f, kind);
     return {.depth = nearest_half(f.depth),
             .color = nearest_r11g11b10(f.color + f.emission),
-            .transmittance = kind == Transmittance::rgb ? nearest_r11g11b10(t) : glm::dvec3(nearest_unorm8(t.x))};
+            .transmittance = kind == StoredAs::rgb ? nearest_r11g11b10(t) : glm::dvec3(nearest_unorm8(t.x))};
 }
 
 /// Everything that came too late, as one layer over what is behind.
-glm::dvec3 merged_over(std::span<const Fragment> late, glm::dvec3 behind, Transmittance kind) {
+glm::dvec3 merged_over(std::span<const Fragment> late, glm::dvec3 behind, StoredAs kind) {
     glm::dvec3 sum(0), remains(1);
     double coverages = 0;
     for (const Fragment& f : late) {
@@ -45,9 +45,9 @@ glm::dvec3 merged_over(std::span<const Fragment> late, glm::dvec3 behind, Transm
     return sum + remains * behind;
 }
 
-Transmittance stored_by(std::uint32_t layout, const Frame& frame) {
-    if (layout == layout_automatic && !frame_features(frame).has(Feature::chromatic)) return Transmittance::mono;
-    return layout == layout_mono ? Transmittance::mono : Transmittance::rgb;
+StoredAs stored_by(std::uint32_t layout, const Frame& frame) {
+    if (layout == layout_automatic && !frame_features(frame).has(Feature::chromatic)) return StoredAs::mono;
+    return layout == layout_mono ? StoredAs::mono : StoredAs::rgb;
 }
 
 /// Whether two depths that are not equal would share a half float, or no longer share one, were floats rounded otherwise.
@@ -75,7 +75,7 @@ double nearest_half(double x) { return nearest_small_float(x, 10); }
 
 double nearest_unorm8(double x) { return nearest_code(std::clamp(x, 0., 1.) * 255) / 255; }
 
-glm::dvec3 a_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, std::size_t layers, Transmittance kind) {
+glm::dvec3 a_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, std::size_t layers, StoredAs kind) {
     const std::size_t kept = std::min(layers, fragments.size());
     std::vector<Fragment> first;
     for (const Fragment& f : fragments.first(kept)) first.push_back(stored(f, kind));
@@ -87,7 +87,7 @@ glm::dvec3 a_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind
 
 ImageSet a_buffer_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<ABufferParams>();
-    const Transmittance kind = stored_by(params.stored_as, input.frame);
+    const StoredAs kind = stored_by(params.stored_as, input.frame);
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {a_buffer_blend(fragments, behind, params.layers, kind), is_doubtful(fragments, params.layers)};
     };

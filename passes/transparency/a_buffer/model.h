@@ -13,10 +13,10 @@ glm::dvec3 nearest_r11g11b10(glm::dvec3);
 double nearest_half(double);
 double nearest_unorm8(double);
 
-enum class Transmittance { mono, rgb };
+enum class StoredAs { mono, rgb };
 
 /// One sample, its fragments in submission order.
-glm::dvec3 a_buffer_blend(std::span<const Fragment>, glm::dvec3 behind, std::size_t layers, Transmittance);
+glm::dvec3 a_buffer_blend(std::span<const Fragment>, glm::dvec3 behind, std::size_t layers, StoredAs);
 
 ImageSet a_buffer_model(const StageInput&, const Settings&);
 

@@ -55,9 +55,14 @@ TEST(AdaptiveCurve, LosesLittleOfTwoHundredThinLayersInWhateverOrderTheyCome) {
     std::vector<Fragment> ramp;
     for (int i = 0; i < 200; ++i) ramp.push_back(layer(1 + i, .01, i / 199.));
     std::ranges::shuffle(ramp, std::mt19937(1));
-    EXPECT_NEAR(blend(ramp, 4), .2951, 1e-2);
-    EXPECT_NEAR(blend(ramp, 8), .2926, 1e-2);
+    // Over shuffles 4 nodes give .27 to .33; exact is .2962.
+    EXPECT_NEAR(blend(ramp, 4), .30, .035);
+    EXPECT_NEAR(blend(ramp, 8), .2962, 5e-3);
     EXPECT_NEAR(exact_blend(ramp, glm::dvec3(0)).x, .296181, 1e-6);
+    std::ranges::sort(ramp, {}, &Fragment::depth);
+    EXPECT_NEAR(blend(ramp, 8), .2749, 1e-4) << "near to far";
+    std::ranges::reverse(ramp);
+    EXPECT_NEAR(blend(ramp, 4), .3512, 1e-4) << "far to near";
 }
 
 TEST(AdaptiveCurve, DoesNotHideCoincidentFragmentsFromEachOther) {

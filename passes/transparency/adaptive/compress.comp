@@ -32,12 +32,12 @@ void insert(float z, vec3 t) {
     ++used;
 }
 
-// Removes the node whose step moved to the one before it changes the least area: T is underestimated between them. Neither the
-// first nor the last step moves beyond the nodes there are, so what shows through everything stays exact.
+// Removes the node whose step moved to the one before it changes the least area: T is underestimated between them. Never the last:
+// what shows through everything stays where it is.
 void remove_least() {
     uint least = 1u;
     float least_area = far_away;
-    for (uint i = 1u; i < used; ++i) {
+    for (uint i = 1u; i + 1u < used; ++i) {
         const float area = (nodes[i].z - nodes[i - 1u].z) * (grey(nodes[i - 1u].t) - grey(nodes[i].t));
         if (area < least_area) {
             least = i;

@@ -10,11 +10,11 @@ namespace {
 
 double mean(glm::dvec3 v) { return (v.x + v.y + v.z) / 3; }
 
-/// The step whose removal loses the least area, by index.
+/// The step whose removal loses the least area, by index; neither the first nor the last.
 std::size_t least_step(std::span<const CurveStep> curve) {
     std::size_t least = 1;
     double least_area = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < curve.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < curve.size(); ++i) {
         const double drop = mean(curve[i - 1].transmittance) - mean(curve[i].transmittance);
         const double area = (curve[i].depth - curve[i - 1].depth) * drop;
         if (area < least_area) {

@@ -84,7 +84,7 @@ TEST(FunctionResolve, StallsInPackedFloatsAsTheChapterMeasured) {
     // 200 layers of tau .01005: eleven bits stop at 2, ten at 1, sixteen at 1.990.
     const auto sum_of = [](SmallFloat format) {
         double sum = 0;
-        for (int i = 0; i < 200; ++i) sum = rounded(sum - std::log(.99), format);
+        for (int i = 0; i < 200; ++i) sum = rounded(sum - std::log(.99), format, Rounding::to_nearest);
         return sum;
     };
     EXPECT_DOUBLE_EQ(sum_of(float11), 2);
@@ -92,13 +92,15 @@ TEST(FunctionResolve, StallsInPackedFloatsAsTheChapterMeasured) {
     EXPECT_NEAR(std::exp(-sum_of(half_float)), .1367, 1e-4);
 }
 
-TEST(SmallFloats, RoundToNearestAndSaturate) {
-    EXPECT_EQ(rounded(1 + 1. / 4096, half_float), 1);
-    EXPECT_EQ(rounded(1 + 3. / 4096, half_float), 1 + 1. / 1024);
+TEST(SmallFloats, RoundAndSaturate) {
+    EXPECT_EQ(rounded(1 + 1. / 4096, half_float, Rounding::to_nearest), 1);
+    EXPECT_EQ(rounded(1 + 3. / 4096, half_float, Rounding::to_nearest), 1 + 1. / 1024);
+    EXPECT_EQ(rounded(1 + 3. / 4096, half_float), 1);
+    EXPECT_EQ(rounded(-1 - 3. / 4096, half_float), -1);
     EXPECT_EQ(rounded(7e4, half_float), 65504);
     EXPECT_EQ(rounded(7e4, float10), 64512);
     EXPECT_EQ(rounded(1e-9, half_float), 0);
-    EXPECT_EQ(rounded(3e-8, half_float), std::ldexp(1., -24) * 1);  // the smallest denormal, .5 of a step and a bit
+    EXPECT_EQ(rounded(6e-8, half_float), std::ldexp(1., -24)) << "the smallest denormal";
 }
 
 }  // namespace

@@ -64,13 +64,19 @@ void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params,
         MomentsPush push;
     };
     EventLists lists = create_lists(graph, low, params.pool);
+    // Four moments have no others; the shader names them still.
+    Image others = moments.tail ? moments.tail : graph.create("no moments", Shape{.format = Format::rgba16_unorm});
     for (const Band& band : lists.bands) {
         make_lists(graph, low, lists, band, list_order_submission);
-        ComputePass pass = graph.compute("transparency/moments/quantize.comp");
-        read_lists(pass, lists, band).updates("total", moments.total).updates("head", moments.head);
-        if (moments.tail) pass.updates("tail", moments.tail);
-        pass.fixes("kind", params.kind).push(BandAndMoments{band, push}).over(over(band));
+        read_lists(graph.compute("transparency/moments/quantize.comp"), lists, band)
+            .stores("total", moments.total)
+            .stores("head", moments.head)
+            .stores("tail", others)
+            .fixes("kind", params.kind)
+            .push(BandAndMoments{band, push})
+            .over(over(band));
     }
+    if (moments.tail) moments.tail = others;
 }
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
@@ -168,9 +174,10 @@ Technique moments() {
         .views = {normalization_row(factor_view)},
         .add = add,
         .model = moments_model,
-        .tolerance = {.rmse = 1e-2,
-                      .worst = 1e-1,
-                      .because = "to be measured"},
+        .tolerance = {.rmse = 1.2e-2,
+                      .worst = .4,
+                      .because = "float sums are a few steps finer than the bias: in a pixel where two panes cross, which of them is in "
+                                 "front hangs on their last bits (.37 there; 3e-2 elsewhere)"},
     };
 }
 

@@ -147,10 +147,10 @@ Technique stochastic() {
         .model = stochastic_model,
         .tolerance =
             {.rmse = 5e-3,
-             .worst = 3e-2,
+             .worst = 8e-2,
              .because =
                  "which subsamples are covered is the same to the bit; sums and products are rounded to half floats at every "
-                 "blend: 200 layers of .01 reveal .1406, not .1340"},
+                 "blend, by lavapipe towards zero: 200 layers of .01 reveal .1252 (to nearest .1406), not .1340"},
     };
 }
 

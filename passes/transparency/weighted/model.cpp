@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
@@ -44,14 +45,19 @@ double weight_in_double(const WeightedParams& params, double near, const Fragmen
     }
 }
 
-glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near) {
+glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near,
+                          SumsIn format) {
+    const auto kept = [&](double sum) { return format == SumsIn::halves ? rounded(sum, half_float) : sum; };
     glm::dvec3 colors(0), through(1);
     double coverages = 0;
     for (const Fragment& fragment : fragments) {
         const double weight = params.form == form_normalized ? weight_in_double(params, near, fragment) : 1;
-        colors += (fragment.color + fragment.emission) * weight;
-        coverages += coverage(fragment) * weight;
-        through *= fragment.transmittance;
+        const glm::dvec3 added = (fragment.color + fragment.emission) * weight;
+        for (int c = 0; c < 3; ++c) {
+            colors[c] = kept(colors[c] + added[c]);
+            through[c] = kept(through[c] * fragment.transmittance[c]);
+        }
+        coverages = kept(coverages + coverage(fragment) * weight);
     }
     if (params.form == form_sum) return colors + behind * (1 - coverages);
     const auto layers = double(fragments.size());
@@ -64,7 +70,7 @@ ImageSet weighted_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<WeightedParams>();
     const double near = double(input.frame.view.near);
     const SampleBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind) {
-        return weighted_blend(fragments, behind, params, near);
+        return weighted_blend(fragments, behind, params, near, SumsIn::halves);
     };
     return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
 }

@@ -85,8 +85,9 @@ Technique weighted() {
         .model = weighted_model,
         .tolerance =
             {.rmse = 5e-3,
-             .worst = 3e-2,
-             .because = "sums and products are rounded to half floats at every blend: 200 layers of .01 reveal .1406, not .1340"},
+             .worst = 8e-2,
+             .because = "sums and products are rounded to half floats at every blend, by lavapipe towards zero: 200 layers of .01 "
+                        "reveal .1252 (to nearest .1406), not .1340"},
     };
 }
 

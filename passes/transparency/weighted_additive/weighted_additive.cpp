@@ -3,6 +3,7 @@
 
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
+#include "passes/transparency/function_prepass.h"
 #include "passes/transparency/weighted_additive/model.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
@@ -70,20 +71,6 @@ void accumulate(Graph& graph, const FrameImages& images, Targets& targets, Buffe
     }
 }
 
-/// The frame's images as half-resolution draws meet them: one sample, the farthest depth of each block.
-FrameImages halved(Graph& graph, const FrameImages& images) {
-    FrameImages low = images;
-    low.extent = {(images.extent.width + 1) / 2, (images.extent.height + 1) / 2, 1};
-    low.samples = 1;
-    low.depth = graph.create("weighted_additive low depth", Shape{.extent = low.extent, .format = Format::d32f});
-    graph.clear(low.depth, {});
-    graph.fullscreen("transparency/weighted_additive/farthest_depth")
-        .samples("depth_layers", images.depth_layers)
-        .writes_depth(low.depth);
-    low.depth_layers = spread(graph, low.depth, "weighted_additive low depth layer");
-    return low;
-}
-
 Targets by_sample(Graph& graph, const Targets& targets) {
     const auto layers = [&](const Image& image) {
         return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
@@ -103,7 +90,7 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
     Targets full = create_targets(graph, images, params, "weighted_additive "), low;
     accumulate(graph, images, full, written, params, Resolution::full);
     if (has_low) {
-        const FrameImages half = halved(graph, images);
+        const FrameImages half = prepass_images(graph, images, 2);
         low = create_targets(graph, half, params, "weighted_additive low ");
         accumulate(graph, half, low, written, params, Resolution::low);
     }
