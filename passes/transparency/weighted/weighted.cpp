@@ -74,6 +74,7 @@ Technique weighted() {
                                                  .fallback = form_normalized,
                                                  .help = "what the sums become; average and sum know no weight",
                                                  .choices = forms})},
+        .points = {"weight=w9", "weight=w10", "weight=w2015", "form=average", "form=sum"},
         .counters = {counter<&WeightedCounters::fragments>(
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(WeightedCounters),
