@@ -45,7 +45,7 @@ constexpr auto table = std::to_array<Scenario>({
     {"explosion", "Is fire dimmed by the smoke before it, and by none of the smoke behind it?", 96, 54, scenario::explosion},
     {"thin_layers", "Does a ramp of two hundred thin layers differ from its mirror image, and by exactly how much?", 64, 36,
      scenario::thin_layers},
-    {"particle_storm", "What does a storm of sprites cost that lies eight layers deep over every extent?", 96, 54,
+    {"particle_storm", "What does a storm of ash cost that lies eight layers deep over every extent?", 96, 54,
      scenario::particle_storm},
 });
 

@@ -62,7 +62,7 @@ void add_fire(FrameBuilder& builder) {
 }
 
 void add_smoke(FrameBuilder& builder) {
-    Emitter smoke = cloud({"smoke", 140, 0.55, 1.25, 0.36, 0.4f}, builder.add(puff(builder.seed())), builder);
+    Emitter smoke = cloud({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, builder.add(puff(builder.seed())), builder);
     for (Particle& particle : smoke.particles) particle.color = glm::vec3(static_cast<float>(0.08 + 0.08 * particle.center.y));
     builder.frame.emitters.push_back(std::move(smoke));
 }

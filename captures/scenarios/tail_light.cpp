@@ -22,7 +22,7 @@ Material plastic(std::string name, glm::vec3 transmission, glm::vec3 scattered) 
 
 Frame tail_light(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
-    builder.look({.eye = {0, 0, 0.3}, .target = {0, 0, 0}, .vertical_fov = 0.7, .near = 0.02});
+    builder.look({.eye = {0, 0, 0.3}, .target = {0, 0, 0}, .vertical_fov = 0.6, .near = 0.02});
     constexpr double turned = 0.5;
     // Along the lamp's own axes: x to its right, z out of it.
     const auto in_lamp = [&](glm::dvec3 position) {
@@ -30,8 +30,8 @@ Frame tail_light(std::uint32_t frame, const ScenarioOptions& options) {
     };
     Material mirror = unlit("mirror", glm::vec4(1));
     mirror.base_color_texture.texture = builder.add(checker(8, glm::vec3(0.9f), glm::vec3(0.35f)));
-    builder.draw(builder.add(quad({0.16f, 0.07f})), builder.add(mirror), in_lamp({0, 0, -0.06}));
-    builder.draw(builder.add(sphere(0.018f, 24)), builder.add(unlit("bulb", {4, 3.6f, 3, 1})), in_lamp({-0.05, 0, -0.035}));
+    builder.draw(builder.add(quad({0.2f, 0.08f})), builder.add(mirror), in_lamp({0, 0, -0.06}));
+    builder.draw(builder.add(sphere(0.018f, 24)), builder.add(unlit("bulb", {4, 3.6f, 3, 1})), in_lamp({-0.085, 0, -0.035}));
 
     struct Segment {
         const char* name;

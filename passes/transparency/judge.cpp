@@ -57,9 +57,9 @@ std::vector<Figure> transparency_judge(const ImageSet& result, const ImageSet& t
         {"bias", "radiance", error.bias},
         {"P95", "relative", percentile(relative, 95), true},
         {"P99", "relative", percentile(relative, 99)},
-        {"over 2 %", "% of samples", over(.02), true},
-        {"over 10 %", "% of samples", over(.1)},
-        {"off by 1/255", "% of samples", percent(off), true},
+        {"over 2 %", "%", over(.02), true},
+        {"over 10 %", "%", over(.1)},
+        {"off by 1/255", "%", percent(off), true},
     };
 }
 

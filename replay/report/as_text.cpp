@@ -1,5 +1,6 @@
 // Reports for a terminal: what ranks techniques. Everything else that was measured is in JSON and CSV.
 #include <algorithm>
+#include <map>
 
 #include "replay/counted.h"
 #include "replay/report/pooled.h"
@@ -47,6 +48,10 @@ Table table_of(const Report& report) {
     return table;
 }
 
+/// What a table's first column says.
+double first_shown(const Measurement& row) { return shown_errors(row).front().value; }
+double first_shown(const PooledRow& row) { return row.error; }
+
 /// The most accurate row of each budget. Without a time unit time has none.
 template <typename Row>
 std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view unit) {
@@ -54,38 +59,30 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
     for (const Budget& budget : budgets()) {
         if (budget.cost == &Standing::time && unit.empty()) continue;
         const auto best = best_within(standings, budget);
-        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(*standings[*best].error) : "",
+        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(first_shown(rows[*best])) : "",
                             best ? below_stage(label(rows[*best])) : "nothing");
     }
     return text;
 }
 
-/// Rows of a technique that counted the same stand together.
+std::string counters_text(const Measurement& row) {
+    std::string text;
+    for (const CounterRecord& counter : row.counters)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.name, counter.value);
+    return text;
+}
+
+/// Rows of a technique that counted the same are one line.
 std::string counters_text(const Report& report) {
-    std::string text, before;
-    std::size_t times = 0;
-    const auto close = [&] {
-        if (times > 1) text += fmt::format(" ({} settings)", times);
-        if (times > 0) text += "\n";
-    };
-    std::vector<const Measurement*> rows;
+    std::map<std::string, std::map<std::string, std::vector<const Measurement*>>> by_technique;
     for (const Measurement& row : report.rows)
-        if (!row.counters.empty()) rows.push_back(&row);
-    std::ranges::stable_sort(rows, {}, &Measurement::technique);
-    for (const Measurement* row : rows) {
-        std::string counters;
-        for (const CounterRecord& counter : row->counters)
-            counters += fmt::format("{}{} {}", counters.empty() ? "" : ", ", counter.name, counter.value);
-        const std::string now = row->technique + counters;
-        if (now != before) {
-            close();
-            times = 0;
-            text += fmt::format("   {}: {}", below_stage(label(*row)), counters);
+        if (!row.counters.empty()) by_technique[row.technique][counters_text(row)].push_back(&row);
+    std::string text;
+    for (const auto& [technique, by_counters] : by_technique)
+        for (const auto& [counters, rows] : by_counters) {
+            const std::string several = fmt::format("{} at {}", technique, counted(rows.size(), "setting"));
+            text += fmt::format("   {}: {}\n", below_stage(rows.size() == 1 ? label(*rows.front()) : several), counters);
         }
-        before = now;
-        ++times;
-    }
-    close();
     return text.empty() ? "" : "\ncounted\n" + text;
 }
 

@@ -75,6 +75,7 @@ std::string as_text(const Table& table) {
         for (std::size_t i = 0; i < row.cells.size(); ++i)
             line += row.cells.size() == layout.widths.size() ? fmt::format(" {:>{}}", row.cells[i], layout.widths[i])
                                                              : " " + row.cells[i];
+        if (line.size() > columns) line.replace(columns - 3, std::string::npos, "...");
         text += without_spaces_at_the_end(line);
     }
     return text;

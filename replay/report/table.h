@@ -15,7 +15,8 @@ struct Table {
     std::vector<Row> rows;
 };
 
-/// Labels to the left, cells to the right. A label that would push the cells past column 120 gets a line of its own.
+/// Labels to the left, cells to the right. A label that would push the cells past column 120 gets a line of its own, and a cell
+/// that stands for all is cut there.
 std::string as_text(const Table&);
 
 /// Three significant digits in at most seven characters, and a sign.

@@ -208,6 +208,7 @@ TEST(Table, FitsATerminalOf120ColumnsHoweverLongTheSettings) {
         measured.time = Spread{.median = 123.456, .mad = 10};
         report.rows.push_back(measured);
     }
+    report.rows.back().accuracy.not_supported = std::string(300, 'x');
     report.flicker = Walk{.dolly = .2};
     const std::string text = as_text(report);
     std::istringstream lines(text);
