@@ -22,7 +22,7 @@ Material plastic(std::string name, glm::vec3 transmission, glm::vec3 scattered) 
 
 Frame tail_light(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
-    builder.look({.eye = {0, 0, 0.3}, .target = {0, 0, 0}, .vertical_fov = 0.6, .near = 0.02});
+    builder.look({.eye = {-0.03, 0, 0.3}, .target = {-0.03, 0, 0}, .vertical_fov = 0.7, .near = 0.02});
     constexpr double turned = 0.5;
     // Along the lamp's own axes: x to its right, z out of it.
     const auto in_lamp = [&](glm::dvec3 position) {

@@ -93,7 +93,7 @@ std::string implementation_text(const Report& report) {
     for (const Measurement& row : report.rows) {
         worst = std::max(worst, row.accuracy.model_rmse);
         if (row.accuracy.model_rmse > row.tolerance)
-            wrong += fmt::format("! {} is {:.1e} from its own model, {:.1e} is allowed: its implementation has a bug\n",
+            wrong += fmt::format("! {} is {:.1e} from its own model, {:.1e} is tolerated: a bug, or this driver's rounding\n",
                                  below_stage(label(row)), row.accuracy.model_rmse, row.tolerance);
     }
     return wrong.empty() ? fmt::format("implementations: all within tolerance of their models, rmse {:.1e} at most\n", worst)

@@ -8,7 +8,7 @@
 namespace strata {
 namespace {
 
-constexpr double least = 1e-9;
+constexpr double least = 1e-5;
 
 /// Frames differ in brightness, so a relative error is pooled where the judge has one; else its first figure is.
 const Figure& pooled_figure(const Measurement& row) {

@@ -33,7 +33,8 @@ struct Pool {
 /// Of reports on one stage.
 Pool pooled(std::span<const Report>);
 
-/// exp of the mean of the logs. Values below 1e-9 count as 1e-9: one exact frame would make the mean of any others 0.
+/// exp of the mean of the logs. Values below 1e-5 count as 1e-5, which nobody sees: one frame that a method happens to do exactly
+/// would be all of its mean, and the rounding of an exact method is no merit.
 double geometric_mean(std::span<const double>);
 
 /// Rows that cannot do all captures have no error.

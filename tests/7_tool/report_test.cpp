@@ -1,4 +1,5 @@
 // A report's own arithmetic, and what it looks like.
+#include <cmath>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -148,6 +149,29 @@ TEST(Flicker, ShowsThatObjectOrderPopsAndIsNothingForWhatIsExact) {
     EXPECT_GT(flicker[2], 0);
 }
 
+/// Walked ahead and turned is recorded from there, bit for bit.
+TEST(Eye, MovedIsTheSameAsAFrameRecordedFromThere) {
+    std::vector<Frame> frames = scenario_frames("smoke_grenade");
+    frames.push_back(frames.front());
+    View& view = frames.back().view;
+    const double turned = .1;
+    const glm::dvec3 ahead = glm::transpose(view.to_view) * glm::dvec3(0, 0, 1);
+    view.origin += .5 * ahead;
+    const glm::dvec3 to_the_right = glm::transpose(view.to_view) * glm::dvec3(std::sin(turned), 0, std::cos(turned));
+    const glm::dvec3 up = glm::transpose(view.to_view) * glm::dvec3(0, 1, 0);
+    view.to_view = glm::transpose(glm::dmat3(glm::cross(to_the_right, up), up, to_the_right));
+    const auto session = must(Session::open(frames, {.validation = true}));
+    const Request small{.extent_divisor = 4};
+    Request moved = small, recorded = small;
+    moved.eye = {.dolly = .5, .pan = turned};
+    recorded.frame = 1;
+    const HostImage still = must(session->run(small)).images.at("display");
+    const HostImage there = must(session->run(moved)).images.at("display");
+    EXPECT_EQ(there.texels, must(session->run(recorded)).images.at("display").texels);
+    EXPECT_NE(there.texels, still.texels);
+    EXPECT_EQ(still.texels, must(session->run(small)).images.at("display").texels) << "the memo must tell the eyes apart";
+}
+
 Report report_on(std::string capture, std::vector<Measurement> rows) {
     for (Measurement& row : rows) row.time = Spread{.median = row.stage_ms.median};
     return {.capture_name = std::move(capture), .time_unit = "transparency/one", .rows = std::move(rows)};
@@ -156,7 +180,7 @@ Report report_on(std::string capture, std::vector<Measurement> rows) {
 TEST(Pool, TakesGeometricMeansOfEqualRows) {
     const double halves_and_twice[] = {.5, 2}, with_zero[] = {0, 1e-3};
     EXPECT_DOUBLE_EQ(geometric_mean(halves_and_twice), 1);
-    EXPECT_DOUBLE_EQ(geometric_mean(with_zero), 1e-6);  // 0 counts as 1e-9
+    EXPECT_DOUBLE_EQ(geometric_mean(with_zero), 1e-4);  // 0 counts as 1e-5
     Measurement tuned = row("transparency/one", .5, 4);
     tuned.settings = "k=2";
     const Pool pool = pooled(std::vector{report_on("a", {row("transparency/one", .1, 1), tuned}),

@@ -82,9 +82,13 @@ Technique weighted() {
         .add = add,
         .model = weighted_model,
         .tolerance =
-            {.rmse = 5e-3,
+            {.rmse = 1.5e-2,
              .worst = 3e-2,
-             .because = "sums and products are rounded to half floats at every blend: 200 layers of .01 reveal .1406, not .1340"},
+             .because =
+                 "sums and products are rounded to half floats at every blend, on lavapipe 22.3 towards zero: after 200 equal "
+                 "layers of .01 over black (thin_layers) 4 % of the weights and 2 % of the colors are lost: rmse 1.3e-2; "
+                 "elsewhere "
+                 "below 5e-3"},
     };
 }
 
