@@ -85,7 +85,7 @@ Pool pooled(std::span<const Report> reports) {
 std::vector<Standing> standings(const Pool& pool) {
     std::vector<Standing> all;
     for (const PooledRow& row : pool.rows) {
-        Standing standing{.time = row.time.value_or(HUGE_VAL), .bytes_per_pixel = row.bytes_per_pixel};
+        Standing standing{.time = row.time.value_or(HUGE_VAL), .bytes_per_pixel = std::round(row.bytes_per_pixel)};
         if (row.captures == pool.captures) standing.error = row.error;
         all.push_back(standing);
     }

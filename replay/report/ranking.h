@@ -11,8 +11,8 @@ namespace strata {
 /// What a row is ranked by. Without an error it is not ranked: the technique cannot do the frame.
 struct Standing {
     std::optional<double> error;
-    double time = 0;  ///< in whatever unit all rows have
-    double bytes_per_pixel = 0;
+    double time = 0;             ///< in whatever unit all rows have
+    double bytes_per_pixel = 0;  ///< whole ones: the few bytes of a counter are no cost
 };
 using Cost = double Standing::*;
 

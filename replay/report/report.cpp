@@ -136,7 +136,8 @@ Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const
 std::vector<Standing> standings(std::span<const Measurement> rows) {
     std::vector<Standing> all;
     for (const Measurement& row : rows) {
-        Standing standing{.time = row.time ? row.time->median : row.stage_ms.median, .bytes_per_pixel = row.bytes_per_pixel};
+        Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
+                          .bytes_per_pixel = std::round(row.bytes_per_pixel)};
         if (!row.accuracy.method.empty()) standing.error = row.accuracy.method.front().value;
         all.push_back(standing);
     }
