@@ -112,7 +112,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_option("--repeats", options->repeats, "timed runs of each row after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
     app.add_option("--flicker", options->flicker,
-                   "measure how errors change while the eye walks ahead and turns, over so many frames; 64 without a number")
+                   "measure how errors change while the eye walks ahead and turns; every row is replayed at so many places, 64 "
+                   "without a number")
         ->expected(0, 1)
         ->default_str("64")
         ->check(CLI::Range(2, 10000));
