@@ -38,6 +38,15 @@ constexpr auto table = std::to_array<Scenario>({
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
     {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},
     {"foggy_panes", "Is fog between the layers, rather than over the picture?", 96, 54, scenario::foggy_panes},
+    {"facade_at_150m", "Are panes 0.3 m apart told apart at 150 m, and from the smoke and the cars behind them?", 96, 54,
+     scenario::facade_at_150m},
+    {"tail_light", "Is clear plastic 3 mm before red plastic clear over red, and not red over clear?", 96, 54,
+     scenario::tail_light},
+    {"explosion", "Is fire dimmed by the smoke before it, and by none of the smoke behind it?", 96, 54, scenario::explosion},
+    {"thin_layers", "Does a ramp of two hundred thin layers differ from its mirror image, and by exactly how much?", 64, 36,
+     scenario::thin_layers},
+    {"particle_storm", "What does a storm of ash cost that lies eight layers deep over every extent?", 96, 54,
+     scenario::particle_storm},
 });
 
 }  // namespace

@@ -44,6 +44,7 @@ struct StageInput {
 struct Figure {
     std::string name, unit;
     double value = 0;
+    bool is_detail = false;  ///< left out of tables for people
 };
 
 using Truth = ImageSet (*)(const StageInput&);

@@ -66,21 +66,24 @@ Run describe_run(const Declaration& d) {
 }
 
 void add_times(Run& run, const std::vector<std::vector<double>>& repeats) {
-    const auto spread = [&](const std::function<bool(std::size_t)>& counts) {
+    const auto sums_of = [&](const std::function<bool(std::size_t)>& counts) {
         std::vector<double> sums;
         for (const std::vector<double>& steps : repeats) {
             sums.push_back(0);
             for (std::size_t i = 0; i < steps.size(); ++i)
                 if (counts(i)) sums.back() += steps[i];
         }
-        return spread_of(sums);
+        return sums;
     };
-    run.frame_ms = spread([](std::size_t) { return true; });
-    for (std::size_t i = 0; i < run.steps.size(); ++i) run.steps[i].ms = spread([&](std::size_t step) { return step == i; });
+    run.frame_ms = spread_of(sums_of([](std::size_t) { return true; }));
+    for (std::size_t i = 0; i < run.steps.size(); ++i)
+        run.steps[i].ms = spread_of(sums_of([&](std::size_t step) { return step == i; }));
     for (const auto& [stage, choice] : run.choices) {
         // A scope is named "place: stage/technique", so a technique's acts count for it wherever they stand.
         const std::string technique = ": " + choice.substr(0, choice.find(' '));
-        run.stage_ms[stage] = spread([&](std::size_t step) { return run.steps[step].scope.ends_with(technique); });
+        const auto sums = sums_of([&](std::size_t step) { return run.steps[step].scope.ends_with(technique); });
+        run.stage_ms[stage] = spread_of(sums);
+        run.stage_ms_by_repeat[stage] = sums;
     }
 }
 

@@ -1,4 +1,4 @@
-// One recorded frame with what a request changes about it (extent, samples, forced features), ready for the device.
+// One recorded frame with what a request changes about it (extent, samples, the eye, forced features), ready for the device.
 #pragma once
 
 #include "capture_format/frame_features.h"
@@ -11,6 +11,7 @@ namespace strata {
 struct FrameVariant {
     std::size_t frame = 0;
     std::uint32_t extent_divisor = 1, samples = 0;
+    EyeMove eye;
     std::vector<Feature> force;
     friend bool operator==(const FrameVariant&, const FrameVariant&) = default;
 };

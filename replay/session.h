@@ -22,6 +22,13 @@ namespace strata {
 /// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
 enum class Acts { left, brought_back };
 
+/// Where the eye looks from instead of from its recorded place.
+struct EyeMove {
+    double dolly = 0;  ///< metres ahead along the recorded view
+    double pan = 0;    ///< radians to the right, after that
+    friend bool operator==(const EyeMove&, const EyeMove&) = default;
+};
+
 /// What to replay and what to bring back.
 struct Request {
     std::size_t frame = 0;                           ///< index in the capture
@@ -31,6 +38,7 @@ struct Request {
     std::string until;                               ///< last step to run: part of its name; empty: all
     std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
+    EyeMove eye = {};                                ///< against the recorded one
     Acts acts = Acts::left;                          ///< not with `until`
     bool once = false;                               ///< nothing is kept for later runs that share stages with this one
 };
@@ -72,6 +80,7 @@ struct Run {
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
+    std::map<std::string, std::vector<double>> stage_ms_by_repeat;  ///< what stage_ms is the spread of, in turn
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
     std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique

@@ -80,4 +80,35 @@ Frame nan_particles(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
+/// Eight layers over every pixel, whatever the extent and its shape: flakes are laid evenly over the view and a margin as wide as
+/// half of the largest, so many that their areas add up. Squares without a texture, because the mips of a round one cover the
+/// more of their quad the fewer pixels it has.
+Frame particle_storm(std::uint32_t frame, const ScenarioOptions& options) {
+    constexpr double layers = 8, vertical_fov = 0.8, smallest = 0.04, largest = 0.1;  // half an edge at a depth of 1 m
+    FrameBuilder builder(frame, options);
+    builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}, .vertical_fov = vertical_fov, .swing = 0});
+    builder.draw(builder.add(quad({60, 60})), builder.add(unlit("dusk", {0.25f, 0.2f, 0.3f, 1})), {.position = {0, 0, -22}});
+    const double half_height = std::tan(vertical_fov / 2);
+    const glm::dvec2 laid_over(half_height * options.width / options.height + largest, half_height + largest);
+    const double mean_area = 4 * (smallest * smallest + smallest * largest + largest * largest) / 3;  // of edges drawn evenly
+    const int count = static_cast<int>(layers * 4 * laid_over.x * laid_over.y / mean_area);
+    Emitter storm;
+    storm.name = "ash";
+    Random random(builder.seed());
+    for (int i = 0; i < count; ++i) {
+        const double depth = 2 * std::pow(10, random.unit()), drift = 0.2 * builder.progress();
+        const double across = std::fmod(random.unit() + drift, 1.0) * 2 - 1;
+        const glm::dvec2 at = laid_over * glm::dvec2(across, random.between(-1.0, 1.0));
+        Particle particle;
+        particle.center = glm::dvec3(at, -1) * depth;
+        particle.size = static_cast<float>(random.between(smallest, largest) * depth);
+        particle.rotation = random.between(0.0f, 1.6f);
+        particle.color = glm::mix(glm::vec3(0.9f, 0.6f, 0.3f), glm::vec3(0.2f, 0.3f, 0.5f), random.between(0.0f, 1.0f));
+        particle.alpha = random.between(0.1f, 0.6f);
+        storm.particles.push_back(particle);
+    }
+    builder.frame.emitters.push_back(std::move(storm));
+    return std::move(builder.frame);
+}
+
 }  // namespace strata::scenario

@@ -10,6 +10,12 @@ bool decided(const ReferenceImage& got, const ReferenceImage& wanted, std::size_
     return !hangs(got) && !hangs(wanted);
 }
 
+double percentile(std::span<const double> ascending, double share) {
+    if (ascending.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(share / 100 * double(ascending.size())));
+    return ascending[std::clamp<std::size_t>(rank, 1, ascending.size()) - 1];
+}
+
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted) {
     Difference d;
     double squares = 0, power = 0;

@@ -1,6 +1,8 @@
 // How far one image is from another.
 #pragma once
 
+#include <span>
+
 #include "passes/reference/image.h"
 
 namespace strata {
@@ -15,6 +17,9 @@ struct Difference {
 };
 
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted);
+
+/// The smallest of the ascending values that at least `share` percent of them do not exceed (nearest rank); 0 of none.
+double percentile(std::span<const double> ascending, double share);
 
 /// Whether the texel may be compared in both images.
 bool decided(const ReferenceImage& got, const ReferenceImage& wanted, std::size_t texel);

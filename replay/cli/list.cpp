@@ -37,6 +37,7 @@ void print(const Technique& technique, const Options& options) {
     fmt::print("  {:<32}{}\n", "", technique.summary);
     for (const Param& param : technique.params)
         fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
+    for (const std::string_view point : technique.points) fmt::print("      reported also at {}\n", point);
     for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
     for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
     for (const Feature feature : technique.cannot) fmt::print("      cannot do {}\n", name(feature));
@@ -52,6 +53,7 @@ ordered_json json_of(const Technique& technique) {
                                       {"default", param.fallback},
                                       {"choices", param.choices},
                                       {"help", param.help}});
+    json["points"] = technique.points;
     for (const Counter& counter : technique.counters)
         json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});
     return json;

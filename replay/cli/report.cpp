@@ -8,17 +8,20 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
-#include "replay/report/report.h"
+#include "replay/report/pooled.h"
 
 namespace strata {
 namespace {
 
 struct Options {
+    std::vector<std::filesystem::path> captures;
     OpenOptions open;
     ChoiceOptions choices;
     std::string stage = "transparency";
     std::vector<std::string> sweeps;
     std::size_t frame = 0, repeats = 7;
+    std::optional<std::uint32_t> flicker;
+    std::optional<double> dolly, pan;
     bool json = false, csv = false;
     std::filesystem::path output;
 };
@@ -45,16 +48,16 @@ void show_progress(std::string_view what, double done) {
     std::fflush(stderr);
 }
 
-Result<void> write_report(const Options& options, const Report& made) {
-    const std::string text = options.json ? as_json(made) : options.csv ? as_csv(made) : as_text(made);
-    if (options.output.empty()) {
-        fmt::print("{}", text);
-        return {};
-    }
-    return write_whole_file(options.output, text);
+std::string written(const Options& options, std::span<const Report> made) {
+    if (made.size() == 1) return options.json ? as_json(made[0]) : options.csv ? as_csv(made[0]) : as_text(made[0]);
+    const Pool pool = pooled(made);
+    if (options.json || options.csv) return options.json ? as_json(made, pool) : as_csv(made, pool);
+    std::string text;
+    for (const Report& one : made) text += as_text(one) + "\n";
+    return text + as_text(pool);
 }
 
-Result<void> report(const Options& options) {
+Result<ReportRequest> request_of(const Options& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
     base->frame = options.frame;
@@ -69,24 +72,55 @@ Result<void> report(const Options& options) {
         if (!sweep) return sweep.error();
         wanted.sweeps.push_back(*sweep);
     }
-    auto session = open(options.open);
-    if (!session) return session.error();
-    const auto made = make_report(**session, wanted, show_progress);
-    if (!made) return made.error();
-    return write_report(options, *made);
+    if (options.flicker) wanted.flicker = Walk{.frames = *options.flicker, .dolly = options.dolly};
+    if (options.pan) wanted.flicker->pan = *options.pan;
+    return wanted;
+}
+
+Result<void> report(const Options& options) {
+    const auto wanted = request_of(options);
+    if (!wanted) return wanted.error();
+    std::vector<Report> made;
+    for (const std::filesystem::path& capture : options.captures) {
+        OpenOptions one = options.open;
+        one.capture = capture;
+        auto session = open(one);
+        if (!session) return session.error();
+        auto report = make_report(**session, *wanted, show_progress);
+        if (!report) return report.error();
+        report->capture_name = capture.filename().string();
+        made.push_back(*std::move(report));
+    }
+    const std::string text = written(options, made);
+    if (!options.output.empty()) return write_whole_file(options.output, text);
+    fmt::print("{}", text);
+    return {};
 }
 
 }  // namespace
 
 std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    add_options(app, options->open);
+    app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one")->required();
+    add_options(app, options->open.device);
+    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
     add_options(app, options->choices);
     app.add_option("--stage", options->stage, "whose techniques, default transparency");
-    app.add_option("--sweep", options->sweeps, "key=a,b,c: measure each value; may be repeated")->allow_extra_args(false);
+    app.add_option("--sweep", options->sweeps, "key=a,b,c: measure each value, not the techniques' own points; repeatable")
+        ->allow_extra_args(false);
     app.add_option("--frame", options->frame, "which frame, default 0");
     app.add_option("--repeats", options->repeats, "timed runs of each row after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--flicker", options->flicker,
+                   "measure how errors change while the eye walks ahead and turns; every row is replayed at so many places, 64 "
+                   "without a number")
+        ->expected(0, 1)
+        ->default_str("64")
+        ->check(CLI::Range(2, 10000));
+    app.add_option("--dolly", options->dolly,
+                   "metres it walks in all; default a twentieth of the distance to the middle of what is transparent")
+        ->needs("--flicker");
+    app.add_option("--pan", options->pan, "degrees it turns to the right in all, default 5")->needs("--flicker");
     app.add_flag("--json", options->json, "one JSON object");
     app.add_flag("--csv", options->csv, "comma-separated values");
     app.add_option("-o,--output", options->output, "write to a file instead of stdout");

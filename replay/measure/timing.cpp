@@ -1,6 +1,7 @@
 #include "replay/measure/timing.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -26,6 +27,13 @@ Spread spread_of(std::span<const double> values) {
     spread.low = low;
     spread.high = high;
     return spread;
+}
+
+Spread ratio_of(std::span<const double> values, std::span<const double> units) {
+    assert(values.size() == units.size());
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < values.size(); ++i) ratios.push_back(values[i] / units[i]);
+    return spread_of(ratios);
 }
 
 }  // namespace strata

@@ -1,9 +1,8 @@
-// A report as JSON and as CSV, for CI and spreadsheets.
-#include <cmath>
+// Reports as JSON, for CI and scripts.
 
 #include <nlohmann/json.hpp>
 
-#include "replay/report/report.h"
+#include "replay/report/pooled.h"
 
 namespace strata {
 namespace {
@@ -36,21 +35,52 @@ ordered_json json_of(const Measurement& row) {
                                     {"compared", row.accuracy.compared},
                                     {"undecided", row.accuracy.undecided}};
     json["stage_ms"] = json_of(row.stage_ms);
+    if (row.time) json["time"] = json_of(*row.time);
     json["frame_ms"] = json_of(row.frame_ms);
     json["stage_bytes"] = row.stage_bytes;
+    json["bytes_per_pixel"] = row.bytes_per_pixel;
+    if (row.flicker) json["flicker"] = *row.flicker;
     json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : row.counters) json["counters"][counter.name] = counter.value;
     json["on_pareto_front"] = row.on_front;
+    json["on_memory_front"] = row.on_memory_front;
     return json;
 }
 
-}  // namespace
+ordered_json json_of(const PooledRow& row) {
+    ordered_json json{{"technique", row.technique}, {"settings", row.settings}, {"error", row.error}};
+    if (row.time) json["time"] = *row.time;
+    json["bytes_per_pixel"] = row.bytes_per_pixel;
+    if (row.flicker) json["flicker"] = *row.flicker;
+    json["captures"] = row.captures;
+    json["on_pareto_front"] = row.on_front;
+    json["on_memory_front"] = row.on_memory_front;
+    return json;
+}
 
-std::string as_json(const Report& report) {
+/// The most accurate row of each budget; null where none keeps it.
+template <typename Row>
+ordered_json json_of_best(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view time_unit) {
+    ordered_json json = ordered_json::array();
+    for (const Budget& budget : budgets()) {
+        const bool of_time = budget.cost == &Standing::time;
+        if (of_time && time_unit.empty()) continue;
+        const auto best = best_within(standings, budget);
+        json.push_back({{"budget", of_time ? "time" : "bytes_per_pixel"}, {"most", budget.most}, {"technique", nullptr}});
+        if (!best) continue;
+        json.back()["technique"] = rows[*best].technique;
+        json.back()["settings"] = rows[*best].settings;
+        json.back()["error"] = *standings[*best].error;
+    }
+    return json;
+}
+
+ordered_json json_of(const Report& report) {
     ordered_json json{{"schema", "strata.report"},
                       {"schema_version", 1},
                       {"stage", name(report.stage)},
                       {"capture", report.capture_id},
+                      {"capture_name", report.capture_name},
                       {"frame", report.frame},
                       {"extent", {report.width, report.height}},
                       {"samples", report.samples},
@@ -62,28 +92,32 @@ std::string as_json(const Report& report) {
                         {"software", report.device.software}}},
                       {"repeats", report.repeats},
                       {"truth", report.truth},
+                      {"time_unit", report.time_unit},
                       {"rows", ordered_json::array()}};
+    if (report.flicker)
+        json["flicker"] = {
+            {"frames", report.flicker->frames}, {"dolly_metres", *report.flicker->dolly}, {"pan_degrees", report.flicker->pan}};
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
     for (const Measurement& row : report.rows) json["rows"].push_back(json_of(row));
-    return json.dump(2) + "\n";
+    json["best_within"] = json_of_best(report.rows, standings(report.rows), report.time_unit);
+    return json;
 }
 
-std::string as_csv(const Report& report) {
-    std::string csv = "technique,settings";
-    if (!report.rows.empty())
-        for (const Figure& figure : errors_of(report.rows.front())) csv += "," + figure.name;
-    csv += ",implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,stage_bytes,on_pareto_front,not_supported\n";
-    for (const Measurement& row : report.rows) {
-        csv += row.technique + "," + row.settings;
-        if (!row.accuracy.not_supported.empty()) {
-            csv += std::string(errors_of(report.rows.front()).size() + 7, ',') + "\"" + row.accuracy.not_supported + "\"\n";
-            continue;
-        }
-        for (const Figure& figure : errors_of(row)) csv += fmt::format(",{:.9g}", figure.value);
-        csv += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f},{},{},\n", row.accuracy.model_rmse, row.stage_ms.median,
-                           row.stage_ms.mad, row.frame_ms.median, row.frame_ms.mad, row.stage_bytes, row.on_front ? 1 : 0);
-    }
-    return csv;
+}  // namespace
+
+std::string as_json(const Report& report) { return json_of(report).dump(2) + "\n"; }
+
+std::string as_json(std::span<const Report> reports, const Pool& pool) {
+    ordered_json json{{"schema", "strata.reports"}, {"schema_version", 1}, {"stage", name(pool.stage)}};
+    for (const Report& report : reports) json["reports"].push_back(json_of(report));
+    ordered_json& together = json["pooled"] = {{"captures", pool.captures},
+                                               {"mean", "geometric; arithmetic of bytes"},
+                                               {"error", pool.error},
+                                               {"time_unit", pool.time_unit},
+                                               {"rows", ordered_json::array()}};
+    for (const PooledRow& row : pool.rows) together["rows"].push_back(json_of(row));
+    together["best_within"] = json_of_best(pool.rows, standings(pool), pool.time_unit);
+    return json.dump(2) + "\n";
 }
 
 }  // namespace strata

@@ -1,15 +1,69 @@
-// A report as a table for a terminal.
+// Reports for a terminal: what ranks techniques. Everything else that was measured is in JSON and CSV.
 #include <algorithm>
+#include <map>
 
 #include "replay/counted.h"
-#include "replay/report/report.h"
+#include "replay/report/pooled.h"
+#include "replay/report/table.h"
 
 namespace strata {
 namespace {
 
-std::string bytes_text(std::uint64_t bytes) { return fmt::format("{:.2f}", double(bytes) / (1 << 20)); }
+constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
 
-std::string label(const Measurement& row) { return row.settings.empty() ? row.technique : row.technique + " " + row.settings; }
+/// The stage is named once, above the table.
+std::string below_stage(std::string_view label) { return std::string(label.substr(label.find('/') + 1)); }
+
+std::string marks(bool fast, bool small) { return fmt::format("{}{}", fast ? '*' : ' ', small ? '+' : ' '); }
+
+std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time in {}", below_stage(unit)); }
+
+std::vector<Figure> shown_errors(const Measurement& row) {
+    std::vector<Figure> errors = errors_of(row);
+    std::erase_if(errors, [](const Figure& figure) { return figure.is_detail; });
+    return errors;
+}
+
+Table table_of(const Report& report) {
+    Table table;
+    const auto measured = [](const Measurement& row) { return row.accuracy.not_supported.empty(); };
+    if (const auto row = std::ranges::find_if(report.rows, measured); row != report.rows.end())
+        for (const Figure& figure : shown_errors(*row)) table.heads.push_back(figure.name + " " + figure.unit);
+    if (!report.time_unit.empty()) table.heads.push_back(time_head(report.time_unit));
+    table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
+    if (report.flicker) table.heads.emplace_back("flicker");
+    for (const Measurement& row : report.rows) {
+        Table::Row line{marks(row.on_front, row.on_memory_front), below_stage(label(row)), {}};
+        if (!measured(row)) {
+            line.cells = {"not supported: " + row.accuracy.not_supported};
+        } else {
+            for (const Figure& figure : shown_errors(row)) line.cells.push_back(short_number(figure.value));
+            if (row.time) line.cells.push_back(fmt::format("{:.2f} +-{:.2f}", row.time->median, row.time->mad));
+            line.cells.push_back(short_number(row.stage_ms.median));
+            line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
+            if (row.flicker) line.cells.push_back(short_number(*row.flicker));
+        }
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
+/// What a table's first column says.
+double first_shown(const Measurement& row) { return shown_errors(row).front().value; }
+double first_shown(const PooledRow& row) { return row.error; }
+
+/// The most accurate row of each budget. Without a time unit time has none.
+template <typename Row>
+std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view unit) {
+    std::string text = "\nmost accurate with\n";
+    for (const Budget& budget : budgets()) {
+        if (budget.cost == &Standing::time && unit.empty()) continue;
+        const auto best = best_within(standings, budget);
+        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(first_shown(rows[*best])) : "",
+                            best ? below_stage(label(rows[*best])) : "nothing");
+    }
+    return text;
+}
 
 std::string counters_text(const Measurement& row) {
     std::string text;
@@ -18,40 +72,77 @@ std::string counters_text(const Measurement& row) {
     return text;
 }
 
-}  // namespace
+/// Rows of a technique that counted the same are one line.
+std::string counters_text(const Report& report) {
+    std::map<std::string, std::map<std::string, std::vector<const Measurement*>>> by_technique;
+    for (const Measurement& row : report.rows)
+        if (!row.counters.empty()) by_technique[row.technique][counters_text(row)].push_back(&row);
+    std::string text;
+    for (const auto& [technique, by_counters] : by_technique)
+        for (const auto& [counters, rows] : by_counters) {
+            const std::string several = fmt::format("{} at {}", technique, counted(rows.size(), "setting"));
+            text += fmt::format("   {}: {}\n", below_stage(rows.size() == 1 ? label(*rows.front()) : several), counters);
+        }
+    return text.empty() ? "" : "\ncounted\n" + text;
+}
 
-std::string as_text(const Report& report) {
-    std::string text = fmt::format("{} of frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.frame,
-                                   report.width, report.height, counted(report.samples, "sample"), report.capture_id);
+/// GPU against model: one sentence, or one for each row that has a bug.
+std::string implementation_text(const Report& report) {
+    double worst = 0;
+    std::string wrong;
+    for (const Measurement& row : report.rows) {
+        worst = std::max(worst, row.accuracy.model_rmse);
+        if (row.accuracy.model_rmse > row.tolerance)
+            wrong += fmt::format("! {} is {:.1e} from its own model, {:.1e} is tolerated: a bug, or this driver's rounding\n",
+                                 below_stage(label(row)), row.accuracy.model_rmse, row.tolerance);
+    }
+    return wrong.empty() ? fmt::format("implementations: all within tolerance of their models, rmse {:.1e} at most\n", worst)
+                         : wrong;
+}
+
+std::string heading(const Report& report) {
+    std::string text =
+        fmt::format("{} of {} frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.capture_name,
+                    report.frame, report.width, report.height, counted(report.samples, "sample"), report.capture_id);
     text += fmt::format("device {} ({}), {} each, interleaved\n", report.device.name, report.device.driver,
                         counted(report.repeats, "timed run"));
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
-    text += fmt::format("truth: {}\n\n", report.truth);
-
-    std::size_t width = 9;
-    for (const Measurement& row : report.rows) width = std::max(width, label(row).size());
-    text += fmt::format("  {:<{}}", "technique", width);
-    if (!report.rows.empty())
-        for (const Figure& figure : errors_of(report.rows.front()))
-            text += fmt::format("  {:>14}", figure.unit.empty() ? figure.name : figure.name + " [" + figure.unit + "]");
-    text +=
-        fmt::format("  {:>10}  {:>8}  {:>7}  {:>9}  {:>8}  {}\n", "impl. rmse", "ms", "+- mad", "frame ms", "MiB", "counters");
-    for (const Measurement& row : report.rows) {
-        text += fmt::format("{} {:<{}}", row.on_front ? '*' : ' ', label(row), width);
-        if (!row.accuracy.not_supported.empty()) {
-            text += fmt::format("  not supported: {}\n", row.accuracy.not_supported);
-            continue;
-        }
-        for (const Figure& figure : errors_of(row)) text += fmt::format("  {:>14.6g}", figure.value);
-        text +=
-            fmt::format("  {:>10.2e}  {:>8.3f}  {:>7.3f}  {:>9.3f}  {:>8}  {}\n", row.accuracy.model_rmse, row.stage_ms.median,
-                        row.stage_ms.mad, row.frame_ms.median, bytes_text(row.stage_bytes), counters_text(row));
-    }
-    text +=
-        "\n* on the Pareto front: nothing measured is both more accurate and faster. impl. rmse: GPU against the method's model "
-        "in double.\n";
+    text += fmt::format("truth: {}\n", report.truth);
+    if (report.flicker)
+        text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
+                            counted(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
+                            short_number(report.flicker->pan));
     return text;
+}
+
+}  // namespace
+
+std::string as_text(const Report& report) {
+    const std::string text = heading(report);
+    if (!report.skipped.empty()) return text;
+    return text + "\n" + as_text(table_of(report)) + "\n" + std::string(legend) + implementation_text(report) +
+           best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report);
+}
+
+std::string as_text(const Pool& pool) {
+    std::string text = fmt::format("{} of {}: geometric means\n\n", name(pool.stage), counted(pool.captures, "capture"));
+    Table table{.heads = {pool.error}, .rows = {}};
+    const auto has_flicker = [](const PooledRow& row) { return row.flicker.has_value(); };
+    const bool flickers = !pool.rows.empty() && std::ranges::all_of(pool.rows, has_flicker);
+    if (!pool.time_unit.empty()) table.heads.push_back(time_head(pool.time_unit));
+    table.heads.emplace_back("bytes per pixel");
+    if (flickers) table.heads.emplace_back("flicker");
+    table.heads.emplace_back("captures");
+    for (const PooledRow& row : pool.rows) {
+        Table::Row line{marks(row.on_front, row.on_memory_front), below_stage(label(row)), {short_number(row.error)}};
+        if (!pool.time_unit.empty()) line.cells.push_back(row.time ? fmt::format("{:.2f}", *row.time) : "");
+        line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
+        if (flickers) line.cells.push_back(short_number(*row.flicker));
+        line.cells.push_back(row.captures == pool.captures ? "all" : fmt::format("{} of {}", row.captures, pool.captures));
+        table.rows.push_back(std::move(line));
+    }
+    return text + as_text(table) + "\n" + std::string(legend) + best_rows(pool.rows, standings(pool), pool.time_unit);
 }
 
 }  // namespace strata

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "replay/counted.h"
+#include "replay/report/flicker.h"
+#include "replay/report/variants.h"
 
 namespace strata {
 namespace {
@@ -14,45 +16,6 @@ constexpr std::uint64_t largest_truth = 640 * 360;
 // to that texel (an exact technique's model is the truth). Relative to the whole frame's mean, one highlight of clear glass, of
 // radiance 1027 in a frame of 0.3, would be all of the figure.
 constexpr double stand_in_tolerance = 1e-4;
-
-struct Variant {
-    const Technique* technique = nullptr;
-    Request request;
-    std::string settings;
-};
-
-/// Every technique with every combination of the sweeps whose keys it has.
-std::vector<Variant> variants(const ReportRequest& wanted) {
-    std::vector<Variant> all;
-    for (const Technique* technique : techniques_of(wanted.stage)) {
-        std::vector<Variant> of_technique{{technique, wanted.base, ""}};
-        of_technique[0].request.uses.push_back(std::string(technique->name));
-        for (const Sweep& sweep : wanted.sweeps) {
-            const auto named = [&](const Param& param) { return param.name == sweep.key; };
-            if (std::ranges::none_of(technique->params, named)) continue;
-            std::vector<Variant> multiplied;
-            for (const Variant& variant : of_technique)
-                for (const std::string& value : sweep.values) {
-                    multiplied.push_back(variant);
-                    multiplied.back().request.sets.push_back(fmt::format("{}:{}={}", technique->name, sweep.key, value));
-                    multiplied.back().settings += fmt::format("{}{}={}", variant.settings.empty() ? "" : " ", sweep.key, value);
-                }
-            of_technique = std::move(multiplied);
-        }
-        all.insert(all.end(), of_technique.begin(), of_technique.end());
-    }
-    return all;
-}
-
-Result<void> check_sweeps(const ReportRequest& wanted) {
-    for (const Sweep& sweep : wanted.sweeps) {
-        bool known = false;
-        for (const Technique* technique : techniques_of(wanted.stage))
-            for (const Param& param : technique->params) known = known || param.name == sweep.key;
-        if (!known) return fail(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
-    }
-    return {};
-}
 
 /// What the rows are measured against, and the extent at which models are affordable.
 struct Yardstick {
@@ -111,20 +74,86 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     return accuracy;
 }
 
+/// What a timed run gave, in its row.
+void add_timing(Measurement& row, const Run& run, const Report& report) {
+    const std::string stage_name(name(report.stage));
+    row.stage_ms = run.stage_ms.at(stage_name);
+    row.frame_ms = *run.frame_ms;
+    if (const auto bytes = run.stage_bytes.find(stage_name); bytes != run.stage_bytes.end()) row.stage_bytes = bytes->second;
+    row.bytes_per_pixel = double(row.stage_bytes) / (double(report.width) * report.height);
+    std::ranges::copy_if(run.counters, std::back_inserter(row.counters),
+                         [&](const CounterRecord& counter) { return counter.technique == row.technique; });
+}
+
+/// Times of all rows that can do the frame, and the same in units of the technique whose time is the unit.
+Result<void> time_rows(Session& session, std::span<const Variant> all, Report& report) {
+    std::vector<Request> timed;
+    std::vector<std::size_t> places;  // in the report, of what is timed
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!report.rows[i].accuracy.not_supported.empty()) continue;
+        timed.push_back(all[i].request);
+        places.push_back(i);
+    }
+    const auto runs = session.time(timed, report.repeats);
+    if (!runs) return runs.error();
+    const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
+    const auto unit = std::ranges::find_if(places, [&](std::size_t i) { return all[i].technique->is_time_unit; });
+    std::vector<double> unit_times;
+    if (unit != places.end()) unit_times = times((*runs)[std::size_t(unit - places.begin())]);
+    const bool measurable = !unit_times.empty() && std::ranges::min(unit_times) > 0;  // 0: a clock too coarse for the frame
+    if (measurable) report.time_unit = all[*unit].technique->name;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Measurement& row = report.rows[places[i]];
+        add_timing(row, (*runs)[i], report);
+        if (measurable) row.time = ratio_of(times((*runs)[i]), unit_times);
+    }
+    return {};
+}
+
+/// Flicker of all rows that can do the frame.
+Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const Variant> all, Report& report,
+                         const Progress& tell) {
+    if (!wanted.flicker->dolly) {
+        const auto frame = session.frame(wanted.base.frame);
+        if (!frame) return frame.error();
+        wanted.flicker->dolly = default_dolly(*frame);
+        if (!wanted.flicker->dolly) return fail(Fault::usage, "nothing lies before the eye to move towards; give --dolly metres");
+    }
+    report.flicker = wanted.flicker;
+    std::vector<Request> moved;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (report.rows[i].accuracy.not_supported.empty()) moved.push_back(all[i].request);
+    const auto flickers = measure_flicker(session, wanted, moved, tell);
+    if (!flickers) return flickers.error();
+    auto flicker = flickers->begin();
+    for (Measurement& row : report.rows)
+        if (row.accuracy.not_supported.empty()) row.flicker = *flicker++;
+    return {};
+}
+
 }  // namespace
 
-void mark_front(std::vector<Measurement>& rows) {
-    const auto error = [](const Measurement& row) { return row.accuracy.method.front().value; };
-    for (Measurement& row : rows) {
-        row.on_front = !row.accuracy.method.empty();
-        for (const Measurement& other : rows) {
-            if (!row.on_front || other.accuracy.method.empty()) continue;
-            const bool no_worse = error(other) <= error(row) && other.stage_ms.median <= row.stage_ms.median;
-            const bool better = error(other) < error(row) || other.stage_ms.median < row.stage_ms.median;
-            if (no_worse && better) row.on_front = false;
-        }
+std::vector<Standing> standings(std::span<const Measurement> rows) {
+    std::vector<Standing> all;
+    for (const Measurement& row : rows) {
+        Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
+                          .bytes_per_pixel = std::round(row.bytes_per_pixel)};
+        if (!row.accuracy.method.empty()) standing.error = row.accuracy.method.front().value;
+        all.push_back(standing);
+    }
+    return all;
+}
+
+void mark_fronts(std::vector<Measurement>& rows) {
+    const std::vector<Standing> all = standings(rows);
+    const std::vector<bool> fast = pareto_front(all, &Standing::time), small = pareto_front(all, &Standing::bytes_per_pixel);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].on_front = fast[i];
+        rows[i].on_memory_front = small[i];
     }
 }
+
+std::string label(const Measurement& row) { return row.settings.empty() ? row.technique : row.technique + " " + row.settings; }
 
 std::vector<Figure> errors_of(const Measurement& row) {
     std::vector<Figure> errors = row.accuracy.method;
@@ -137,7 +166,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         if (progress) progress(what, done);
     };
     if (techniques_of(wanted.stage).empty()) return fail(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
-    if (const auto fits = check_sweeps(wanted); !fits) return fits.error();
+    const auto all = variants(wanted);
+    if (!all) return all.error();
     const auto frame = session.frame(wanted.base.frame);
     if (!frame) return frame.error();
     View view = frame->view;
@@ -163,33 +193,23 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     const auto yardstick = find_yardstick(session, wanted, view);
     if (!yardstick) return yardstick.error();
     report.truth = yardstick->name;
-
-    const std::vector<Variant> all = variants(wanted);
-    std::vector<Request> timed;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        tell(all[i].technique->name, .1 + .6 * double(i) / double(all.size()));
-        auto accuracy = measure_accuracy(session, all[i], wanted.stage, *yardstick);
+    for (std::size_t i = 0; i < all->size(); ++i) {
+        const Variant& variant = (*all)[i];
+        report.rows.push_back({.technique = std::string(variant.technique->name),
+                               .settings = variant.settings,
+                               .tolerance = variant.technique->tolerance.rmse});
+        tell(label(report.rows.back()), .1 + .3 * double(i) / double(all->size()));
+        auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);
         if (!accuracy) return accuracy.error();
-        if (accuracy->not_supported.empty()) timed.push_back(all[i].request);
-        report.rows.push_back(
-            {.technique = std::string(all[i].technique->name), .settings = all[i].settings, .accuracy = *std::move(accuracy)});
+        report.rows.back().accuracy = *std::move(accuracy);
+    }
+    if (wanted.flicker) {
+        const auto told = [&](std::string_view what, double done) { tell(what, .4 + .3 * done); };
+        if (const auto added = add_flicker(session, wanted, *all, report, told); !added) return added.error();
     }
     tell("timing", .7);
-    const auto runs = session.time(timed, wanted.repeats);
-    if (!runs) return runs.error();
-    auto run = runs->begin();
-    for (Measurement& row : report.rows) {
-        if (!row.accuracy.not_supported.empty()) continue;
-        const std::string stage_name(name(wanted.stage));
-        row.stage_ms = run->stage_ms.at(stage_name);
-        row.frame_ms = *run->frame_ms;
-        if (const auto bytes = run->stage_bytes.find(stage_name); bytes != run->stage_bytes.end())
-            row.stage_bytes = bytes->second;
-        std::ranges::copy_if(run->counters, std::back_inserter(row.counters),
-                             [&](const CounterRecord& counter) { return counter.technique == row.technique; });
-        ++run;
-    }
-    mark_front(report.rows);
+    if (const auto timed = time_rows(session, *all, report); !timed) return timed.error();
+    mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
         return row.accuracy.method.empty() ? HUGE_VAL : row.accuracy.method.front().value;
     });

@@ -1,11 +1,12 @@
-// Every technique of a stage, and every combination of swept settings, on one frame: error against the truth beside time,
-// memory and counters, and which are on the Pareto front.
+// Every technique of a stage, at its defaults and at other settings, on one frame: error against the truth beside time, memory,
+// flicker and counters, and what is on the Pareto fronts.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "replay/report/ranking.h"
 #include "replay/session.h"
 
 namespace strata {
@@ -16,29 +17,46 @@ struct Sweep {
     std::vector<std::string> values;
 };
 
+/// The eye walks ahead and turns its head, both evenly: what moves so little should not flicker. Walking takes surfaces through a
+/// method's slices of depth; but the order of view depths, which object sorting goes by, changes by turning only.
+struct Walk {
+    std::uint32_t frames = 64;
+    std::optional<double> dolly;  ///< metres from the first frame to the last; none: default_dolly()
+    double pan = 5;               ///< degrees to the right from the first frame to the last
+};
+
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
     Stage stage = Stage::transparency;
-    std::vector<Sweep> sweeps;
+    std::vector<Sweep> sweeps;  ///< none: every technique's defaults and its own points
     std::size_t repeats = 7;
+    std::optional<Walk> flicker;
 };
 
 /// One row.
 struct Measurement {
     std::string technique, settings;  ///< settings: "falloff=20 weight=w9", only what differs from the defaults
     Accuracy accuracy;
+    double tolerance = 0;  ///< of the technique, for accuracy.model_rmse
     Spread stage_ms, frame_ms;
+    std::optional<Spread> time;  ///< stage_ms as multiples of the time unit's, turn by turn
     std::uint64_t stage_bytes = 0;
+    double bytes_per_pixel = 0;
+    std::optional<double> flicker;
     std::vector<CounterRecord> counters;  ///< of the technique
     bool on_front = false;                ///< nothing is both more accurate and faster
+    bool on_memory_front = false;         ///< nothing is both more accurate and smaller
 };
 
 struct Report {
     Stage stage = Stage::transparency;
+    std::string capture_name;       ///< for people; the caller's
     std::string capture_id, truth;  ///< truth: "exact, in double" or which technique stood in and how exact it is
     std::size_t frame = 0, repeats = 0;
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
+    std::string time_unit;          ///< the technique whose time is 1; empty: none could be measured
+    std::optional<Walk> flicker;    ///< with its dolly
     std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
 };
@@ -48,11 +66,16 @@ using Progress = std::function<void(std::string_view what, double done)>;
 
 Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {});
 
-/// Marks the rows that no other row beats in both error and time.
-void mark_front(std::vector<Measurement>&);
+/// Marks the rows that no other row beats in both error and time, and in both error and memory.
+void mark_fronts(std::vector<Measurement>&);
+/// What the rows are ranked by: the first figure of the stage's judge; time in the time unit, or in milliseconds without one.
+std::vector<Standing> standings(std::span<const Measurement>);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
 std::vector<Figure> errors_of(const Measurement&);
+
+/// Technique and settings in one.
+std::string label(const Measurement&);
 
 std::string as_text(const Report&);
 std::string as_json(const Report&);

@@ -153,5 +153,10 @@ TEST(Registry, NamesAreUniqueAndEachKnowsItsPlaceInItsStage) {
     }
 }
 
+TEST(Registry, AStageHasOneUnitOfTimeAtTheMost) {
+    for (const StageInfo& stage : stages())
+        EXPECT_LE(std::ranges::count(techniques_of(stage.stage), true, &Technique::is_time_unit), 1) << stage.name;
+}
+
 }  // namespace
 }  // namespace strata

@@ -1,30 +1,53 @@
-// A report's own arithmetic.
+// A report's own arithmetic, and what it looks like.
+#include <cmath>
+#include <sstream>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/report/report.h"
+#include "passes/reference/difference.h"
+#include "passes/transparency/judge.h"
+#include "replay/report/flicker.h"
+#include "replay/report/pooled.h"
+#include "replay/report/table.h"
+#include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-Measurement row(std::string name, double error, double ms) {
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+Measurement row(std::string name, double error, double ms, double bytes = 0) {
     Measurement measured{.technique = std::move(name)};
     measured.accuracy.method = {{"rmse", "", error}};
     measured.stage_ms.median = ms;
+    measured.bytes_per_pixel = bytes;
     return measured;
 }
 
 TEST(ParetoFront, HoldsWhatNothingBeatsInBothErrorAndTime) {
     std::vector<Measurement> rows = {row("exact", 0, 10), row("good", .01, 2), row("dominated", .02, 3), row("fast", .5, 1)};
-    mark_front(rows);
+    mark_fronts(rows);
     EXPECT_TRUE(rows[0].on_front);
     EXPECT_TRUE(rows[1].on_front);
     EXPECT_FALSE(rows[2].on_front);
     EXPECT_TRUE(rows[3].on_front);
 }
 
+TEST(ParetoFront, OfMemoryIsItsOwn) {
+    std::vector<Measurement> rows = {row("small and slow", .1, 9, 8), row("large and fast", .1, 1, 64)};
+    mark_fronts(rows);
+    EXPECT_FALSE(rows[0].on_front);
+    EXPECT_TRUE(rows[0].on_memory_front);
+    EXPECT_TRUE(rows[1].on_front);
+    EXPECT_FALSE(rows[1].on_memory_front);
+}
+
 TEST(ParetoFront, EqualRowsShareIt) {
     std::vector<Measurement> rows = {row("one", .1, 1), row("other", .1, 1)};
-    mark_front(rows);
+    mark_fronts(rows);
     EXPECT_TRUE(rows[0].on_front);
     EXPECT_TRUE(rows[1].on_front);
 }
@@ -32,8 +55,29 @@ TEST(ParetoFront, EqualRowsShareIt) {
 TEST(ParetoFront, WhatIsNotSupportedIsNeverOnIt) {
     std::vector<Measurement> rows = {row("one", .1, 1), {.technique = "cannot"}};
     rows[1].accuracy.not_supported = "chromatic";
-    mark_front(rows);
+    mark_fronts(rows);
     EXPECT_FALSE(rows[1].on_front);
+    EXPECT_FALSE(rows[1].on_memory_front);
+}
+
+TEST(Budgets, AreOfWholeBytes) {
+    const std::vector<Measurement> rows = {row("with a counter", .1, 1, 16.0007)};
+    EXPECT_EQ(best_within(standings(rows), {&Standing::bytes_per_pixel, 16}), 0u);
+}
+
+TEST(Budgets, AreKeptByTheMostAccurateRowWithinThem) {
+    const std::vector<Standing> rows = {{.error = 0, .time = 9, .bytes_per_pixel = 400},
+                                        {.error = .01, .time = 2, .bytes_per_pixel = 32},
+                                        {.error = .2, .time = 1, .bytes_per_pixel = 10},
+                                        {.time = 0}};  // not supported
+    EXPECT_EQ(best_within(rows, {&Standing::time, 2}), 1u);
+    EXPECT_EQ(best_within(rows, {&Standing::time, 1.9}), 2u);
+    EXPECT_EQ(best_within(rows, {&Standing::time, .5}), std::nullopt);
+    EXPECT_EQ(best_within(rows, {&Standing::bytes_per_pixel, 16}), 2u);
+    std::vector<std::string> names;
+    for (const Budget& budget : budgets()) names.push_back(name(budget));
+    EXPECT_THAT(names, ElementsAre("time <= 1", "time <= 2", "time <= 4", "bytes per pixel <= 16", "bytes per pixel <= 32",
+                                   "bytes per pixel <= 64"));
 }
 
 TEST(Spread, IsTheMedianAndItsDeviation) {
@@ -44,6 +88,168 @@ TEST(Spread, IsTheMedianAndItsDeviation) {
     EXPECT_EQ(spread.low, 1);
     EXPECT_EQ(spread.high, 5);
     EXPECT_EQ(spread.repeats, 5u);
+}
+
+TEST(Spread, OfARatioIsThatOfTheTurnsSoABusyMachineCancels) {
+    const double unit[] = {1, 10, 2}, twice[] = {2, 20, 4};
+    const Spread ratio = ratio_of(twice, unit);
+    EXPECT_EQ(ratio.median, 2);
+    EXPECT_EQ(ratio.mad, 0);
+    EXPECT_EQ(ratio.repeats, 3u);
+}
+
+TEST(Percentile, IsTheNearestRank) {
+    std::vector<double> values;
+    for (int i = 1; i <= 100; ++i) values.push_back(i);
+    EXPECT_EQ(percentile(values, 99), 99);
+    EXPECT_EQ(percentile(values, 95), 95);
+    EXPECT_EQ(percentile(values, 0), 1);
+    EXPECT_EQ(percentile({}, 99), 0);
+}
+
+TEST(TransparencyJudge, CountsRelativeErrorsOfTheWorstChannel) {
+    ReferenceImage truth(100, 1, 1, {.99, .99, .99, 1}), got = truth;
+    got.at(0, 0).x += .5;   // relative to .99 + .01
+    got.at(1, 0).y -= .05;  // over 2 %, not over 10 %
+    const Frame frame;
+    std::map<std::string, double> figures;
+    for (const Figure& figure : transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}))
+        figures[figure.name] = figure.value;
+    EXPECT_DOUBLE_EQ(figures["over 2 %"], 2);
+    EXPECT_DOUBLE_EQ(figures["over 10 %"], 1);
+    EXPECT_NEAR(figures["P99"], .05, 1e-12);
+    EXPECT_EQ(figures["P95"], 0);
+    EXPECT_NEAR(figures["worst"], .5, 1e-12);
+}
+
+TEST(Flicker, IsHowMuchAnErrorChangesNotHowLargeItIs) {
+    const ReferenceImage truth(2, 1, 1, glm::dvec4(1)), off(2, 1, 1, glm::dvec4(3));
+    Flicker steady, popping;
+    for (int i = 0; i < 3; ++i) steady.add_frame(off, truth);
+    EXPECT_EQ(steady.mean(), 0);
+    popping.add_frame(truth, truth);
+    EXPECT_EQ(popping.mean(), 0);
+    popping.add_frame(off, truth);  // by 2, then not at all
+    popping.add_frame(off, truth);
+    EXPECT_DOUBLE_EQ(popping.mean(), 1);
+}
+
+TEST(Flicker, WalksATwentiethOfTheWayToWhatIsTransparent) {
+    const Frame panes = scenario_frames("three_panes").front();  // at 3, 3.5 and 4 m
+    EXPECT_NEAR(*default_dolly(panes), .05 * 3.5, 1e-6);
+    EXPECT_FALSE(default_dolly(scenario_frames("empty").front()));
+}
+
+/// Three cards of alpha .99 a centimetre apart: turned to one side, another of them is drawn last.
+TEST(Flicker, ShowsThatObjectOrderPopsAndIsNothingForWhatIsExact) {
+    const auto session = scenario_session("three_cards");
+    const ReportRequest wanted{.flicker = Walk{.frames = 7, .dolly = 0, .pan = 9}};
+    std::vector<Request> rows(3);
+    rows[0].uses = {"transparency/sorted_lists"};
+    rows[1].uses = {"transparency/alpha_blend"};
+    rows[2].uses = {"transparency/weighted"};
+    const std::vector<double> flicker = must(measure_flicker(*session, wanted, rows, {}));
+    EXPECT_EQ(flicker[0], 0);
+    EXPECT_GT(flicker[1], 1e-3);
+    EXPECT_GT(flicker[2], 0);
+}
+
+/// Walked ahead and turned is recorded from there, bit for bit.
+TEST(Eye, MovedIsTheSameAsAFrameRecordedFromThere) {
+    std::vector<Frame> frames = scenario_frames("smoke_grenade");
+    frames.push_back(frames.front());
+    View& view = frames.back().view;
+    const double turned = .1;
+    const glm::dvec3 ahead = glm::transpose(view.to_view) * glm::dvec3(0, 0, 1);
+    view.origin += .5 * ahead;
+    const glm::dvec3 to_the_right = glm::transpose(view.to_view) * glm::dvec3(std::sin(turned), 0, std::cos(turned));
+    const glm::dvec3 up = glm::transpose(view.to_view) * glm::dvec3(0, 1, 0);
+    view.to_view = glm::transpose(glm::dmat3(glm::cross(to_the_right, up), up, to_the_right));
+    const auto session = must(Session::open(frames, {.validation = true}));
+    const Request small{.extent_divisor = 4};
+    Request moved = small, recorded = small;
+    moved.eye = {.dolly = .5, .pan = turned};
+    recorded.frame = 1;
+    const HostImage still = must(session->run(small)).images.at("display");
+    const HostImage there = must(session->run(moved)).images.at("display");
+    EXPECT_EQ(there.texels, must(session->run(recorded)).images.at("display").texels);
+    EXPECT_NE(there.texels, still.texels);
+    EXPECT_EQ(still.texels, must(session->run(small)).images.at("display").texels) << "the memo must tell the eyes apart";
+}
+
+Report report_on(std::string capture, std::vector<Measurement> rows) {
+    for (Measurement& row : rows) row.time = Spread{.median = row.stage_ms.median};
+    return {.capture_name = std::move(capture), .time_unit = "transparency/one", .rows = std::move(rows)};
+}
+
+TEST(Pool, TakesGeometricMeansOfEqualRows) {
+    const double halves_and_twice[] = {.5, 2}, with_zero[] = {0, 1e-3};
+    EXPECT_DOUBLE_EQ(geometric_mean(halves_and_twice), 1);
+    EXPECT_NEAR(geometric_mean(with_zero), 1e-4, 1e-15);  // 0 counts as 1e-5
+    Measurement tuned = row("transparency/one", .5, 4);
+    tuned.settings = "k=2";
+    const Pool pool = pooled(std::vector{report_on("a", {row("transparency/one", .1, 1), tuned}),
+                                         report_on("b", {row("transparency/one", .4, 4), tuned})});
+    ASSERT_EQ(pool.rows.size(), 2u);
+    EXPECT_EQ(pool.captures, 2u);
+    EXPECT_EQ(pool.error, "rmse");
+    EXPECT_NEAR(pool.rows[0].error, .2, 1e-12);
+    EXPECT_NEAR(*pool.rows[0].time, 2, 1e-12);
+    EXPECT_TRUE(pool.rows[0].on_front);
+    EXPECT_EQ(pool.rows[1].settings, "k=2");
+    EXPECT_FALSE(pool.rows[1].on_front);
+}
+
+TEST(Pool, PrefersTheRelativeErrorBecauseFramesDifferInBrightness) {
+    Measurement both = row("transparency/one", 3, 1);
+    both.accuracy.method.push_back({"relative rmse", "", .25});
+    const Pool pool = pooled(std::vector{report_on("a", {both}), report_on("b", {both})});
+    EXPECT_EQ(pool.error, "relative rmse");
+    EXPECT_DOUBLE_EQ(pool.rows[0].error, .25);
+}
+
+TEST(Pool, RanksOnlyWhatCanDoAllCapturesThatNeedTheStage) {
+    Measurement cannot{.technique = "transparency/half"};
+    cannot.accuracy.not_supported = "chromatic";
+    Report skipped = report_on("c", {});
+    skipped.skipped = "nothing is transparent";
+    const Pool pool = pooled(std::vector{report_on("a", {row("transparency/half", 0, 1), row("transparency/one", .4, 1)}),
+                                         report_on("b", {cannot, row("transparency/one", .4, 1)}), skipped});
+    EXPECT_EQ(pool.captures, 2u);
+    ASSERT_EQ(pool.rows.size(), 2u);
+    EXPECT_EQ(pool.rows[0].technique, "transparency/one");
+    EXPECT_TRUE(pool.rows[0].on_front);
+    EXPECT_EQ(pool.rows[1].captures, 1u);
+    EXPECT_FALSE(pool.rows[1].on_front);
+    EXPECT_THAT(as_text(pool), HasSubstr("1 of 2"));
+}
+
+TEST(Table, FitsATerminalOf120ColumnsHoweverLongTheSettings) {
+    Report report = report_on("a", {});
+    for (int i = 0; i < 45; ++i) {
+        Measurement measured = row("transparency/some_technique", -1.234567e-5 * i, 1234.5, 123456);
+        measured.settings = i % 2 == 0 ? "" : "a_long_key=with_its_value another=choice and=more and_more=0.0001";
+        for (const char* name : {"bias", "P99", "over 10 %", "more"})
+            measured.accuracy.method.push_back({name, "radiance", -1e-9});
+        measured.accuracy.method.push_back({"a detail", "", 1, true});
+        measured.accuracy.flip = .123456;
+        measured.flicker = 1e-9;
+        measured.time = Spread{.median = 123.456, .mad = 10};
+        report.rows.push_back(measured);
+    }
+    report.rows.back().accuracy.not_supported = std::string(300, 'x');
+    report.flicker = Walk{.dolly = .2};
+    const std::string text = as_text(report);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+    EXPECT_THAT(text, Not(HasSubstr("detail")));
+}
+
+TEST(Table, NumbersAreShort) {
+    EXPECT_EQ(short_number(0), "0");
+    EXPECT_EQ(short_number(.0123456), "0.0123");
+    EXPECT_EQ(short_number(-1.2345e-5), "-1.2e-05");
+    EXPECT_EQ(short_number(1234.5), "1234");
 }
 
 }  // namespace

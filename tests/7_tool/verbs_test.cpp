@@ -1,5 +1,7 @@
 // Every verb: its help, a success, a failure with its sentence and its exit code.
+#include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -138,15 +140,76 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
-    EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    std::size_t rows = 0;
+    for (const Technique* technique : techniques_of(Stage::transparency)) rows += 1 + technique->points.size();
+    EXPECT_EQ(report["rows"].size(), rows);
     for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
     const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        EXPECT_THAT(text.out, HasSubstr(std::string(technique->name)));
+        EXPECT_THAT(text.out, HasSubstr(std::string(technique->name.substr(technique->name.find('/') + 1))));
         EXPECT_THAT(csv.out, HasSubstr(std::string(technique->name)));
     }
     EXPECT_EQ(strata("report panes.strata --stage nothing").code, 2);
     EXPECT_EQ(strata("report panes.strata --sweep nothing=1,2").code, 2);
+    EXPECT_EQ(strata("report panes.strata --dolly 1").code, 2);
+}
+
+TEST(Report, ASweepReplacesThePointsAndTimesAreMultiplesOfTheUnits) {
+    record_panes();
+    const Finished made = strata("report panes.strata --repeats 3 --sweep form=average,sum --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    std::size_t rows = 0;
+    for (const Technique* technique : techniques_of(Stage::transparency))
+        rows += std::ranges::count(technique->params, "form", &Param::name) > 0 ? 2 : 1;
+    EXPECT_EQ(report["rows"].size(), rows);
+    for (const json& row : report["rows"]) {
+        EXPECT_EQ(row["time"]["repeats"], 3) << row;
+        EXPECT_TRUE(row["technique"] != report["time_unit"] || row["time"]["median"] == 1) << row;
+        EXPECT_EQ(row["bytes_per_pixel"], row["stage_bytes"].get<double>() / (64 * 36));
+    }
+    EXPECT_EQ(report["best_within"].size(), 6u);
+}
+
+TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
+    record_panes();
+    const Finished made = strata("report panes.strata --repeats 1 --flicker 3 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    EXPECT_EQ(report["flicker"]["frames"], 3);
+    EXPECT_GT(report["flicker"]["dolly_metres"], .05);
+    double least = 1, most = 0;
+    for (const json& row : report["rows"]) {
+        least = std::min(least, row["flicker"].get<double>());
+        most = std::max(most, row["flicker"].get<double>());
+    }
+    EXPECT_EQ(least, 0);
+    EXPECT_GT(most, 1e-4);
+}
+
+TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
+    record_panes();
+    ASSERT_EQ(strata("record red_and_green_glass -o glass.strata").code, 0);
+    const std::string both = "report panes.strata glass.strata --repeats 1";
+    const Finished made = strata(both + " --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json reports = json::parse(made.out);
+    EXPECT_EQ(reports["schema"], "strata.reports");
+    ASSERT_EQ(reports["reports"].size(), 2u);
+    EXPECT_EQ(reports["reports"][1]["capture_name"], "glass.strata");
+    EXPECT_EQ(reports["pooled"]["captures"], 2);
+    EXPECT_EQ(reports["pooled"]["error"], "relative rmse");
+    EXPECT_EQ(reports["pooled"]["rows"].size(), reports["reports"][0]["rows"].size());
+    EXPECT_THAT(strata(both).out, HasSubstr("of 2 captures"));
+    std::istringstream csv(strata(both + " --csv").out);
+    std::string head;
+    std::getline(csv, head);
+    std::size_t pooled = 0;
+    for (std::string line; std::getline(csv, line);) {
+        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ',')) << line;
+        pooled += line.starts_with("\"pooled\",");
+    }
+    EXPECT_EQ(pooled, reports["pooled"]["rows"].size());
 }
 
 TEST(Import, AnAnimationBecomesFrames) {

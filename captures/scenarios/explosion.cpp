@@ -1,0 +1,92 @@
+// A ball of fire inside its smoke: fire covers and emits up to radiance 12, smoke before it dims it, smoke behind it must not.
+// Hot air before it all is a sheet that distorts and barely covers.
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "captures/scenarios/builders.h"
+#include "captures/scenarios/frame_builder.h"
+#include "captures/scenarios/pictures.h"
+#include "captures/scenarios/props.h"
+#include "captures/scenarios/random.h"
+#include "captures/scenarios/shapes.h"
+
+namespace strata::scenario {
+namespace {
+
+constexpr glm::dvec3 heart{0, 1.3, 0};
+
+/// A direction, evenly over the sphere.
+glm::dvec3 direction(Random& random) {
+    const double z = random.between(-1.0, 1.0), angle = random.between(0.0, 2 * std::numbers::pi);
+    return {std::sqrt(1 - z * z) * std::cos(angle), z, std::sqrt(1 - z * z) * std::sin(angle)};
+}
+
+/// What all sprites of a cloud have, as its age goes from 0 to 1.
+struct Cloud {
+    const char* name;
+    int sprites;
+    double inner, outer;  ///< metres from the heart at age 1
+    double size;
+    float alpha;
+};
+
+Emitter cloud(const Cloud& about, std::uint32_t texture, FrameBuilder& builder) {
+    Emitter emitter;
+    emitter.name = about.name;
+    emitter.texture = texture;
+    emitter.soft_depth_fade = 0.2f;
+    Random random(builder.seed() * 0x10001 + static_cast<std::uint64_t>(about.sprites));
+    const double grown = std::sqrt(0.2 + 0.8 * builder.progress());
+    for (int i = 0; i < about.sprites; ++i) {
+        const glm::dvec3 towards = direction(random);
+        Particle particle;
+        particle.center = heart + towards * grown * std::cbrt(random.between(std::pow(about.inner, 3), std::pow(about.outer, 3)));
+        particle.size = static_cast<float>(about.size * grown * random.between(0.7, 1.3));
+        particle.rotation = random.between(0.0f, 2 * std::numbers::pi_v<float>);
+        particle.alpha = about.alpha * random.between(0.6f, 1.0f);
+        emitter.particles.push_back(particle);
+    }
+    return emitter;
+}
+
+/// Hottest at the heart; covers a little where it burns, so no sprite is light alone.
+void add_fire(FrameBuilder& builder) {
+    Emitter fire = cloud({"fire", 90, 0, 0.75, 0.28, 0.3f}, builder.add(puff(builder.seed() + 1)), builder);
+    for (Particle& particle : fire.particles) {
+        const auto heat = static_cast<float>(std::exp(-3 * glm::length(particle.center - heart)));
+        particle.color = {0.1f, 0.05f, 0.02f};
+        particle.emissive = glm::mix(glm::vec3(1.6f, 0.3f, 0.03f), glm::vec3(12, 7, 2.5f), heat);
+    }
+    builder.frame.emitters.push_back(std::move(fire));
+}
+
+void add_smoke(FrameBuilder& builder) {
+    Emitter smoke = cloud({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, builder.add(puff(builder.seed())), builder);
+    for (Particle& particle : smoke.particles) particle.color = glm::vec3(static_cast<float>(0.08 + 0.08 * particle.center.y));
+    builder.frame.emitters.push_back(std::move(smoke));
+}
+
+}  // namespace
+
+Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
+    FrameBuilder builder(frame, options);
+    builder.look({.eye = {0.4, 1.7, 4.5}, .target = {0, 1.2, 0}, .vertical_fov = 0.75});
+    Material tiles = lambert("tiles", glm::vec3(1));
+    tiles.base_color_texture.texture = builder.add(checker(2, glm::vec3(0.5f), glm::vec3(0.25f)));
+    tiles.base_color_texture.transform = {6, 0, 0, 0, 6, 0};
+    builder.draw(builder.add(box({6, 0.1f, 6})), builder.add(tiles), {.position = {0, -0.1, 0}});
+    add_crate(builder, builder.add(lambert("wood", {0.45f, 0.28f, 0.12f})), glm::dvec3(0.4),
+              {.position = {1.5, 0, -0.6}, .yaw = 0.4});
+    People(builder).add(builder, builder.add(lambert("coat", {0.1f, 0.2f, 0.5f})), {.position = {-1.6, 0, -1}, .yaw = 0.3});
+    add_smoke(builder);
+    add_fire(builder);
+    Material hot_air = unlit("hot air", {0.9f, 0.85f, 0.8f, 0.04f});
+    hot_air.distortion = 0.02f;
+    builder.draw(builder.add(quad({1.1f, 1.1f})), builder.add(hot_air), {.position = {0, 1.6, 1.5}});
+    builder.frame.hemisphere = {.sky = {0.5f, 0.55f, 0.65f}, .ground = {0.25f, 0.22f, 0.2f}};
+    builder.frame.background = {0.3f, 0.38f, 0.5f};
+    return std::move(builder.frame);
+}
+
+}  // namespace strata::scenario

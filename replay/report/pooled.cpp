@@ -1,0 +1,97 @@
+#include "replay/report/pooled.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+namespace strata {
+namespace {
+
+constexpr double least = 1e-5;
+
+/// Frames differ in brightness, so a relative error is pooled where the judge has one; else its first figure is.
+const Figure& pooled_figure(const Measurement& row) {
+    const auto relative = std::ranges::find(row.accuracy.method, "relative rmse", &Figure::name);
+    return relative == row.accuracy.method.end() ? row.accuracy.method.front() : *relative;
+}
+
+/// The mean of a figure over rows; nothing when one of them lacks it.
+std::optional<double> mean_of(std::span<const Measurement* const> rows,
+                              const std::function<std::optional<double>(const Measurement&)>& figure) {
+    std::vector<double> values;
+    for (const Measurement* row : rows)
+        if (const auto value = figure(*row)) values.push_back(*value);
+    return values.empty() || values.size() < rows.size() ? std::nullopt : std::optional(geometric_mean(values));
+}
+
+PooledRow pooled_row(std::span<const Measurement* const> rows) {
+    double bytes = 0;
+    for (const Measurement* row : rows) bytes += row->bytes_per_pixel / double(rows.size());
+    return {
+        .technique = rows.front()->technique,
+        .settings = rows.front()->settings,
+        .error = *mean_of(rows, [](const Measurement& row) { return pooled_figure(row).value; }),
+        .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
+        .bytes_per_pixel = bytes,
+        .flicker = mean_of(rows, [](const Measurement& row) { return row.flicker; }),
+        .captures = rows.size()};
+}
+
+void mark_fronts(Pool& pool) {
+    const std::vector<Standing> all = standings(pool);
+    const std::vector<bool> fast = pareto_front(all, &Standing::time), small = pareto_front(all, &Standing::bytes_per_pixel);
+    for (std::size_t i = 0; i < pool.rows.size(); ++i) {
+        pool.rows[i].on_front = fast[i] && pool.rows[i].time;
+        pool.rows[i].on_memory_front = small[i];
+    }
+}
+
+}  // namespace
+
+double geometric_mean(std::span<const double> values) {
+    double logs = 0;
+    for (const double value : values) logs += std::log(std::max(value, least));
+    return values.empty() ? 0 : std::exp(logs / double(values.size()));
+}
+
+Pool pooled(std::span<const Report> reports) {
+    Pool pool;
+    std::vector<std::vector<const Measurement*>> rows;  // of equal technique and settings
+    bool one_unit = true;
+    for (const Report& report : reports) {
+        pool.stage = report.stage;
+        if (!report.skipped.empty()) continue;
+        if (pool.captures == 0) pool.time_unit = report.time_unit;
+        one_unit = one_unit && report.time_unit == pool.time_unit;
+        ++pool.captures;
+        for (const Measurement& row : report.rows) {
+            if (row.accuracy.method.empty()) continue;
+            pool.error = pooled_figure(row).name;
+            const auto same = [&](const auto& others) { return label(*others.front()) == label(row); };
+            const auto known = std::ranges::find_if(rows, same);
+            if (known == rows.end()) rows.push_back({&row});
+            else known->push_back(&row);
+        }
+    }
+    if (!one_unit) pool.time_unit.clear();
+    for (const auto& same : rows) pool.rows.push_back(pooled_row(same));
+    mark_fronts(pool);
+    std::ranges::stable_sort(pool.rows, {},
+                             [&](const PooledRow& row) { return std::tuple(pool.captures - row.captures, row.error); });
+    return pool;
+}
+
+std::vector<Standing> standings(const Pool& pool) {
+    std::vector<Standing> all;
+    for (const PooledRow& row : pool.rows) {
+        Standing standing{.time = row.time.value_or(HUGE_VAL), .bytes_per_pixel = std::round(row.bytes_per_pixel)};
+        if (row.captures == pool.captures) standing.error = row.error;
+        all.push_back(standing);
+    }
+    return all;
+}
+
+std::string label(const PooledRow& row) { return row.settings.empty() ? row.technique : row.technique + " " + row.settings; }
+
+}  // namespace strata

@@ -1,0 +1,41 @@
+#include "replay/report/ranking.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+namespace strata {
+
+std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
+    const auto beats = [&](const Standing& one, const Standing& other) {
+        const bool no_worse = *one.error <= *other.error && one.*cost <= other.*cost;
+        return no_worse && (*one.error < *other.error || one.*cost < other.*cost);
+    };
+    std::vector<bool> front;
+    for (const Standing& row : rows)
+        front.push_back(row.error && std::ranges::none_of(rows, [&](const Standing& r) { return r.error && beats(r, row); }));
+    return front;
+}
+
+std::span<const Budget> budgets() {
+    static constexpr Budget all[] = {{&Standing::time, 1},
+                                     {&Standing::time, 2},
+                                     {&Standing::time, 4},
+                                     {&Standing::bytes_per_pixel, 16},
+                                     {&Standing::bytes_per_pixel, 32},
+                                     {&Standing::bytes_per_pixel, 64}};
+    return all;
+}
+
+std::string name(const Budget& budget) {
+    return fmt::format("{} <= {}", budget.cost == &Standing::time ? "time" : "bytes per pixel", budget.most);
+}
+
+std::optional<std::size_t> best_within(std::span<const Standing> rows, const Budget& budget) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].error && rows[i].*budget.cost <= budget.most && (!best || *rows[i].error < *rows[*best].error)) best = i;
+    return best;
+}
+
+}  // namespace strata

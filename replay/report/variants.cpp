@@ -1,0 +1,58 @@
+#include "replay/report/variants.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "passes/registry.h"
+
+namespace strata {
+namespace {
+
+bool has_param(const Technique& technique, std::string_view key) {
+    return std::ranges::count(technique.params, key, &Param::name) > 0;
+}
+
+/// "key=value" on top of what the variant has.
+Variant with(Variant variant, std::string_view setting) {
+    variant.request.sets.push_back(fmt::format("{}:{}", variant.technique->name, setting));
+    variant.settings += fmt::format("{}{}", variant.settings.empty() ? "" : " ", setting);
+    return variant;
+}
+
+Variant at_point(Variant variant, std::string_view point) {
+    std::istringstream settings{std::string(point)};
+    for (std::string setting; settings >> setting;) variant = with(std::move(variant), setting);
+    return variant;
+}
+
+std::vector<Variant> swept(const Variant& defaults, std::span<const Sweep> sweeps) {
+    std::vector<Variant> variants{defaults};
+    for (const Sweep& sweep : sweeps) {
+        if (!has_param(*defaults.technique, sweep.key)) continue;
+        std::vector<Variant> multiplied;
+        for (const Variant& variant : variants)
+            for (const std::string& value : sweep.values) multiplied.push_back(with(variant, sweep.key + "=" + value));
+        variants = std::move(multiplied);
+    }
+    return variants;
+}
+
+}  // namespace
+
+Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
+    const auto techniques = techniques_of(wanted.stage);
+    for (const Sweep& sweep : wanted.sweeps)
+        if (std::ranges::none_of(techniques, [&](const Technique* technique) { return has_param(*technique, sweep.key); }))
+            return fail(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
+    std::vector<Variant> all;
+    for (const Technique* technique : techniques) {
+        Variant defaults{technique, wanted.base, ""};
+        defaults.request.uses.push_back(std::string(technique->name));
+        std::ranges::move(swept(defaults, wanted.sweeps), std::back_inserter(all));
+        if (!wanted.sweeps.empty()) continue;
+        for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));
+    }
+    return all;
+}
+
+}  // namespace strata

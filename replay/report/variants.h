@@ -1,0 +1,22 @@
+// The rows of a report before anything is measured: techniques with their settings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/technique.h"
+#include "replay/report/report.h"
+
+namespace strata {
+
+struct Variant {
+    const Technique* technique = nullptr;
+    Request request;
+    std::string settings;  ///< "falloff=20 weight=w9"
+};
+
+/// Every technique of the stage at its defaults and at each of its points; or, with sweeps, with every combination of those whose
+/// keys it has. Fails for a key that no technique has.
+Result<std::vector<Variant>> variants(const ReportRequest&);
+
+}  // namespace strata
