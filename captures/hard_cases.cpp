@@ -35,7 +35,8 @@ Frame frame_of(std::vector<Card> cards, glm::vec3 background = glm::vec3(0)) {
 
 /// Red in front of green in front of blue, all opaque.
 std::vector<Frame> opaque_cards(double spacing) {
-    return {frame_of({layer(metres(-spacing), {1, 0, 0}, 1), layer(metres(0), {0, 1, 0}, 1), layer(metres(spacing), {0, 0, 1}, 1)})};
+    return {
+        frame_of({layer(metres(-spacing), {1, 0, 0}, 1), layer(metres(0), {0, 1, 0}, 1), layer(metres(spacing), {0, 0, 1}, 1)})};
 }
 std::vector<Frame> cards_far_apart() { return opaque_cards(.1); }
 std::vector<Frame> cards_at_a_fiftieth() { return opaque_cards(.02); }
@@ -97,7 +98,9 @@ std::vector<Frame> blinding_layers() {
     return {frame_of(cards)};
 }
 
-std::vector<Frame> beyond_half_floats() { return {frame_of({grey(1000, 0, .5f), grey(32000, 1, .5f), grey(1e6, 0, .5f)}, glm::vec3(.5f))}; }
+std::vector<Frame> beyond_half_floats() {
+    return {frame_of({grey(1000, 0, .5f), grey(32000, 1, .5f), grey(1e6, 0, .5f)}, glm::vec3(.5f))};
+}
 
 /// Every order of submission.
 std::vector<Frame> coincident(std::vector<std::pair<float, float>> color_and_alpha) {
@@ -168,8 +171,8 @@ constexpr auto table = std::to_array<HardCase>({
     {"H2 more behind", "does a card of .9 look the same with 0, 1, 2, 4 and 7 cards behind it?", HardMeasure::unsteadiness, 2e-3,
      more_and_more_behind},
     {"H3 moving stack", "do two cards .02 apart look the same at 33 distances?", HardMeasure::unsteadiness, 5e-3, moving_stack},
-    {"H4 back-to-back glass", "which of two panes an eighth of an inch apart is in front, at .5, 2.5 and 10 m?", HardMeasure::error,
-     .02, back_to_back_glass},
+    {"H4 back-to-back glass", "which of two panes an eighth of an inch apart is in front, at .5, 2.5 and 10 m?",
+     HardMeasure::error, .02, back_to_back_glass},
     {"H5 thin layers", "200 layers of .01 with a ramp of color: what is seen of them, and through them?", HardMeasure::error, .02,
      two_hundred_thin_layers},
     {"H6a alpha 0", "is a card of alpha 0 as good as none, bit by bit?", HardMeasure::change, 0, with_and_without_alpha_zero},
@@ -181,15 +184,16 @@ constexpr auto table = std::to_array<HardCase>({
     {"H10a equal depths", "three layers at one depth: the later in front, or the same in every order?", HardMeasure::tie, 2e-3,
      three_coincident},
     {"H10b unequal alphas", "the same of .9 and .1", HardMeasure::tie, 2e-3, two_unequal_coincident},
-    {"H11 not a number", "does one bad particle among twenty change anything, bit by bit?", HardMeasure::change, 0, one_bad_particle},
+    {"H11 not a number", "does one bad particle among twenty change anything, bit by bit?", HardMeasure::change, 0,
+     one_bad_particle},
     {"H13 at 150 m", "panes .3 m apart, smoke and a car behind, all at 150 m", HardMeasure::error, .02, facade_far_away},
     {"H14a smoke before a wall", "smoke of .1 before a wall in the depth buffer", HardMeasure::error, 2e-3, smoke_before_a_wall},
     {"H14b smoke before a card", "smoke of .1 before a card of alpha 1", HardMeasure::error, .02, smoke_before_a_card},
-    {"H15 closer and closer", "two layers of .5 from 3/64 to 0 apart: never more wrong than a tie, .125?", HardMeasure::error, .127,
-     closer_and_closer},
+    {"H15 closer and closer", "two layers of .5 from 3/64 to 0 apart: never more wrong than a tie, .125?", HardMeasure::error,
+     .127, closer_and_closer},
     {"H16a nothing in sight", "is a frame whose layers are all hidden left alone?", HardMeasure::error, 1e-7, nothing_in_sight},
-    {"H16b one layer mid-range", "one layer at the middle of the range, where a polynomial loses a degree", HardMeasure::error, 2e-3,
-     one_layer_mid_range},
+    {"H16b one layer mid-range", "one layer at the middle of the range, where a polynomial loses a degree", HardMeasure::error,
+     2e-3, one_layer_mid_range},
 });
 
 }  // namespace

@@ -12,17 +12,17 @@ namespace strata {
 
 /// What is measured over a case's frames, per pixel and channel, relative to max(1, the truth); the worst counts.
 enum class HardMeasure {
-    error,        ///< difference from the truth
-    unsteadiness, ///< how much the difference from the truth changes from frame to frame, where nothing should
-    change,       ///< difference from the first frame, where there should be none
-    tie,          ///< the less of error and change: any rule will do that is kept
+    error,         ///< difference from the truth
+    unsteadiness,  ///< how much the difference from the truth changes from frame to frame, where nothing should
+    change,        ///< difference from the first frame, where there should be none
+    tie,           ///< the less of error and change: any rule will do that is kept
 };
 
 struct HardCase {
-    std::string_view name;      ///< "H14b thin smoke before an opaque card"
+    std::string_view name;  ///< "H14b thin smoke before an opaque card"
     std::string_view question;
     HardMeasure measure = HardMeasure::error;
-    double accept = 0;          ///< up to here a method holds
+    double accept = 0;  ///< up to here a method holds
     std::vector<Frame> (*build)() = nullptr;
 };
 

@@ -44,12 +44,13 @@ ComputePass reading_sums(Graph& graph, std::string shader, const FrameImages& im
 
 }  // namespace
 
-const Param accumulation_row = {.name = "accumulation",
-                                .low = 0,
-                                .high = 2,
-                                .fallback = accumulation_half,
-                                .help = "formats of the sums: RGBA16F, R11G11B10F or RGBA32F for color, 16 or 32 bits for the rest",
-                                .choices = accumulations};
+const Param accumulation_row = {
+    .name = "accumulation",
+    .low = 0,
+    .high = 2,
+    .fallback = accumulation_half,
+    .help = "formats of the sums: RGBA16F, R11G11B10F or RGBA32F for color, 16 or 32 bits for the rest",
+    .choices = accumulations};
 
 FunctionSums create_sums(Graph& graph, const FrameImages& images, std::uint32_t accumulation) {
     const SumFormats formats = formats_of(accumulation);
@@ -81,8 +82,7 @@ void resolve_sums(Graph& graph, FrameImages& images, const FunctionSums& sums) {
 
 std::vector<Counter> function_counters() {
     return {counter<&FunctionCounters::drawn>({.name = "drawn", .help = "visible transparent fragments weighted and added"}),
-            counter<&FunctionCounters::scrubbed>(
-                {.name = "scrubbed", .help = "samples whose sums were no number: always 0"})};
+            counter<&FunctionCounters::scrubbed>({.name = "scrubbed", .help = "samples whose sums were no number: always 0"})};
 }
 
 std::vector<Counter> function_counters_with_lists() {

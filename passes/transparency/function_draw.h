@@ -33,7 +33,8 @@ extern const Param accumulation_row;
 std::vector<Counter> function_counters();
 std::vector<Counter> function_counters_with_lists();
 
-/// (1 - exp(-X)) / N of the first sample's first channel, 1 where nothing is drawn: how far T(z) is from a function that telescopes.
+/// (1 - exp(-X)) / N of the first sample's first channel, 1 where nothing is drawn: how far T(z) is from a function that
+/// telescopes.
 Image normalization_view(Graph&, const FrameImages&, const FunctionSums&);
 /// The row of such a view; `add` is the technique's own.
 DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&));

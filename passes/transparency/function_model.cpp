@@ -26,7 +26,8 @@ struct Sums {
     glm::dvec3 color{0}, extinction{0}, normalizer{0}, emission{0};
 };
 
-Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, std::uint32_t accumulation, bool chromatic) {
+Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, std::uint32_t accumulation,
+             bool chromatic) {
     Sums sums;
     for (const Fragment& fragment : fragments) {
         const glm::dvec3 through = transmittance(fragment);
@@ -59,7 +60,8 @@ ReferenceImage farthest_depth(const ReferenceImage& fine, std::uint32_t width, s
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) {
             double farthest = 1;
-            const std::uint32_t end_x = ((x + 1) * fine.width + width - 1) / width, end_y = ((y + 1) * fine.height + height - 1) / height;
+            const std::uint32_t end_x = ((x + 1) * fine.width + width - 1) / width,
+                                end_y = ((y + 1) * fine.height + height - 1) / height;
             for (std::uint32_t s = 0; s < fine.layers; ++s)
                 for (std::uint32_t fy = y * fine.height / height; fy < end_y; ++fy)
                     for (std::uint32_t fx = x * fine.width / width; fx < end_x; ++fx)
@@ -103,8 +105,8 @@ struct Read {
 
 /// Bilinear, clamped at the edges, or the nearest texel.
 Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 extent, glm::uvec2 pixel) {
-    const glm::dvec2 place = glm::dvec2(pixel.x + .5, pixel.y + .5) / glm::dvec2(extent) *
-                             glm::dvec2(projected.width, projected.height);
+    const glm::dvec2 place =
+        glm::dvec2(pixel.x + .5, pixel.y + .5) / glm::dvec2(extent) * glm::dvec2(projected.width, projected.height);
     Read read{.texel = glm::uvec2(place)};
     const bool linear = model.filter == PrepassModel::Filter::linear;
     const glm::dvec2 at = linear ? place - .5 : glm::floor(place);

@@ -40,10 +40,7 @@ void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, 
         .stores("GroupStarts", lists.group_starts)
         .push(band)
         .groups({groups(band), 1, 1});
-    graph.compute("transparency/lists_scan_groups.comp")
-        .updates("GroupStarts", lists.group_starts)
-        .push(band)
-        .groups({1, 1, 1});
+    graph.compute("transparency/lists_scan_groups.comp").updates("GroupStarts", lists.group_starts).push(band).groups({1, 1, 1});
 }
 
 void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {

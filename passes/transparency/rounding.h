@@ -14,7 +14,8 @@ inline constexpr SmallFloat half_float = {10, 65504}, float11 = {6, 65024}, floa
 
 enum class Rounding { towards_zero, to_nearest };
 
-/// Denormals kept, saturated as lavapipe's blending is (hardware goes to infinity, which the resolves read as the largest number).
+/// Denormals kept, saturated as lavapipe's blending is (hardware goes to infinity, which the resolves read as the largest
+/// number).
 double rounded(double value, SmallFloat, Rounding = Rounding::towards_zero);
 
 }  // namespace strata::transparency

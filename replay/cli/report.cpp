@@ -8,6 +8,7 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
+#include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
 
 namespace strata {
@@ -22,7 +23,7 @@ struct Options {
     std::size_t frame = 0, repeats = 7;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
-    bool json = false, csv = false;
+    bool json = false, csv = false, hard_cases = false;
     std::filesystem::path output;
 };
 
@@ -77,7 +78,23 @@ Result<ReportRequest> request_of(const Options& options) {
     return wanted;
 }
 
+Result<void> write(const Options& options, const std::string& text) {
+    if (!options.output.empty()) return write_whole_file(options.output, text);
+    fmt::print("{}", text);
+    return {};
+}
+
+Result<void> report_hard_cases(const Options& options) {
+    if (options.csv) return fail(Fault::usage, "--hard-cases writes text or --json");
+    const auto made = measure_hard_cases(options.open.device, show_progress);
+    if (!made) return made.error();
+    return write(options, options.json ? as_json(*made) : as_text(*made));
+}
+
 Result<void> report(const Options& options) {
+    if (options.hard_cases) return report_hard_cases(options);
+    if (options.captures.empty())
+        return fail(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
     std::vector<Report> made;
@@ -91,17 +108,18 @@ Result<void> report(const Options& options) {
         report->capture_name = capture.filename().string();
         made.push_back(*std::move(report));
     }
-    const std::string text = written(options, made);
-    if (!options.output.empty()) return write_whole_file(options.output, text);
-    fmt::print("{}", text);
-    return {};
+    return write(options, written(options, made));
 }
 
 }  // namespace
 
 std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one")->required();
+    CLI::Option* captures =
+        app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one");
+    app.add_flag("--hard-cases", options->hard_cases,
+                 "every transparency technique on the frames such methods fail on: holds, or by how much it does not")
+        ->excludes(captures);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
     add_options(app, options->choices);

@@ -69,10 +69,14 @@ double measured(HardMeasure measure, std::span<const Seen> frames) {
         unsteadiness = std::max(unsteadiness, worst(first.truth, departure));
     }
     switch (measure) {
-        case HardMeasure::error: return error;
-        case HardMeasure::change: return change;
-        case HardMeasure::unsteadiness: return unsteadiness;
-        case HardMeasure::tie: return std::min(error, change);
+        case HardMeasure::error:
+            return error;
+        case HardMeasure::change:
+            return change;
+        case HardMeasure::unsteadiness:
+            return unsteadiness;
+        case HardMeasure::tie:
+            return std::min(error, change);
     }
     return error;
 }
@@ -149,7 +153,8 @@ std::string_view name(HardOutcome::Verdict verdict) {
     return names[static_cast<std::size_t>(verdict)];
 }
 
-Result<HardCaseReport> measure_hard_cases(const DeviceChoice& device, const std::function<void(std::string_view, double)>& progress) {
+Result<HardCaseReport> measure_hard_cases(const DeviceChoice& device,
+                                          const std::function<void(std::string_view, double)>& progress) {
     const CaseFrames frames = frames_of_all_cases();
     auto session = Session::open(frames.all, device);
     if (!session) return session.error();

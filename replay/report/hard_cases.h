@@ -16,10 +16,10 @@ struct HardOutcome {
     /// undocumented: a failure the technique does not know of, or of another size than it says: a bug of code or of record.
     /// undeserved: it holds what it says it does not.
     enum class Verdict { holds, documented, undocumented, undeserved, not_applicable } verdict = Verdict::holds;
-    double error = 0;       ///< as the case measures; infinite where a pixel is no number
-    double documented = 0;  ///< what the technique says, where it does
-    double model_worst = 0; ///< GPU against model over the case's frames, relative
-    std::string reason;     ///< why it does not apply, or why it fails
+    double error = 0;        ///< as the case measures; infinite where a pixel is no number
+    double documented = 0;   ///< what the technique says, where it does
+    double model_worst = 0;  ///< GPU against model over the case's frames, relative
+    std::string reason;      ///< why it does not apply, or why it fails
 };
 
 struct HardCaseRow {
@@ -33,7 +33,8 @@ struct HardCaseReport {
 };
 
 /// Measures hard_cases() with every technique of the stage at its defaults.
-Result<HardCaseReport> measure_hard_cases(const DeviceChoice&, const std::function<void(std::string_view what, double done)>& = {});
+Result<HardCaseReport> measure_hard_cases(const DeviceChoice&,
+                                          const std::function<void(std::string_view what, double done)>& = {});
 
 std::string as_text(const HardCaseReport&);
 std::string as_json(const HardCaseReport&);

@@ -15,11 +15,16 @@ std::string_view id(const HardCase& hard_case) { return hard_case.name.substr(0,
 std::string cell(const HardOutcome& outcome) {
     using Verdict = HardOutcome::Verdict;
     switch (outcome.verdict) {
-        case Verdict::holds: return "ok";
-        case Verdict::not_applicable: return "-";
-        case Verdict::documented: return fmt::format("{:.2g}", outcome.error);
-        case Verdict::undocumented: return fmt::format("{:.2g}!", outcome.error);
-        case Verdict::undeserved: return "ok?";
+        case Verdict::holds:
+            return "ok";
+        case Verdict::not_applicable:
+            return "-";
+        case Verdict::documented:
+            return fmt::format("{:.2g}", outcome.error);
+        case Verdict::undocumented:
+            return fmt::format("{:.2g}!", outcome.error);
+        case Verdict::undeserved:
+            return "ok?";
     }
     return "";
 }
@@ -30,8 +35,7 @@ std::string as_text(const HardCaseReport& report) {
     std::string text = fmt::format("hard cases of transparency on {} ({})\n\n", report.device.name, report.device.driver);
     std::size_t width = 4;
     for (const HardCase& hard_case : hard_cases()) width = std::max(width, hard_case.name.size());
-    for (std::size_t i = 0; i < report.rows.size(); ++i)
-        text += fmt::format("  {:>2}  {}\n", i + 1, report.rows[i].technique);
+    for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>2}  {}\n", i + 1, report.rows[i].technique);
     text += fmt::format("\n  {:<{}}  {:>7}", "case", width, "holds at");
     for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>7}", i + 1);
     text += '\n';
@@ -40,8 +44,9 @@ std::string as_text(const HardCaseReport& report) {
         for (const HardCaseRow& row : report.rows) text += fmt::format("  {:>7}", cell(row.outcomes[c]));
         text += '\n';
     }
-    text += "\nok: holds. A number: fails by so much, as the technique documents. -: not applicable. !: a failure that is not\n"
-            "documented, or of another size. ok?: holds what is documented as a failure.\n";
+    text +=
+        "\nok: holds. A number: fails by so much, as the technique documents. -: not applicable. !: a failure that is not\n"
+        "documented, or of another size. ok?: holds what is documented as a failure.\n";
     return text;
 }
 
@@ -56,7 +61,8 @@ std::string as_json(const HardCaseReport& report) {
                                          {"accept", hard_cases()[c].accept},
                                          {"verdict", name(outcome.verdict)}};
             if (outcome.verdict != HardOutcome::Verdict::not_applicable) {
-                entry["error"] = std::isfinite(outcome.error) ? nlohmann::ordered_json(outcome.error) : nlohmann::ordered_json("infinite");
+                entry["error"] =
+                    std::isfinite(outcome.error) ? nlohmann::ordered_json(outcome.error) : nlohmann::ordered_json("infinite");
                 entry["model_worst"] = outcome.model_worst;
             }
             if (outcome.documented > 0) entry["documented"] = outcome.documented;

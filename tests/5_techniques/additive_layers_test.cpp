@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "captures/cards.h"
 #include "passes/registry.h"
 #include "replay/image_io.h"
-#include "captures/cards.h"
 #include "tests/support/session.h"
 
 namespace strata {

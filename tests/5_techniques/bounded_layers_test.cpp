@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/transparency/a_buffer/model.h"
 #include "captures/cards.h"
+#include "passes/transparency/a_buffer/model.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/registry.h"
 #include "captures/cards.h"
+#include "passes/registry.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -57,10 +57,7 @@ protected:
             .stores("GroupStarts", of_groups)
             .push(band)
             .groups({groups, 1, 1});
-        graph.compute("transparency/lists_scan_groups.comp")
-            .updates("GroupStarts", of_groups)
-            .push(band)
-            .groups({1, 1, 1});
+        graph.compute("transparency/lists_scan_groups.comp").updates("GroupStarts", of_groups).push(band).groups({1, 1, 1});
         graph.keep(within);
         graph.keep(of_groups);
         const Execution done = shared_executor().run(must(compile(graph, ShaderLibrary::built_in())), {});

@@ -119,6 +119,8 @@ Technique a_buffer() {
                    .low = 0,
                    .high = 32,
                    .add = a_buffer_overflow_view}},
+        .known_failures = {{"H5", 0.126, "nine layers are sorted, 191 merged behind them"},
+                           {"H10b", 0.00625, "alpha is kept in bytes"}},
         .add = add,
         .model = a_buffer_model,
         .tolerance = {.rmse = 3e-4,

@@ -48,7 +48,8 @@ Technique adaptive() {
         .title = "Adaptive transparency",
         .source = "Salvi, Montgomery and Lefohn 2011, HPG",
         .summary =
-            "Compresses each sample's T(z) into a few steps by removing the least area, then weights a second draw by it: what is "
+            "Compresses each sample's T(z) into a few steps by removing the least area, then weights a second draw by it: what "
+            "is "
             "compressed darkens fragments behind a removed step, and the curve depends on the order of drawing.",
         .params = {param<&AdaptiveParams::nodes>({.name = "nodes",
                                                   .low = 0,
@@ -56,8 +57,7 @@ Technique adaptive() {
                                                   .fallback = 1,
                                                   .help = "steps of a sample's curve",
                                                   .choices = node_counts}),
-                   param<&AdaptiveParams::accumulation>(accumulation_row),
-                   param<&AdaptiveParams::pool>(pool_row)},
+                   param<&AdaptiveParams::accumulation>(accumulation_row), param<&AdaptiveParams::pool>(pool_row)},
         .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
@@ -66,8 +66,9 @@ Technique adaptive() {
         .model = adaptive_model,
         .tolerance = {.rmse = 5e-3,
                       .worst = 5e-2,
-                      .because = "sums are rounded to half floats at every blend, and of equal areas a last float bit decides which "
-                                 "step is removed: 2.8e-3 measured on 200 layers"},
+                      .because =
+                          "sums are rounded to half floats at every blend, and of equal areas a last float bit decides which "
+                          "step is removed: 2.8e-3 measured on 200 layers"},
     };
 }
 

@@ -54,7 +54,9 @@ glm::dvec3 transmittance_at(std::span<const CurveStep> curve, double depth) {
 ImageSet adaptive_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<AdaptiveParams>();
     const FunctionOfSample function = [&](std::span<const Fragment> fragments) -> Transmittance {
-        return [curve = adaptive_curve(fragments, curve_nodes(params))](const Fragment& f) { return transmittance_at(curve, f.depth); };
+        return [curve = adaptive_curve(fragments, curve_nodes(params))](const Fragment& f) {
+            return transmittance_at(curve, f.depth);
+        };
     };
     return function_model(input, params.accumulation, function);
 }

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "captures/cards.h"
 #include "passes/technique.h"
 #include "passes/transparency/object_order.h"
 #include "passes/transparency/truth.h"
-#include "captures/cards.h"
 
 namespace strata {
 namespace transparency {

@@ -41,8 +41,7 @@ Technique exact_function() {
         .summary =
             "Every fragment looks its exact T(z) up in sorted lists and is added: shows what the shared draw and resolve cost in "
             "accuracy; slow in deep pixels, and fragments of equal depth do not hide each other.",
-        .params = {param<&ExactFunctionParams::pool>(pool_row),
-                   param<&ExactFunctionParams::accumulation>(accumulation_row)},
+        .params = {param<&ExactFunctionParams::pool>(pool_row), param<&ExactFunctionParams::accumulation>(accumulation_row)},
         .points = {"accumulation=packed", "accumulation=single"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
@@ -51,8 +50,9 @@ Technique exact_function() {
         .model = exact_function_model,
         .tolerance = {.rmse = 2e-3,
                       .worst = 2e-2,
-                      .because = "sums are rounded to half floats at every blend, in the model, too, but a last float bit of a term "
-                                 "can turn the rounding of each"},
+                      .because =
+                          "sums are rounded to half floats at every blend, in the model, too, but a last float bit of a term "
+                          "can turn the rounding of each"},
     };
 }
 

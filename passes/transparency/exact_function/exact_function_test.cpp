@@ -53,7 +53,7 @@ TEST(FunctionResolve, IsExactForOneColorWhateverTheFunction) {
 
 TEST(FunctionResolve, DoesNotCareHowTheFunctionIsScaled) {
     const std::array fragments{layer(1, .3, .9), layer(7, .5, .1), layer(20, .2, .4)};
-    const Transmittance whole = exact(fragments), part = [&](const Fragment& f) { return .3 * exact(fragments)(f); };
+    const Transmittance whole = exact(fragments), part = [&](const Fragment&f) { return .3 * exact(fragments)(f); };
     EXPECT_NEAR(function_blend(fragments, glm::dvec3(1), whole).x, function_blend(fragments, glm::dvec3(1), part).x, 1e-12);
 }
 
@@ -66,7 +66,8 @@ TEST(FunctionResolve, AddsEmissionWithoutCoverage) {
 
 TEST(FunctionResolve, IsExactForASingleEvent) {
     for (const double alpha : {1e-4, .01, .5, .999})
-        EXPECT_NEAR(function_blend(std::array{layer(1, alpha, 1)}, glm::dvec3(2), nothing_hides).x, alpha + (1 - alpha) * 2, 1e-12);
+        EXPECT_NEAR(function_blend(std::array{layer(1, alpha, 1)}, glm::dvec3(2), nothing_hides).x, alpha + (1 - alpha) * 2,
+                    1e-12);
     // A wall of alpha 1 lets exp(-32) through.
     EXPECT_NEAR(function_blend(std::array{layer(1, 1, 0)}, glm::dvec3(1), nothing_hides).x, std::exp(-32.), 1e-15);
 }

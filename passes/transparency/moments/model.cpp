@@ -42,8 +42,8 @@ std::vector<double> bias_moments(const MomentsParams& params) {
     return moments;
 }
 
-/// b0 and the others as the storage keeps them, event by event in submission order. FP32 is part of it: the bias of 5e-7 is only a
-/// few of its steps.
+/// b0 and the others as the storage keeps them, event by event in submission order. FP32 is part of it: the bias of 5e-7 is only
+/// a few of its steps.
 std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEvent> events) {
     std::vector<double> kept(1 + 2 * root_count(params.kind), 0.);
     for (const WarpedEvent& event : events) {

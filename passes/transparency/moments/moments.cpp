@@ -37,7 +37,8 @@ Moments create_moments(Graph& graph, const FrameImages& low, const MomentsParams
     const bool half = params.storage == storage_half, fixed = params.storage == storage_normalized;
     const auto created = [&](const char* name, Format single, Format half_float) {
         const Format format = half ? half_float : fixed && single != Format::r32f ? Format::rgba16_unorm : single;
-        return graph.create(name, Shape{.extent = low.extent, .format = format, .layers = channel_count(params.channels, *low.features)});
+        return graph.create(
+            name, Shape{.extent = low.extent, .format = format, .layers = channel_count(params.channels, *low.features)});
     };
     Moments moments{.total = created("moment 0", Format::r32f, Format::r16f),
                     .head = created("moments 1 to 4", Format::rgba32f, Format::rgba16f)};
@@ -163,7 +164,8 @@ Technique moments() {
         .title = "Moment-based",
         .source = "Muenstermann, Krumpen, Klein and Peters 2018, I3D; half resolution: Sharpe 2018, HPG",
         .summary =
-            "Reconstructs T(z) from a few additive moments of depth: order independent, fixed memory, good in smoke; leaks between "
+            "Reconstructs T(z) from a few additive moments of depth: order independent, fixed memory, good in smoke; leaks "
+            "between "
             "near-opaque cards, and every further layer bends the whole curve.",
         .params = params(),
         .points = {"kind=power6", "kind=power8", "kind=trig2", "kind=trig3", "kind=trig4", "storage=half", "storage=normalized",
@@ -172,12 +174,20 @@ Technique moments() {
         .counters = counters(),
         .counter_bytes = sizeof(MomentsCounters),
         .views = {normalization_row(factor_view)},
+        .known_failures = {{"H1c", 0.043, "the cards are closer than the bias can tell apart"},
+                           {"H2", 0.169, "four moments serve up to three depths; every further card bends the curve"},
+                           {"H4", 0.115, "the panes are closer than the bias can tell apart"},
+                           {"H5", 0.0203, "four moments of 200 layers"},
+                           {"H13", 0.134, "the panes are closer than the bias can tell apart"},
+                           {"H14b", 0.469,
+                            "a quarter of the card's own optical depth hides it: compensation=own or overestimation=0"}},
         .add = add,
         .model = moments_model,
         .tolerance = {.rmse = 1.2e-2,
                       .worst = .4,
-                      .because = "float sums are a few steps finer than the bias: in a pixel where two panes cross, which of them is in "
-                                 "front hangs on their last bits (.37 there; 3e-2 elsewhere)"},
+                      .because =
+                          "float sums are a few steps finer than the bias: in a pixel where two panes cross, which of them is in "
+                          "front hangs on their last bits (.37 there; 3e-2 elsewhere)"},
     };
 }
 

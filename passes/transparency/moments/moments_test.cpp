@@ -33,7 +33,8 @@ std::vector<double> through(std::uint32_t kind, std::initializer_list<double> pl
 
 void expect_near(const std::vector<double>& got, std::initializer_list<double> wanted, double tolerance, std::uint32_t kind) {
     ASSERT_EQ(got.size(), wanted.size());
-    for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], wanted.begin()[i], tolerance) << "kind " << kind << " event " << i;
+    for (std::size_t i = 0; i < got.size(); ++i)
+        EXPECT_NEAR(got[i], wanted.begin()[i], tolerance) << "kind " << kind << " event " << i;
 }
 
 double tolerance_of(std::uint32_t kind) { return kind == moments_power8 ? 5e-4 : 1e-4; }
@@ -71,7 +72,8 @@ TEST(Moments, ReconstructUniformSmoke) {
     EXPECT_NEAR(absorbance_share(moments_power4, uniform(moments_power4), 0, .25), 7. / 18, 1e-9);
     EXPECT_NEAR(absorbance_share(moments_power6, uniform(moments_power6), 1e-4, .25), 7. / 18, 1e-4);
     EXPECT_NEAR(absorbance_share(moments_power8, uniform(moments_power8), 0, .25), .428889, 1e-6);
-    for (const std::uint32_t kind : {moments_power4, moments_power8}) EXPECT_NEAR(absorbance_share(kind, uniform(kind), 0, .5), .5, 1e-9);
+    for (const std::uint32_t kind : {moments_power4, moments_power8})
+        EXPECT_NEAR(absorbance_share(kind, uniform(kind), 0, .5), .5, 1e-9);
     EXPECT_NEAR(absorbance_share(moments_power4, uniform(moments_power4), .5, .25), .585856, 1e-6);
     EXPECT_NEAR(absorbance_share(moments_power6, uniform(moments_power6), .5, .25), .657734, 1e-6);
     EXPECT_NEAR(absorbance_share(moments_power8, uniform(moments_power8), .5, .25), .679162, 1e-6);
@@ -85,7 +87,8 @@ TEST(Moments, FitInto16BitsAndComeBack) {
             for (std::uint32_t k = 1; k <= 4 + 2 * kind; ++k) moments.push_back(std::pow(w, k));
             const std::vector<double> back = dequantized(kind, quantized(kind, moments));
             // Half a step of 1/65535, times what the inverse transform adds up to in a row.
-            for (std::size_t k = 0; k < back.size(); ++k) ASSERT_NEAR(back[k], moments[k], .5 / 65535 * 2.6) << kind << " at " << w;
+            for (std::size_t k = 0; k < back.size(); ++k)
+                ASSERT_NEAR(back[k], moments[k], .5 / 65535 * 2.6) << kind << " at " << w;
         }
 }
 

@@ -1,4 +1,5 @@
-// Normalized moments on [0, 1] as 16 bits keep them (Muenstermann et al. 2018; the transforms as transparency chapter 4.3 gives them).
+// Normalized moments on [0, 1] as 16 bits keep them (Muenstermann et al. 2018; the transforms as transparency chapter 4.3 gives
+// them).
 #include <cmath>
 
 #include <glm/glm.hpp>

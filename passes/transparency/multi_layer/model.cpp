@@ -19,7 +19,8 @@ struct Node {
 glm::dvec3 multi_layer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, std::uint32_t layers) {
     std::vector<Node> nodes;
     for (const Fragment& f : fragments) {
-        nodes.insert(std::ranges::lower_bound(nodes, f.depth, {}, &Node::depth), {f.depth, f.color + f.emission, f.transmittance});
+        nodes.insert(std::ranges::lower_bound(nodes, f.depth, {}, &Node::depth),
+                     {f.depth, f.color + f.emission, f.transmittance});
         if (nodes.size() <= layers) continue;
         Node& kept = nodes[layers - 1];
         kept.color += kept.transmittance * nodes[layers].color;
@@ -40,7 +41,8 @@ ImageSet multi_layer_model(const StageInput& input, const Settings& settings) {
     const SampleBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind) {
         for (std::uint32_t bucket = params.buckets; bucket-- > 0;) {
             std::vector<Fragment> inside;
-            std::ranges::copy_if(fragments, std::back_inserter(inside), [&](const Fragment& f) { return bucket_of(f) == bucket; });
+            std::ranges::copy_if(fragments, std::back_inserter(inside),
+                                 [&](const Fragment& f) { return bucket_of(f) == bucket; });
             behind = multi_layer_blend(inside, behind, params.layers);
         }
         return behind;

@@ -40,7 +40,8 @@ Technique multi_layer() {
         .title = "Multi-layer alpha blending",
         .source = "Salvi and Vaidyanathan 2014, I3D; depth buckets: Kern et al. 2020, TVCG",
         .summary =
-            "Blends into a few sorted nodes per sample in one pass, merging the farthest two: what comes later cannot get between "
+            "Blends into a few sorted nodes per sample in one pass, merging the farthest two: what comes later cannot get "
+            "between "
             "merged layers, so the result depends on the order of drawing.",
         .params = {param<&MultiLayerParams::layers>(
                        {.name = "layers", .low = 2, .high = most_layers, .fallback = 4, .help = "nodes per sample and bucket"}),
@@ -55,12 +56,14 @@ Technique multi_layer() {
         .counters = counters(),
         .counter_bytes = sizeof(MultiLayerCounters),
         .views = {layers_view_row},
+        .known_failures = {{"H5", 0.121, "what comes later cannot get between merged layers"}},
         .add = add,
         .model = multi_layer_model,
         .tolerance = {.rmse = 1e-5,
                       .worst = 5e-3,
-                      .because = "lit, filtered and composited in float; a highlight of clear glass turns the 1e-6 of an interpolated "
-                                 "normal into 2e-3"},
+                      .because =
+                          "lit, filtered and composited in float; a highlight of clear glass turns the 1e-6 of an interpolated "
+                          "normal into 2e-3"},
     };
 }
 

@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "captures/cards.h"
 #include "passes/transparency/row_bounds.h"
 #include "passes/transparency/truth.h"
-#include "captures/cards.h"
 
 namespace strata {
 namespace {

@@ -55,7 +55,8 @@ std::vector<double> haar_coefficients(std::uint32_t rank, std::uint32_t storage,
         for (std::uint32_t p = 0; p <= rank; ++p) {
             const double wavelets = std::ldexp(1., int(p)), k = std::floor(x * wavelets);
             const double tent = std::min(x - k / wavelets, (k + 1) / wavelets - x);
-            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], event.optical_depth * std::sqrt(wavelets) * tent, storage);
+            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], event.optical_depth * std::sqrt(wavelets) * tent,
+                storage);
         }
         add(coefficients.back(), event.optical_depth * (1 - x), storage);
     }

@@ -31,7 +31,7 @@ struct WaveletPush {
     float log_nearest;  // of the frame's range of depth, in ln metres
     float log_farthest;
     float jitter;
-    uint width;     // texels of a row of the prepass
+    uint width;  // texels of a row of the prepass
     uint height;
     uint channels;  // 1 or 3
 };

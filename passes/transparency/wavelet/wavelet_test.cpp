@@ -80,7 +80,8 @@ TEST(Wavelet, BlendsTwoHundredThinLayersBetterWithEveryRank) {
     std::vector<Fragment> ramp;
     for (int i = 0; i < 200; ++i) ramp.push_back(layer((i + .5) / 200, .01, i / 199.));
     const double wanted[] = {.3178, .3016, .2975, .2965};
-    for (std::uint32_t rank = 1; rank <= 4; ++rank) EXPECT_NEAR(blend(rank, correction_none, ramp, 0), wanted[rank - 1], 1e-3) << rank;
+    for (std::uint32_t rank = 1; rank <= 4; ++rank)
+        EXPECT_NEAR(blend(rank, correction_none, ramp, 0), wanted[rank - 1], 1e-3) << rank;
 }
 
 TEST(Wavelet, SeesThinSmokeInFrontOfACardOnlyWhenCorrected) {
