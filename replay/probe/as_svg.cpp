@@ -1,4 +1,5 @@
 // A probe as a plot: T(z), what methods get wrong of it, and the fragments, above one axis of depth.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,13 +34,22 @@ public:
           order_(best_first(probe)),
           height_(std::max(750., 96 + legend_line * double(order_.size() + 1))),
           drawing_(1180, height_) {
-        for (const ProbeCurve* curve : order_)
+        std::vector<double> errors;  // the most of each curve
+        for (const ProbeCurve* curve : order_) {
+            double most = 0;
             for (std::size_t i = 0; i < curve->through.size(); ++i) {
                 highest_ = std::max(highest_, luminance(curve->through[i]));
-                widest_ = std::max(widest_, std::abs(luminance(curve->through[i] - probe.exact[i])));
+                most = std::max(most, std::abs(luminance(curve->through[i] - probe.exact[i])));
             }
+            if (!curve->through.empty()) errors.push_back(most);
+        }
+        for (const Fragment& f : probe.fragments) thickest_ = std::max(thickest_, alpha_of(f));
         highest_ = std::min(std::ceil(highest_ * 10) / 10, 2.) + .02;
-        widest_ = std::clamp(widest_ * 1.1, .001, 1.);
+        if (errors.empty()) return;
+        // The better half is wholly seen: one method that is far off would make lines of all others.
+        std::ranges::sort(errors);
+        widest_ = std::clamp(1.2 * errors[errors.size() / 2], .001, 1.);
+        is_cut_ = errors.back() > widest_;
     }
 
     std::string take() {
@@ -60,9 +70,12 @@ private:
                                 : std::log(z / probe_.from) / std::log(probe_.to / probe_.from);
         return through_box.left + std::clamp(u, 0., 1.) * through_box.width;
     }
+    /// The end of the range is a float: the farthest fragment may be a little behind it.
+    bool is_seen(const Fragment& f) const { return f.depth >= probe_.from && f.depth <= probe_.to * (1 + 1e-6); }
     double y_through(double t) const { return through_box.bottom() - t / highest_ * through_box.height; }
     double y_error(double e) const { return error_box.top + error_box.height * (.5 - .5 * e / widest_); }
-    static double y_alpha(double alpha) { return fragment_box.bottom() - alpha * (fragment_box.height - 8); }
+    double y_alpha(double alpha) const { return fragment_box.bottom() - alpha / thickest_ * (fragment_box.height - 12); }
+    static double alpha_of(const Fragment& f) { return luminance(1. - f.transmittance); }
 
     void titles() {
         drawing_.text({70, 28}, "Transmittance along the ray: " + place_of(probe_), Anchor::start, 17);
@@ -90,44 +103,63 @@ private:
         for (const double t : svg::ticks(0, highest_, svg::Spacing::even)) tick(through_box, y_through(t), t);
         const double step = svg::ticks(0, widest_, svg::Spacing::even).back();
         for (const double e : {-step, 0., step}) tick(error_box, y_error(e), e);
-        for (const double alpha : {0., 1.}) tick(fragment_box, y_alpha(alpha), alpha);
+        for (const double alpha : {0., svg::ticks(0, thickest_, svg::Spacing::even).back()})
+            tick(fragment_box, y_alpha(alpha), alpha);
         drawing_.line({error_box.left, y_error(0)}, {error_box.right(), y_error(0)}, {});
         for (const Box& box : {through_box, error_box, fragment_box}) drawing_.frame(box);
         drawing_.upright_text({22, through_box.top + through_box.height / 2},
                               probe_.colored ? "T(z), luminance [1]" : "transmittance T(z) [1]");
-        drawing_.upright_text({22, error_box.top + error_box.height / 2}, "T(z) - exact [1]");
-        drawing_.upright_text({22, fragment_box.top + fragment_box.height / 2}, "alpha [1]");
+        drawing_.upright_text({22, error_box.top + error_box.height / 2},
+                              is_cut_ ? "T(z) - exact, cut off [1]" : "T(z) - exact [1]");
+        drawing_.upright_text({22, fragment_box.top + fragment_box.height / 2}, probe_.colored ? "1 - t [1]" : "alpha [1]");
     }
 
-    /// A stem of the height of its alpha, with what it scatters; light without coverage stands on the ground.
+    /// A stem of the height of its alpha with what it scatters, or of glass what it lets through; light without coverage stands
+    /// on the ground.
     void fragments() {
         for (const Fragment& f : probe_.fragments) {
-            if (f.depth < probe_.from || f.depth > probe_.to) continue;
-            const double alpha = luminance(1. - f.transmittance);
-            const glm::dvec3 light = f.alpha > 0 ? f.color / f.alpha + f.emission : f.emission + f.color;
+            if (!is_seen(f)) continue;
+            const double alpha = alpha_of(f);
+            glm::dvec3 light = f.alpha > 0 ? f.color / f.alpha + f.emission : f.emission + f.color;
+            light /= 1. + light;
+            if (f.transmittance.x != f.transmittance.y || f.transmittance.y != f.transmittance.z) light = f.transmittance;
             drawing_.line({x(f.depth), y_alpha(0)}, {x(f.depth), y_alpha(alpha)}, {.color = "#666", .css = "ink"});
             drawing_.dot({x(f.depth), y_alpha(alpha)}, probe_.fragments.size() > 60 ? 2.5 : 4, shown(light));
         }
     }
 
-    /// Display light of radiance, by the simplest curve that ends at 1.
     static std::string shown(glm::dvec3 light) {
         std::array<unsigned, 3> bytes{};
-        for (int c = 0; c < 3; ++c) bytes[std::size_t(c)] = unsigned(display_byte(light[c] / (1 + light[c])));
+        for (int c = 0; c < 3; ++c) bytes[std::size_t(c)] = unsigned(display_byte(light[c]));
         return fmt::format("#{:02x}{:02x}{:02x}", bytes[0], bytes[1], bytes[2]);
     }
 
+    /// Up and down more often than transmittance falls: noise.
+    static bool is_noisy(const ProbeCurve& curve) {
+        double travelled = 0;
+        for (std::size_t i = 1; i < curve.through.size(); ++i)
+            travelled += std::abs(luminance(curve.through[i] - curve.through[i - 1]));
+        return travelled > 4;
+    }
+
+    /// Noise behind everything, and the best on top.
     void curves() {
-        for (std::size_t i = order_.size(); i-- > 0;) {  // the best on top
-            std::vector<glm::dvec2> through, error;
-            for (std::size_t s = 0; s < order_[i]->through.size(); ++s) {
-                const double t = luminance(order_[i]->through[s]), at = x(probe_.depths[s]);
-                through.push_back({at, y_through(t)});
-                error.push_back({at, y_error(t - luminance(probe_.exact[s]))});
-            }
-            drawing_.polyline(through, through_box, pen_of(i));
-            drawing_.polyline(error, error_box, pen_of(i));
+        for (const bool noisy : {true, false})
+            for (std::size_t i = order_.size(); i-- > 0;)
+                if (is_noisy(*order_[i]) == noisy) curve(i, noisy ? .7 : pen_of(i).width);
+    }
+
+    void curve(std::size_t i, double width) {
+        Pen pen = pen_of(i);
+        pen.width = width;
+        std::vector<glm::dvec2> through, error;
+        for (std::size_t s = 0; s < order_[i]->through.size(); ++s) {
+            const double t = luminance(order_[i]->through[s]), at = x(probe_.depths[s]);
+            through.push_back({at, y_through(t)});
+            error.push_back({at, y_error(t - luminance(probe_.exact[s]))});
         }
+        drawing_.polyline(through, through_box, pen);
+        drawing_.polyline(error, error_box, pen);
     }
 
     void steps() {
@@ -144,7 +176,7 @@ private:
         glm::dvec3 t = exact_transmittance(probe_.fragments, probe_.from);
         std::vector<glm::dvec2> points{{x(probe_.from), y_through(channel(t))}};
         for (const Fragment& f : probe_.fragments) {
-            if (f.depth < probe_.from || f.depth > probe_.to) continue;
+            if (!is_seen(f)) continue;
             points.push_back({x(f.depth), y_through(channel(t))});
             t *= f.transmittance;
             points.push_back({x(f.depth), y_through(channel(t))});
@@ -174,7 +206,8 @@ private:
 
     const Probe& probe_;
     std::vector<const ProbeCurve*> order_;
-    double height_, highest_ = 1, widest_ = 0;
+    double height_, highest_ = 1, widest_ = .001, thickest_ = .01;
+    bool is_cut_ = false;  ///< whether an error is larger than its panel
     Drawing drawing_;
 };
 

@@ -1,4 +1,6 @@
 // A probe for a terminal and for spreadsheets.
+#include <cmath>
+
 #include "replay/counted.h"
 #include "replay/probe/order.h"
 #include "replay/probe/probe.h"
@@ -39,9 +41,10 @@ std::string figure_lines(const Probe& probe) {
             text += fmt::format("  not supported: {}\n", curve->not_supported);
             continue;
         }
+        const double total = std::abs(f.total) < 5e-6 ? 0 : f.total;  // no -0.00000
         const std::string off = f.worst_off_steps ? fmt::format("{:.5f}", *f.worst_off_steps) : "-";
         text += fmt::format("  {:>9.5f}  {:>9.5f}  {:>9}  {:>9.5f}  {:>+9.5f}\n", f.l1_logarithmic, f.l1_linear, off,
-                            f.event_weighted, f.total);
+                            f.event_weighted, total);
     }
     return text;
 }
@@ -60,8 +63,11 @@ std::string as_text(const Probe& probe) {
     text +=
         "\nL1: mean |T - exact| over the probed range, logarithmic and linear. Linf off: the most, 1% of the axis away from "
         "every\n"
-        "step. E_w: at the fragments, weighted by alpha. total: T - exact behind everything. T of a method is the share of a\n"
-        "probe's light that arrives; every fragment is a card of its own, so what sorts objects sorts fragments here.\n";
+        "step. E_w: at the fragments, weighted by what they hide. total: T - exact behind everything. T of a method is the "
+        "share\n"
+        "of a probe's light that arrives. Along the ray probes are submitted last, which a method that keeps what comes first\n"
+        "treats as too late; at fragments they come with the fragment. Every fragment is a card of its own: what sorts objects\n"
+        "sorts fragments here.\n";
     for (const ProbeCurve& curve : probe.curves)
         for (const std::string& note : curve.notes) text += fmt::format("{}: {}\n", curve.method, note);
     return text;

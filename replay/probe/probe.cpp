@@ -96,8 +96,9 @@ ProbeFigures figures_of(const Probe& probe, const ProbeCurve& curve) {
     }
     double weight = 0;
     for (std::size_t i = 0; i < probe.fragments.size(); ++i) {
-        weight += probe.fragments[i].alpha;
-        figures.event_weighted += probe.fragments[i].alpha * mean_error(curve.at_events[i], probe.before_events[i]);
+        const double hidden = mean_error(probe.fragments[i].transmittance, glm::dvec3(1));
+        weight += hidden;
+        figures.event_weighted += hidden * mean_error(curve.at_events[i], probe.before_events[i]);
     }
     if (weight > 0) figures.event_weighted /= weight;
     const glm::dvec3 total = curve.total - probe.exact_total;
@@ -277,17 +278,21 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
 
     const Axis axis{probe.axis, probe.from, probe.to};
     for (std::uint32_t i = 0; i < options.samples; ++i) probe.depths.push_back(axis.depth((i + .5) / options.samples));
-    std::vector<double> depths = probe.depths;
-    for (const double z : probe.depths) probe.exact.push_back(exact_transmittance(probe.fragments, z));
+    std::vector<ProbePoint> points;
+    for (const double z : probe.depths) {
+        probe.exact.push_back(exact_transmittance(probe.fragments, z));
+        points.push_back({z, stack.fragments.size()});
+    }
     for (const Fragment& fragment : probe.fragments) {
-        depths.push_back(fragment.depth * just_in_front);
-        probe.before_events.push_back(exact_transmittance(probe.fragments, depths.back()));
+        const auto submitted = std::ranges::find(stack.fragments, fragment.submission, &Fragment::submission);
+        points.push_back({fragment.depth * just_in_front, static_cast<std::size_t>(submitted - stack.fragments.begin())});
+        probe.before_events.push_back(exact_transmittance(probe.fragments, points.back().depth));
         const glm::dvec3 t = fragment.transmittance;
         probe.colored = probe.colored || t.x != t.y || t.y != t.z;
         probe.exact_total *= t;
     }
     const ProbeScene scene{
-        .fragments = stack.fragments, .nearest = stack.nearest, .farthest = stack.farthest, .depths = depths, .seed = stack.seed};
+        .fragments = stack.fragments, .nearest = stack.nearest, .farthest = stack.farthest, .points = points, .seed = stack.seed};
     if (const auto measured = measure_all(session, probe, scene, *methods); !measured) return measured.error();
     return probe;
 }

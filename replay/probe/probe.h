@@ -31,7 +31,7 @@ struct ProbeFigures {
     double l1_logarithmic = 0, l1_linear = 0;  ///< integral of |T^ - T| over the probed range as 0 to 1 in ln z, and in z
     /// The most |T^ - T| farther from every step than 1% of the axis; nothing where steps are everywhere.
     std::optional<double> worst_off_steps;
-    double event_weighted = 0;  ///< sum of alpha |T^ - T| over the fragments / sum of alpha
+    double event_weighted = 0;  ///< sum of (1 - t) |T^ - T| over the fragments / sum of 1 - t
     double total = 0;           ///< T^ - T behind everything
 };
 
@@ -65,7 +65,8 @@ struct Probe {
 /// Fails (usage) for a pixel outside the picture or without a fragment, and for methods and settings that do not exist.
 Result<Probe> probe(Session&, const Request&, PixelAt, const ProbeOptions&);
 
-/// The same of given fragments, at least one, in submission order; nearest to farthest is the range of depth methods map by.
+/// The same of given fragments, at least one, in submission order, no two of one number; nearest to farthest is the range of
+/// depth methods map by.
 struct ProbedStack {
     std::vector<Fragment> fragments;
     double nearest = 1, farthest = 2;

@@ -19,7 +19,7 @@ constexpr double strip_share = .6;
 class Builder {
 public:
     explicit Builder(const ProbeScene& scene) {
-        frame_.view.width = static_cast<std::uint32_t>(scene.depths.size());
+        frame_.view.width = static_cast<std::uint32_t>(scene.points.size());
         frame_.view.height = 1;
         frame_.view.near = static_cast<float>(scene.nearest) / 2;
         frame_.view.projection = perspective(std::numbers::pi / 2, 1, double(frame_.view.near));
@@ -67,23 +67,29 @@ void add(Builder& builder, const Fragment& fragment) {
     builder.card(builder.material(glm::vec4(0, 0, 0, fragment.alpha), k, AlphaMode::blend), z, 0, 1.5);
 }
 
-void add_probes(Builder& builder, const ProbeScene& scene) {
-    if (scene.kind == ProbeKind::none) return;
-    const bool is_additive = scene.kind == ProbeKind::additive;
-    const float light = scene.kind == ProbeKind::thin_black ? 0.f : 1.f;
-    const glm::vec4 color(glm::vec3(light), is_additive ? 1.f : static_cast<float>(thin_probe_alpha));
-    const std::uint32_t material = builder.material(color, {}, is_additive ? AlphaMode::additive : AlphaMode::blend);
-    const double pixel = 2. / static_cast<double>(scene.depths.size());
-    for (std::size_t i = 0; i < scene.depths.size(); ++i)
-        builder.card(material, scene.depths[i], (static_cast<double>(i) + .5) * pixel - 1, strip_share * pixel / 2);
+/// The probes' material.
+std::uint32_t add_probe(Builder& builder, ProbeKind kind) {
+    const float light = kind == ProbeKind::thin_black ? 0.f : 1.f;
+    if (kind == ProbeKind::additive) return builder.material(glm::vec4(light), {}, AlphaMode::additive);
+    return builder.material(glm::vec4(glm::vec3(light), thin_probe_alpha), {}, AlphaMode::blend);
 }
 
 }  // namespace
 
 Frame probe_frame(const ProbeScene& scene) {
     Builder builder(scene);
-    for (const Fragment& fragment : scene.fragments) add(builder, fragment);
-    add_probes(builder, scene);
+    const std::uint32_t probe = add_probe(builder, scene.kind);
+    const double pixel = 2. / static_cast<double>(scene.points.size());
+    const auto add_probes = [&](std::size_t before) {
+        for (std::size_t i = 0; i < scene.points.size() && scene.kind != ProbeKind::none; ++i)
+            if (scene.points[i].before == before)
+                builder.card(probe, scene.points[i].depth, (static_cast<double>(i) + .5) * pixel - 1, strip_share * pixel / 2);
+    };
+    for (std::size_t i = 0; i < scene.fragments.size(); ++i) {
+        add_probes(i);
+        add(builder, scene.fragments[i]);
+    }
+    add_probes(scene.fragments.size());
     const std::uint32_t unseen = builder.material(glm::vec4(0, 0, 0, .5f), {}, AlphaMode::blend);
     for (const double z : {scene.nearest, scene.farthest}) builder.card(unseen, z, 1e4, .1);
     return builder.take();

@@ -18,10 +18,15 @@ enum class ProbeKind {
 };
 constexpr double thin_probe_alpha = 1. / 256;
 
+struct ProbePoint {
+    double depth = 1;        ///< metres, within the range
+    std::size_t before = 0;  ///< submitted just before this fragment, or after all
+};
+
 struct ProbeScene {
     std::span<const Fragment> fragments;  ///< in submission order
     double nearest = 1, farthest = 2;     ///< metres: the range of depth, pinned by two cards out of sight
-    std::span<const double> depths;       ///< of the probes, a pixel each; within the range
+    std::span<const ProbePoint> points;   ///< a pixel each
     ProbeKind kind = ProbeKind::additive;
     float background = 0;
     std::uint64_t seed = 0;

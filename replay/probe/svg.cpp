@@ -92,7 +92,7 @@ std::vector<double> ticks(double low, double high, Spacing spacing) {
     const double rough = (high - low) / 6, decade = std::pow(10, std::floor(std::log10(rough))), share = rough / decade;
     const double step = (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10) * decade;
     // From whole numbers of steps: sums would show their rounding.
-    for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push_back(i * step);
+    for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push_back(i * step + 0.);  // no -0
     return found;
 }
 
