@@ -2,6 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "replay/probe/probe.h"
 
@@ -17,7 +21,7 @@ inline std::vector<const ProbeCurve*> best_first(const Probe& probe) {
     return order;
 }
 
-/// "f0 (10, 20) sample 0".
+/// "frame 0, pixel (10, 20), sample 0".
 inline std::string place_of(const Probe& probe) {
     return fmt::format("frame {}, pixel ({}, {}), sample {}", probe.frame, probe.at.x, probe.at.y, probe.at.sample);
 }

@@ -1,6 +1,7 @@
 #include "replay/probe/probe.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -266,6 +267,7 @@ glm::dvec3 exact_transmittance(std::span<const Fragment> fragments, double z) {
 Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& options) {
     const auto methods = parse_methods(options.methods);
     if (!methods) return methods.error();
+    assert(!stack.fragments.empty());
     const std::size_t pixels = options.samples + stack.fragments.size();
     if (options.samples < 2 || options.samples > most_samples || pixels > session.device().max_image_extent)
         return fail(Fault::usage, "{} samples beside {} fragments cannot be probed: 2 to {} can, {} with the fragments",

@@ -67,7 +67,7 @@ ProbedStack stack_of(const Ray& ray) {
 }
 
 TEST(CanonicalRays, TheDeviceLeavesTheAreaOfTheTable) {
-    ProbeOptions options{.samples = 4000, .from = nearest, .to = farthest};
+    ProbeOptions options{.samples = 400, .from = nearest, .to = farthest};
     for (const MethodOfTable& row : table) options.methods.emplace_back(row.method);
     for (std::size_t r = 0; r < rays().size(); ++r) {
         const Probe made = must(probe(session_of_scenarios(), stack_of(rays()[r]), options));
