@@ -195,7 +195,9 @@ private:
             const ProbeCurve& curve = *order_[i];
             const bool has_curve = curve.not_supported.empty();
             if (has_curve) drawing_.line({left, y}, {left + 30, y}, pen_of(i));
-            drawing_.text({left + 38, y + 4}, curve.method);
+            // All are of one stage. Long settings get smaller letters, .62 of their size wide: 246 pixels are left.
+            const std::string method = curve.method.substr(curve.method.find('/') + 1);
+            drawing_.text({left + 38, y + 4}, method, Anchor::start, std::clamp(246 / (.62 * double(method.size())), 6., 12.));
             drawing_.text({left + 38, y + 18},
                           has_curve
                               ? fmt::format("L1 {:.4f}   E_w {:.4f}", curve.figures.l1_logarithmic, curve.figures.event_weighted)
