@@ -32,6 +32,8 @@ public:
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
+    Result<const FragmentLists*> transparent_fragments(const Request&) override;
+    Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
     void forget_memo() override { memo_.clear(); }
 
 private:
@@ -60,6 +62,7 @@ private:
 
     /// Loads the frame's variant when it is not the current one, and declares the request on it.
     Result<Declaration> prepare(const Request&, Memo*, Keep);
+    Result<void> load(Frame, const FrameVariant&);
     /// Whether the device can bind every buffer whole.
     Result<void> check_buffers(const Plan&) const;
     /// Declares with the memo, as far as the budget leaves it room.

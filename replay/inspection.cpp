@@ -208,4 +208,17 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                         .fragments = &found_->fragments});
 }
 
+Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request& request) {
+    const auto inspected = inspect(request, Stage::transparency);
+    if (!inspected) return inspected.error();
+    if (!found_->fragments) {
+        const auto depth = found_->images.find("depth_layers");
+        const View& view = loaded_->frame.view;
+        found_->fragments = strata::transparent_fragments(
+            loaded_->frame,
+            depth != found_->images.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples));
+    }
+    return &*found_->fragments;
+}
+
 }  // namespace strata

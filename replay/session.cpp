@@ -71,6 +71,24 @@ Result<Run> DeviceSession::run(const Request& request) {
     return run;
 }
 
+Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request> requests) {
+    std::vector<Run> runs;
+    loaded_.reset();
+    for (Request request : requests) {
+        request.once = true;  // what the memo keeps belongs to the capture's frames
+        const FrameVariant variant = variant_of(request);
+        auto loaded = !loaded_ || loaded_->variant != variant ? load(made, variant) : Result<void>();
+        auto run = loaded ? this->run(request) : Result<Run>(loaded.error());
+        if (!run) {
+            loaded_.reset();
+            return run.error();
+        }
+        runs.push_back(*std::move(run));
+    }
+    loaded_.reset();
+    return runs;
+}
+
 Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
     auto declared = prepare(request, nullptr, Keep::outputs);
     if (!declared) return declared.error();
@@ -84,17 +102,22 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
     if (!loaded_ || loaded_->variant != variant) {
         auto recorded = frame(request.frame);
         if (!recorded) return recorded.error();
-        auto loaded = load_frame(*std::move(recorded), variant);
-        if (!loaded) return loaded.error();
-        loaded_ = std::make_unique<LoadedFrame>(*std::move(loaded));
-        loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
-        not_uploaded_ = scene_records(loaded_->frame);
-        scene_.describe(*not_uploaded_);
+        if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
         times_.load = lap();
     }
     auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), memo}, keep); });
     times_.declare = lap();
     return declared;
+}
+
+Result<void> DeviceSession::load(Frame frame, const FrameVariant& variant) {
+    auto loaded = load_frame(std::move(frame), variant);
+    if (!loaded) return loaded.error();
+    loaded_ = std::make_unique<LoadedFrame>(*std::move(loaded));
+    loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
+    not_uploaded_ = scene_records(loaded_->frame);
+    scene_.describe(*not_uploaded_);
+    return {};
 }
 
 Result<void> DeviceSession::check_buffers(const Plan& plan) const {

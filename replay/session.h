@@ -156,6 +156,12 @@ public:
     virtual Result<Accuracy> judge(const Request&, Stage, Against = Against::model_and_truth,
                                    const ImageSet* truth = nullptr) = 0;
 
+    /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
+    /// nothing when the frame and what made its depth are the same as the last time. Valid until the next call.
+    virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
+    /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
+    virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
+
     /// Drops every kept stage output.
     virtual void forget_memo() = 0;
 };

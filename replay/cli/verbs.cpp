@@ -13,6 +13,7 @@ std::function<Result<void>()> declare_accept(CLI::App&);
 std::function<Result<void>()> declare_graph(CLI::App&);
 std::function<Result<void>()> declare_report(CLI::App&);
 std::function<Result<void>()> declare_diff(CLI::App&);
+std::function<Result<void>()> declare_probe(CLI::App&);
 
 std::span<const Verb> verbs() {
     static constexpr Verb table[] = {
@@ -27,6 +28,7 @@ std::span<const Verb> verbs() {
         {"graph", "the plan of a frame: steps, barriers, memory, what is left out and why", declare_graph},
         {"report", "every technique of a stage: error against time", declare_report},
         {"diff", "two captures, settings, devices or images: what differs, where, by how much", declare_diff},
+        {"probe", "one pixel: its fragments in order, and T(z) of every method beside the exact steps", declare_probe},
     };
     return table;
 }

@@ -32,6 +32,8 @@ public:
     Result<Accuracy> judge(const Request& r, Stage s, Against a, const ImageSet* t) override {
         return steady_->judge(r, s, a, t);
     }
+    Result<const FragmentLists*> transparent_fragments(const Request& r) override { return steady_->transparent_fragments(r); }
+    Result<std::vector<Run>> run(Frame f, std::span<const Request> r) override { return steady_->run(std::move(f), r); }
     void forget_memo() override { steady_->forget_memo(); }
 
 private:

@@ -19,7 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr const char* verb_names[] = {"list",   "record", "import", "info", "validate", "replay",
-                                      "accept", "export", "graph",  "diff", "report"};
+                                      "accept", "export", "graph",  "diff", "report",   "probe"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
@@ -210,6 +210,44 @@ TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
         pooled += line.starts_with("\"pooled\",");
     }
     EXPECT_EQ(pooled, reports["pooled"]["rows"].size());
+}
+
+TEST(Probe, ListsThePixelsFragmentsAndWritesWhatEveryMethodLetsThrough) {
+    record_panes();
+    const Finished made = strata("probe panes.strata --at 32,18 --depths 64 -o deep/er --validation");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("pixel (32, 18), sample 0: 3 fragments"));
+    std::ifstream file(folder() / "deep/er.json");
+    const json probe = json::parse(file);
+    EXPECT_EQ(probe["schema"], "strata.probe");
+    EXPECT_EQ(probe["fragments"].size(), 3u);
+    EXPECT_EQ(probe["depths"].size(), 64u);
+    EXPECT_EQ(probe["curves"].size(), techniques_of(Stage::transparency).size());
+    for (const char* written : {"deep/er.csv", "deep/er.svg"}) EXPECT_GT(std::filesystem::file_size(folder() / written), 1000u);
+    for (const Technique* technique : techniques_of(Stage::transparency))
+        EXPECT_THAT(made.out, HasSubstr(std::string(technique->name)));
+}
+
+TEST(Probe, WrongRequestsAreUsageErrorsWithASentence) {
+    record_panes();
+    const std::string method(techniques_of(Stage::transparency).front()->name);
+    const std::pair<std::string, const char*> wrongs[] = {
+        {"--at 64,0", "there is no pixel (64, 0)"},
+        {"--at 0,0", "the nearest pixel with some is ("},
+        {"--at 32", "takes a pixel like"},
+        {"--at 32,18 --sample 1", "there is no sample 1"},
+        {"--at 32,18 --frame 1", "there is no frame 1"},
+        {"--at 32,18 --methods " + method.substr(0, method.size() - 1), "did you mean"},
+        {"--at 32,18 --methods '" + method + " nothing=1'", "nothing"},
+        {"--at 32,18 --depths 1", "2 to"},
+        {"--at 32,18 --from 9", "there is nothing to probe"},
+        {"--at 32,18 --axis square", "--axis"},
+    };
+    for (const auto& [wrong, sentence] : wrongs) {
+        const Finished failed = strata("probe panes.strata " + wrong);
+        EXPECT_EQ(failed.code, 2) << wrong;
+        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
+    }
 }
 
 TEST(Import, AnAnimationBecomesFrames) {

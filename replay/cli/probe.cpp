@@ -1,0 +1,93 @@
+// strata probe: the fragments of one pixel, and T(z) of every method beside the exact step function.
+#include "replay/probe/probe.h"
+
+#include <charconv>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "capture_format/whole_file.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+struct Options {
+    OpenOptions open;
+    ChoiceOptions choices;
+    std::string at, axis = "log";
+    std::uint32_t sample = 0;
+    std::size_t frame = 0;
+    ProbeOptions probe;
+    std::filesystem::path output;
+};
+
+Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
+    PixelAt at{.sample = sample};
+    const char* end = text.data() + text.size();
+    const auto [comma, problem] = std::from_chars(text.data(), end, at.x);
+    if (problem == std::errc() && comma != end && *comma == ',') {
+        const auto [rest, problem_y] = std::from_chars(comma + 1, end, at.y);
+        if (problem_y == std::errc() && rest == end) return at;
+    }
+    return fail(Fault::usage, "--at takes a pixel like 80,45, not '{}'", text);
+}
+
+/// "folder/name" of the files, from what was asked for or from the capture and the pixel.
+std::filesystem::path stem_of(const Options& options, PixelAt at) {
+    if (!options.output.empty()) return options.output;
+    return fmt::format("{}.f{:04}.x{}.y{}", options.open.capture.stem().string(), options.frame, at.x, at.y);
+}
+
+Result<void> write_files(const std::filesystem::path& stem, const Probe& made) {
+    if (stem.has_parent_path())
+        if (const auto folder = make_folder(stem.parent_path()); !folder) return folder;
+    const std::pair<const char*, std::string> files[] = {
+        {".json", as_json(made)}, {".csv", as_csv(made)}, {".svg", as_svg(made)}};
+    for (const auto& [extension, text] : files) {
+        const std::filesystem::path path = stem.string() + extension;
+        if (const auto written = write_whole_file(path, text); !written) return written;
+        fmt::print(stderr, "wrote {}\n", path.string());
+    }
+    return {};
+}
+
+Result<void> run_probe(const Options& options) {
+    const auto at = pixel_of(options.at, options.sample);
+    if (!at) return at.error();
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->frame = options.frame;
+    auto session = open(options.open);
+    if (!session) return session.error();
+    ProbeOptions wanted = options.probe;
+    wanted.axis = options.axis == "linear" ? DepthAxis::linear : DepthAxis::logarithmic;
+    const auto made = probe(**session, *request, *at, wanted);
+    if (!made) return made.error();
+    fmt::print("{}", as_text(*made));
+    return write_files(stem_of(options, *at), *made);
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_probe(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    add_options(app, options->open);
+    add_options(app, options->choices);
+    app.add_option("--at", options->at, "the pixel: x,y from the left top")->required();
+    app.add_option("--sample", options->sample, "which of the pixel's samples, default 0");
+    app.add_option("--frame", options->frame, "which frame, default 0");
+    app.add_option(
+           "--methods", options->probe.methods,
+           "a,b,c: techniques of transparency, each with its settings: 'moments kind=power6,wavelet rank=3'; default: all")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--axis", options->axis, "of depth: log or linear, default log")->check(CLI::IsMember({"log", "linear"}));
+    app.add_option("--depths", options->probe.samples, "where T is sampled along the ray, default 512");
+    app.add_option("--from", options->probe.from, "first depth in metres, default: a little before the first fragment");
+    app.add_option("--to", options->probe.to, "last depth in metres, default: a little behind the last fragment");
+    app.add_option("-o,--output", options->output, "folder/name of the .json, .csv and .svg; default: capture.f0000.x0.y0");
+    return [options] { return run_probe(*options); };
+}
+
+}  // namespace strata

@@ -1,0 +1,95 @@
+// A probe for a terminal and for spreadsheets.
+#include <cmath>
+
+#include "replay/counted.h"
+#include "replay/probe/order.h"
+#include "replay/probe/probe.h"
+
+namespace strata {
+namespace {
+
+// Of a longer list the middle is left out: JSON has it.
+constexpr std::size_t listed = 40;
+
+std::string rgb(const glm::dvec3& v) { return fmt::format("{:.3f} {:.3f} {:.3f}", v.x, v.y, v.z); }
+
+std::string fragment_lines(const Probe& probe) {
+    std::string text = fmt::format("  {:>4}  {:>10}  {:>7}  {:>7}  {:<17}  {:<17}  {:<17}  {:<17}\n", "#", "depth [m]", "submit",
+                                   "alpha", "t", "p", "e", "T in front");
+    const std::size_t count = probe.fragments.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (count > listed && i == listed / 2) {
+            text += fmt::format("  ... {} more\n", count - listed);
+            i = count - listed / 2;
+        }
+        const Fragment& f = probe.fragments[i];
+        text += fmt::format("  {:>4}  {:>10.5g}  {:>7}  {:>7.4f}  {}  {}  {}  {}\n", i + 1, f.depth, f.submission, f.alpha,
+                            rgb(f.transmittance), rgb(f.color), rgb(f.emission), rgb(probe.before_events[i]));
+    }
+    return text;
+}
+
+std::string figure_lines(const Probe& probe) {
+    std::size_t width = 6;
+    for (const ProbeCurve& curve : probe.curves) width = std::max(width, curve.method.size());
+    std::string text = fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "method", width, "L1 log z", "L1 z",
+                                   "Linf off", "E_w", "total");
+    for (const ProbeCurve* curve : best_first(probe)) {
+        const ProbeFigures& f = curve->figures;
+        text += fmt::format("  {:<{}}", curve->method, width);
+        if (!curve->not_supported.empty()) {
+            text += fmt::format("  not supported: {}\n", curve->not_supported);
+            continue;
+        }
+        const double total = std::abs(f.total) < 5e-6 ? 0 : f.total;  // no -0.00000
+        const std::string off = f.worst_off_steps ? fmt::format("{:.5f}", *f.worst_off_steps) : "-";
+        text += fmt::format("  {:>9.5f}  {:>9.5f}  {:>9}  {:>9.5f}  {:>+9.5f}\n", f.l1_logarithmic, f.l1_linear, off,
+                            f.event_weighted, total);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string as_text(const Probe& probe) {
+    std::string text = fmt::format("{}: {}, exact T behind them {}\n", place_of(probe),
+                                   counted(probe.fragments.size(), "fragment"), rgb(probe.exact_total));
+    if (probe.undecided) text += "which fragments there are hangs on rounding: the device may see others\n";
+    text += '\n' + fragment_lines(probe);
+    text += fmt::format(
+        "\nT(z) at {} depths from {:.5g} to {:.5g} m (the frame's transparent geometry: {:.5g} to {:.5g} m) on {}\n\n",
+        probe.depths.size(), probe.from, probe.to, probe.nearest, probe.farthest, probe.device.name);
+    text += figure_lines(probe);
+    text +=
+        "\nL1: mean |T - exact| over the probed range, logarithmic and linear. Linf off: the most, 1% of the axis away from "
+        "every\n"
+        "step. E_w: at the fragments, weighted by what they hide. total: T - exact behind everything. T of a method is the "
+        "share\n"
+        "of a probe's light that arrives. Along the ray probes are submitted last, which a method that keeps what comes first\n"
+        "treats as too late; at fragments they come with the fragment. Every fragment is a card of its own: what sorts objects\n"
+        "sorts fragments here.\n";
+    for (const ProbeCurve& curve : probe.curves)
+        for (const std::string& note : curve.notes) text += fmt::format("{}: {}\n", curve.method, note);
+    return text;
+}
+
+std::string as_csv(const Probe& probe) {
+    const auto header = [&](std::string_view name) {
+        return probe.colored ? fmt::format(",\"{0} r\",\"{0} g\",\"{0} b\"", name) : fmt::format(",\"{}\"", name);
+    };
+    const auto cells = [&](const glm::dvec3& t) {
+        return probe.colored ? fmt::format(",{:.7g},{:.7g},{:.7g}", t.x, t.y, t.z) : fmt::format(",{:.7g}", t.x);
+    };
+    std::vector<const ProbeCurve*> curves;
+    for (const ProbeCurve& curve : probe.curves)
+        if (curve.not_supported.empty()) curves.push_back(&curve);
+    std::string text = "\"depth [m]\"" + header("exact");
+    for (const ProbeCurve* curve : curves) text += header(curve->method);
+    for (std::size_t i = 0; i < probe.depths.size(); ++i) {
+        text += fmt::format("\n{:.9g}", probe.depths[i]) + cells(probe.exact[i]);
+        for (const ProbeCurve* curve : curves) text += cells(curve->through[i]);
+    }
+    return text + '\n';
+}
+
+}  // namespace strata

@@ -1,0 +1,325 @@
+#include "replay/probe/probe.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "capture_format/nearest_name.h"
+#include "passes/registry.h"
+#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/sample_blend.h"
+#include "replay/probe/probe_frame.h"
+
+namespace strata {
+namespace {
+
+constexpr std::uint32_t most_samples = 8192;
+// A probe stands so much nearer than the fragment whose T it measures: more than floats round, less than methods resolve.
+constexpr double just_in_front = 1 - 1e-6;
+// What the probe itself may change of the total before a note says so.
+constexpr double disturbance_noted = 2e-3;
+// Off the steps: farther from every one than this share of the axis.
+constexpr double off_steps = .01;
+
+struct Method {
+    std::string name;
+    const Technique* technique = nullptr;
+    Request request;
+};
+
+/// "transparency/name key=value ...", or the name without its stage.
+Result<Method> parse_method(const std::string& text) {
+    std::istringstream words(text);
+    std::string technique;
+    words >> technique;
+    if (technique.find('/') == technique.npos) technique = fmt::format("{}/{}", name(Stage::transparency), technique);
+    const auto found = find_technique(technique);
+    if (!found) return Error{Fault::usage, found.error().sentence};
+    if ((*found)->stage != Stage::transparency)
+        return fail(Fault::usage, "{} is of the stage {}; a probe measures methods of {}", technique, name((*found)->stage),
+                    name(Stage::transparency));
+    Method method{technique, *found, {.uses = {technique}, .outputs = {"color"}}};
+    for (std::string set; words >> set;) {
+        method.request.sets.push_back(technique + ":" + set);
+        method.name += " " + set;
+    }
+    const auto choices = choose(Frame(), method.request.uses, method.request.sets);
+    return choices ? Result<Method>(std::move(method)) : choices.error();
+}
+
+Result<std::vector<Method>> parse_methods(std::span<const std::string> texts) {
+    std::vector<Method> methods;
+    for (const std::string& text : texts) {
+        auto method = parse_method(text);
+        if (!method) return method.error();
+        methods.push_back(*std::move(method));
+    }
+    if (texts.empty())
+        for (const Technique* technique : techniques_of(Stage::transparency))
+            methods.push_back(*parse_method(std::string(technique->name)));
+    return methods;
+}
+
+/// The axis as 0 to 1.
+struct Axis {
+    DepthAxis kind;
+    double from, to;
+    double depth(double u) const { return kind == DepthAxis::linear ? from + u * (to - from) : from * std::pow(to / from, u); }
+    double place(double z) const {
+        return kind == DepthAxis::linear ? (z - from) / (to - from) : std::log(z / from) / std::log(to / from);
+    }
+};
+
+double mean_error(glm::dvec3 a, glm::dvec3 b) {
+    const glm::dvec3 error = glm::abs(a - b);
+    return (error.x + error.y + error.z) / 3;
+}
+
+ProbeFigures figures_of(const Probe& probe, const ProbeCurve& curve) {
+    ProbeFigures figures;
+    const Axis axis{probe.axis, probe.from, probe.to};
+    const Axis linear{DepthAxis::linear, probe.from, probe.to}, logarithmic{DepthAxis::logarithmic, probe.from, probe.to};
+    std::vector<double> steps;
+    for (const Fragment& fragment : probe.fragments)
+        if (fragment.alpha > 0) steps.push_back(axis.place(fragment.depth));
+    const auto is_off_steps = [&](double u) {
+        return std::ranges::none_of(steps, [&](double step) { return std::abs(u - step) < off_steps; });
+    };
+    const double count = static_cast<double>(probe.depths.size());
+    for (std::size_t i = 0; i < probe.depths.size(); ++i) {
+        const double error = mean_error(curve.through[i], probe.exact[i]), u = static_cast<double>(i) / count;
+        const double near = axis.depth(u), far = axis.depth(u + 1 / count);
+        figures.l1_linear += error * (linear.place(far) - linear.place(near));
+        figures.l1_logarithmic += error * (logarithmic.place(far) - logarithmic.place(near));
+        if (is_off_steps(u + .5 / count)) figures.worst_off_steps = std::max(figures.worst_off_steps.value_or(0), error);
+    }
+    double weight = 0;
+    for (std::size_t i = 0; i < probe.fragments.size(); ++i) {
+        const double hidden = mean_error(probe.fragments[i].transmittance, glm::dvec3(1));
+        weight += hidden;
+        figures.event_weighted += hidden * mean_error(curve.at_events[i], probe.before_events[i]);
+    }
+    if (weight > 0) figures.event_weighted /= weight;
+    const glm::dvec3 total = curve.total - probe.exact_total;
+    figures.total = (total.x + total.y + total.z) / 3;
+    return figures;
+}
+
+using Row = std::vector<glm::dvec3>;
+
+/// What the device makes of one frame by each of several methods: the row of pixels.
+Result<std::vector<Row>> rows_of(Session& session, const ProbeScene& scene, std::span<const Method> methods) {
+    std::vector<Request> requests;
+    for (const Method& method : methods) requests.push_back(method.request);
+    const auto runs = session.run(probe_frame(scene), requests);
+    if (!runs) return runs.error();
+    std::vector<Row> rows;
+    for (const Run& run : *runs) {
+        const HostImage& color = run.images.at("color");
+        Row& row = rows.emplace_back();
+        for (std::uint32_t x = 0; x < run.width; ++x) row.push_back(texel(color, x, 0));
+    }
+    return rows;
+}
+
+/// Why the technique has no answer for a frame with these features; nothing where it has one.
+std::string unsupported(const Technique& technique, const Features& features) {
+    for (const Feature feature : technique.cannot)
+        if (features.has(feature)) return fmt::format("it cannot do {}", name(feature));
+    return {};
+}
+
+/// T at every probe's depth, and behind everything.
+struct Measured {
+    Row through;
+    glm::dvec3 total{0};
+    double disturbance = 0;  ///< the most a probe changed of the total
+};
+
+/// Methods that take the same kind of probe, measured together: a frame is uploaded once for all.
+Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const Method> methods) {
+    const bool is_additive = scene.kind == ProbeKind::additive;
+    std::vector<std::vector<Row>> pictures;
+    const auto take = [&](ProbeKind kind, float background) -> Result<void> {
+        scene.kind = kind;
+        scene.background = background;
+        auto rows = rows_of(session, scene, methods);
+        if (!rows) return rows.error();
+        pictures.push_back(*std::move(rows));
+        return {};
+    };
+    const std::pair<ProbeKind, float> additive[] = {
+        {ProbeKind::none, 1.f}, {ProbeKind::additive, 0.f}, {ProbeKind::additive, 1.f}};
+    const std::pair<ProbeKind, float> thin[] = {
+        {ProbeKind::none, 1.f}, {ProbeKind::thin_white, 0.f}, {ProbeKind::thin_black, 0.f}};
+    for (const auto& [kind, background] : is_additive ? additive : thin)
+        if (const auto taken = take(kind, background); !taken) return taken.error();
+
+    std::vector<Measured> all(methods.size());
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        const Row &behind = pictures[0][m], &lit = pictures[1][m], &other = pictures[2][m];
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            all[m].total += behind[i] / static_cast<double>(lit.size());
+            all[m].through.push_back(is_additive ? lit[i] : (lit[i] - other[i]) / thin_probe_alpha);
+            if (is_additive) all[m].disturbance = std::max(all[m].disturbance, mean_error(other[i] - lit[i], behind[i]));
+        }
+    }
+    return all;
+}
+
+std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind) {
+    if (kind != ProbeKind::additive)
+        return {fmt::format("it cannot do additive light: probed by cards of alpha 1/{:.0f}, which hide as much",
+                            1 / thin_probe_alpha)};
+    if (measured.disturbance < disturbance_noted) return {};
+    return {
+        fmt::format("the probe disturbs the method: T behind everything changes by up to {:.2g}, where the probe takes a layer "
+                    "of its own or other random numbers are drawn",
+                    measured.disturbance)};
+}
+
+/// Fills Probe::curves, in the order of the methods.
+Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const std::vector<Method>& methods) {
+    ProbeScene bare = scene;
+    bare.kind = ProbeKind::none;
+    const Features features = frame_features(probe_frame(bare));
+    probe.curves.resize(methods.size());
+    for (const ProbeKind kind : {ProbeKind::additive, ProbeKind::thin_black}) {
+        std::vector<Method> together;
+        std::vector<ProbeCurve*> curves;
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            const bool has_additive =
+                std::ranges::find(methods[i].technique->cannot, Feature::additive) == methods[i].technique->cannot.end();
+            if (has_additive != (kind == ProbeKind::additive)) continue;
+            probe.curves[i].method = methods[i].name;
+            probe.curves[i].not_supported = unsupported(*methods[i].technique, features);
+            if (!probe.curves[i].not_supported.empty()) continue;
+            together.push_back(methods[i]);
+            curves.push_back(&probe.curves[i]);
+        }
+        scene.kind = kind;
+        if (together.empty()) continue;
+        auto measured = measure(session, scene, together);
+        if (!measured) return measured.error();
+        for (std::size_t i = 0; i < together.size(); ++i) {
+            Measured& of = (*measured)[i];
+            const auto samples = of.through.begin() + static_cast<std::ptrdiff_t>(probe.depths.size());
+            curves[i]->through.assign(of.through.begin(), samples);
+            curves[i]->at_events.assign(samples, of.through.end());
+            curves[i]->total = of.total;
+            curves[i]->notes = notes_of(of, kind);
+            curves[i]->figures = figures_of(probe, *curves[i]);
+        }
+    }
+    return {};
+}
+
+/// From and to: what was asked for, or around the fragments, within the frame's range.
+Result<void> choose_range(Probe& probe, const ProbeOptions& options) {
+    const double first = probe.fragments.front().depth, last = probe.fragments.back().depth;
+    const double margin = std::max(1.05, std::pow(last / first, .1));
+    probe.from = std::clamp(options.from > 0 ? options.from : first / margin, probe.nearest, probe.farthest);
+    probe.to = std::clamp(options.to > 0 ? options.to : last * margin, probe.nearest, probe.farthest);
+    if (probe.from < probe.to) return {};
+    return fail(Fault::usage,
+                "there is nothing to probe from {} to {} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
+                options.from, options.to, probe.nearest, probe.farthest);
+}
+
+/// The frame's pixel nearest to `at` that has a fragment.
+std::optional<PixelAt> nearest_with_some(const FragmentLists& lists, PixelAt at) {
+    std::optional<PixelAt> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t y = 0; y < lists.height(); ++y)
+        for (std::uint32_t x = 0; x < lists.width(); ++x) {
+            const double distance = std::hypot(double(x) - double(at.x), double(y) - double(at.y));
+            if (distance >= least || lists.at(x, y, at.sample).empty()) continue;
+            least = distance;
+            best = PixelAt{x, y, at.sample};
+        }
+    return best;
+}
+
+Result<void> check_pixel(const FragmentLists& lists, PixelAt at) {
+    if (at.x >= lists.width() || at.y >= lists.height())
+        return fail(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})", lists.width(),
+                    lists.height(), at.x, at.y);
+    if (at.sample >= lists.samples())
+        return fail(Fault::usage, "a pixel has {} samples, counted from 0; there is no sample {}", lists.samples(), at.sample);
+    if (!lists.at(at.x, at.y, at.sample).empty()) return {};
+    const auto other = nearest_with_some(lists, at);
+    if (!other) return fail(Fault::usage, "no transparent fragment at ({}, {}), nor anywhere in the frame", at.x, at.y);
+    return fail(Fault::usage, "no transparent fragment at ({}, {}); the nearest pixel with some is ({}, {})", at.x, at.y,
+                other->x, other->y);
+}
+
+}  // namespace
+
+glm::dvec3 exact_transmittance(std::span<const Fragment> fragments, double z) {
+    glm::dvec3 through(1);
+    for (const Fragment& fragment : fragments)
+        if (fragment.depth < z) through *= fragment.transmittance;
+    return through;
+}
+
+Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& options) {
+    const auto methods = parse_methods(options.methods);
+    if (!methods) return methods.error();
+    assert(!stack.fragments.empty());
+    const std::size_t pixels = options.samples + stack.fragments.size();
+    if (options.samples < 2 || options.samples > most_samples || pixels > session.device().max_image_extent)
+        return fail(Fault::usage, "{} samples beside {} fragments cannot be probed: 2 to {} can, {} with the fragments",
+                    options.samples, stack.fragments.size(), most_samples, session.device().max_image_extent);
+    // A depth offset may bring a particle nearer than the range, where methods stop telling depths apart.
+    for (Fragment& fragment : stack.fragments) fragment.depth = std::max(fragment.depth, stack.nearest);
+    Probe probe{.axis = options.axis, .nearest = stack.nearest, .farthest = stack.farthest, .device = session.device()};
+    probe.fragments = transparency::nearest_first(stack.fragments);
+    if (const auto chosen = choose_range(probe, options); !chosen) return chosen.error();
+
+    const Axis axis{probe.axis, probe.from, probe.to};
+    for (std::uint32_t i = 0; i < options.samples; ++i) probe.depths.push_back(axis.depth((i + .5) / options.samples));
+    std::vector<ProbePoint> points;
+    for (const double z : probe.depths) {
+        probe.exact.push_back(exact_transmittance(probe.fragments, z));
+        points.push_back({z, stack.fragments.size()});
+    }
+    for (const Fragment& fragment : probe.fragments) {
+        const auto submitted = std::ranges::find(stack.fragments, fragment.submission, &Fragment::submission);
+        points.push_back({fragment.depth * just_in_front, static_cast<std::size_t>(submitted - stack.fragments.begin())});
+        probe.before_events.push_back(exact_transmittance(probe.fragments, points.back().depth));
+        const glm::dvec3 t = fragment.transmittance;
+        probe.colored = probe.colored || t.x != t.y || t.y != t.z;
+        probe.exact_total *= t;
+    }
+    const ProbeScene scene{
+        .fragments = stack.fragments, .nearest = stack.nearest, .farthest = stack.farthest, .points = points, .seed = stack.seed};
+    if (const auto measured = measure_all(session, probe, scene, *methods); !measured) return measured.error();
+    return probe;
+}
+
+Result<Probe> probe(Session& session, const Request& request, PixelAt at, const ProbeOptions& options) {
+    if (const auto methods = parse_methods(options.methods); !methods) return methods.error();  // before seconds of work
+    const auto frame = session.frame(request.frame);
+    if (!frame) return frame.error();
+    const auto lists = session.transparent_fragments(request);
+    if (!lists) return lists.error();
+    if (const auto checked = check_pixel(**lists, at); !checked) return checked.error();
+    const std::span<const Fragment> fragments = (*lists)->at(at.x, at.y, at.sample);
+    const bool undecided = (*lists)->undecided(at.x, at.y, at.sample);
+    const auto range = transparency::transparent_depth_range(*frame);
+    auto made = probe(session,
+                      {.fragments = {fragments.begin(), fragments.end()},
+                       .nearest = double(range.nearest),
+                       .farthest = double(range.farthest),
+                       .seed = frame->seed},
+                      options);
+    if (!made) return made;
+    made->frame = request.frame;
+    made->at = at;
+    made->undecided = undecided;
+    return made;
+}
+
+}  // namespace strata

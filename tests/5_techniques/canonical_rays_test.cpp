@@ -1,0 +1,174 @@
+// Four rays through known fragments (transparency chapter 9.3): the area between T(z) of a method and the exact steps, on the
+// device through a probe and in double by the method's model.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "passes/transparency/moments/model.h"
+#include "passes/transparency/wavelet/model.h"
+#include "replay/probe/probe.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using namespace transparency;
+
+constexpr double nearest = 1, farthest = 50;
+
+/// Depth d of the range as 0 to 1, which these methods divide evenly in ln z.
+struct RayEvent {
+    double d, alpha;
+};
+using Ray = std::vector<RayEvent>;
+
+Ray one_card() { return {{.43, .9}}; }
+Ray five_cards() { return {{.1, .5}, {.3, .5}, {.5005, .5}, {.7, .5}, {.9, .5}}; }
+Ray even_smoke() {
+    Ray ray;
+    for (int i = 0; i < 100; ++i) ray.push_back({(i + .5) / 100, -std::expm1(-.03)});
+    return ray;
+}
+Ray smoke_before_a_wall() {
+    Ray ray;
+    for (int i = 0; i < 20; ++i) ray.push_back({.2 + .2 * (i + .5) / 20, .1});
+    ray.push_back({.8, -std::expm1(-10.)});
+    return ray;
+}
+std::array<Ray, 4> rays() { return {one_card(), five_cards(), even_smoke(), smoke_before_a_wall()}; }
+
+struct MethodOfTable {
+    const char* method;
+    std::array<double, 4> area;  ///< of rays A to D
+};
+constexpr MethodOfTable table[] = {
+    {"transparency/moments kind=power4", {.0003, .0954, .0866, .0444}},
+    {"transparency/moments kind=power6", {.0003, .0693, .0650, .0200}},
+    {"transparency/moments kind=power8", {.0007, .0502, .0523, .0210}},
+    {"transparency/moments kind=trig2", {.0000, .1065, .0878, .0498}},
+    {"transparency/moments kind=trig3", {.0000, .0889, .0628, .0209}},
+    {"transparency/moments kind=trig4", {.0000, .0713, .0484, .0136}},
+    {"transparency/wavelet rank=1 correction=none storage=single", {.0973, .1281, .1204, .1388}},
+    {"transparency/wavelet rank=2 correction=none storage=single", {.0409, .0712, .0604, .0605}},
+    {"transparency/wavelet rank=3 correction=none storage=single", {.0234, .0355, .0300, .0257}},
+    {"transparency/wavelet rank=4 correction=none storage=single", {.0098, .0148, .0150, .0152}},
+};
+constexpr double tolerance = 2e-3;  // the chapter's
+
+ProbedStack stack_of(const Ray& ray) {
+    ProbedStack stack{.nearest = nearest, .farthest = farthest};
+    for (const RayEvent& event : ray)
+        stack.fragments.push_back({.depth = nearest * std::pow(farthest / nearest, event.d),
+                                   .transmittance = glm::dvec3(1 - event.alpha),
+                                   .alpha = event.alpha,
+                                   .submission = static_cast<std::uint32_t>(stack.fragments.size())});
+    return stack;
+}
+
+TEST(CanonicalRays, TheDeviceLeavesTheAreaOfTheTable) {
+    ProbeOptions options{.samples = 400, .from = nearest, .to = farthest};
+    for (const MethodOfTable& row : table) options.methods.emplace_back(row.method);
+    for (std::size_t r = 0; r < rays().size(); ++r) {
+        const Probe made = must(probe(session_of_scenarios(), stack_of(rays()[r]), options));
+        for (std::size_t m = 0; m < std::size(table); ++m)
+            EXPECT_NEAR(made.curves[m].figures.l1_logarithmic, table[m].area[r], tolerance) << made.curves[m].method << ", ray "
+                                                                                            << "ABCD"[r];
+    }
+}
+
+double exact(const Ray& ray, double d) {
+    double through = 1;
+    for (const RayEvent& event : ray)
+        if (event.d < d) through *= 1 - event.alpha;
+    return through;
+}
+
+/// The area between a curve over 0 to 1 and the exact steps.
+double area(const Ray& ray, const std::function<double(double d)>& curve) {
+    constexpr int samples = 20000;
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) sum += std::abs(curve((i + .5) / samples) - exact(ray, (i + .5) / samples));
+    return sum / samples;
+}
+
+TEST(CanonicalRays, TheModelOfMomentsLeavesTheSameArea) {
+    for (std::uint32_t kind = moments_power4; kind <= moments_trig4; ++kind)
+        for (std::size_t r = 0; r < rays().size(); ++r) {
+            const Ray ray = rays()[r];
+            const MomentsParams params{.kind = kind, .storage = storage_single, .bias = 1, .overestimation = .25f};
+            std::vector<WarpedEvent> events;
+            for (const RayEvent& event : ray) events.push_back({2 * event.d - 1, std::min(-std::log1p(-event.alpha), 10.)});
+            const double made = area(ray, [&](double d) { return transmittance_in_double(params, events, 2 * d - 1); });
+            EXPECT_NEAR(made, table[kind].area[r], tolerance) << table[kind].method << ", ray "
+                                                              << "ABCD"[r];
+        }
+}
+
+TEST(CanonicalRays, TheModelOfWaveletsLeavesTheSameArea) {
+    for (std::uint32_t rank = 1; rank <= 4; ++rank)
+        for (std::size_t r = 0; r < rays().size(); ++r) {
+            const Ray ray = rays()[r];
+            const double last = double(2u << rank) - 1;
+            std::vector<CellEvent> events;
+            for (const RayEvent& event : ray) events.push_back({event.d * last, -std::log1p(-event.alpha)});
+            const std::vector<double> coefficients = haar_coefficients(rank, storage_float, events);
+            const double made = area(ray, [&](double d) { return std::exp(-haar_depth(coefficients, d * last)); });
+            EXPECT_NEAR(made, table[5 + rank].area[r], tolerance) << table[5 + rank].method << ", ray "
+                                                                  << "ABCD"[r];
+        }
+}
+
+/// A pixel of the picture with many fragments.
+PixelAt deep_pixel(const FragmentLists& lists) {
+    PixelAt at;
+    std::size_t most = 0;
+    for (std::uint32_t y = 0; y < lists.height(); ++y)
+        for (std::uint32_t x = 0; x < lists.width(); ++x)
+            if (const std::size_t count = lists.at(x, y).size(); count > most && !lists.undecided(x, y)) {
+                most = count;
+                at = {x, y};
+            }
+    return at;
+}
+
+TEST(Probe, OfAnExactMethodIsTheExactStepFunction) {
+    std::size_t exact_methods = 0;
+    for (const char* scenario : {"three_panes", "glass_and_smoke"}) {
+        const Request request = on_scenario(scenario);
+        const PixelAt at = deep_pixel(*must(session_of_scenarios().transparent_fragments(request)));
+        for (const Technique* technique : techniques_of(Stage::transparency)) {
+            if (!technique->stands_in_for_truth) continue;
+            ++exact_methods;
+            const Probe made = must(probe(session_of_scenarios(), request, at, {.methods = {std::string(technique->name)}}));
+            for (std::size_t i = 0; i < made.depths.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(made.curves[0].through[i][c], made.exact[i][c], 1e-5)
+                        << technique->name << " in " << scenario << " at " << made.depths[i] << " m";
+            EXPECT_LT(made.curves[0].figures.event_weighted, 1e-5) << technique->name << " in " << scenario;
+        }
+    }
+    EXPECT_GT(exact_methods, 0u);
+}
+
+TEST(Probe, ACaptureIsTheSameAfterwards) {
+    const Request request = on_scenario("three_panes");
+    const strata::Run before = must(session_of_scenarios().run(request));
+    must(probe(session_of_scenarios(), stack_of(one_card()), {.methods = {table[0].method}}));
+    const strata::Run after = must(session_of_scenarios().run(request));
+    EXPECT_EQ(before.images.at("display").texels, after.images.at("display").texels);
+}
+
+TEST(Probe, SaysWhatEveryTechniqueLetsThroughOrWhyNot) {
+    const Request request = on_scenario("glass_and_smoke");
+    const PixelAt at = deep_pixel(*must(session_of_scenarios().transparent_fragments(request)));
+    const Probe made = must(probe(session_of_scenarios(), request, at, {.samples = 64}));
+    ASSERT_EQ(made.curves.size(), techniques_of(Stage::transparency).size());
+    for (const ProbeCurve& curve : made.curves) {
+        EXPECT_NE(curve.not_supported.empty(), curve.through.empty()) << curve.method;
+        for (const glm::dvec3& t : curve.through) EXPECT_TRUE(std::isfinite(t.x + t.y + t.z)) << curve.method;
+    }
+}
+
+}  // namespace
+}  // namespace strata
