@@ -126,7 +126,7 @@ TEST(Graph, PrintsThePlanAndWhyStagesAreLeftOut) {
 
 TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
     ASSERT_EQ(strata("record three_panes -o large.strata --size 641x360").code, 0);
-    const Finished made = strata("report large.strata --repeats 1 --json");
+    const Finished made = strata("report large.strata --repeats 1 --sweep pool=2 --json");  // defaults alone
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_THAT(report["truth"].get<std::string>(), HasSubstr("stands in"));
@@ -144,7 +144,8 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     for (const Technique* technique : techniques_of(Stage::transparency)) rows += 1 + technique->points.size();
     EXPECT_EQ(report["rows"].size(), rows);
     for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
-    const Finished text = strata("report panes.strata --repeats 2"), csv = strata("report panes.strata --repeats 2 --csv");
+    const Finished text = strata("report panes.strata --repeats 2 --sweep pool=2"),
+                   csv = strata("report panes.strata --repeats 2 --sweep pool=2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name.substr(technique->name.find('/') + 1))));
         EXPECT_THAT(csv.out, HasSubstr(std::string(technique->name)));

@@ -1,0 +1,38 @@
+// strata report --hard-cases: a matrix that brings its own frames.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "captures/hard_cases.h"
+#include "passes/registry.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST(HardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
+    const Finished made = strata("report --hard-cases --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    ASSERT_EQ(report["techniques"].size(), techniques_of(Stage::transparency).size());
+    for (const json& technique : report["techniques"]) {
+        ASSERT_EQ(technique["cases"].size(), hard_cases().size());
+        for (const json& one : technique["cases"]) {
+            const auto verdict = one["verdict"].get<std::string>();
+            EXPECT_TRUE(verdict == "holds" || verdict == "documented failure" || verdict == "not applicable") << one;
+        }
+    }
+}
+
+TEST(HardCasesVerb, TakesNoCaptureAndAReportWithoutItDoes) {
+    EXPECT_EQ(strata("report").code, 2);
+    EXPECT_THAT(strata("report").err, HasSubstr("wants a capture, or --hard-cases"));
+    EXPECT_EQ(strata("report --hard-cases panes.strata").code, 2);
+}
+
+}  // namespace
+}  // namespace strata
