@@ -100,7 +100,7 @@ Result<void> list(const Options& options) {
 
 std::function<Result<void>()> declare_list(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    app.add_option("what", options->what, "a stage or a technique: then with parameters, counters and views");
+    app.add_option("what,--stage", options->what, "a stage or a technique: then with parameters, counters and views");
     app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows");
     app.add_flag("--names", options->names, "names only, one a line");
     app.add_flag("--json", options->json, "one JSON object on stdout");

@@ -77,11 +77,14 @@ protected:
         // What is read back is created: imports outlive the frame and stay on the device.
         Buffer listed = graph.create("sorted keys", keys.size() * sizeof(ListKey));
         graph.copy(import(graph, "keys", keys), listed);
+        Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
+        graph.clear(counters, 0);
         graph.compute("transparency/lists_sort.comp")
             .loads("Counts", import(graph, "counts", lengths))
             .loads("Starts", import(graph, "starts", places))
             .loads("GroupStarts", import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)))
             .updates("Keys", listed)
+            .updates("Counters", counters)
             .push(band)
             .over({band.width, 1, 1});
         graph.keep(listed);

@@ -79,7 +79,7 @@ TEST_P(Asset, IsImportedReplayedAndReportedWithinEveryTolerance) {
     EXPECT_EQ(validated.code, 0) << validated.err;
     const Finished replayed = strata("replay scene.strata --validation --json");
     EXPECT_EQ(replayed.code, 0) << replayed.err;
-    const Finished report = strata("report scene.strata --repeats 1 --json");
+    const Finished report = strata("report scene.strata --repeats 1 --sweep pool=2 --json");
     ASSERT_EQ(report.code, 0) << report.err;
     expect_report_within_tolerance(json::parse(report.out));
     expect_opaque_stages_within_tolerance(folder() / "scene.strata");

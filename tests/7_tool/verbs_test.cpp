@@ -48,6 +48,7 @@ TEST(List, ShowsEveryTechniqueAndItsParameters) {
         const Finished one = strata("list " + std::string(technique.name));
         for (const Param& param : technique.params) EXPECT_THAT(one.out, HasSubstr(std::string(param.name)));
     }
+    EXPECT_EQ(strata("list --stage transparency").out, strata("list transparency").out);
 }
 
 TEST(List, AMisspelledTechniqueGetsASuggestion) {
@@ -174,7 +175,7 @@ TEST(Report, ASweepReplacesThePointsAndTimesAreMultiplesOfTheUnits) {
 
 TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
     record_panes();
-    const Finished made = strata("report panes.strata --repeats 1 --flicker 3 --json");
+    const Finished made = strata("report panes.strata --repeats 1 --sweep pool=2 --flicker 3 --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_EQ(report["flicker"]["frames"], 3);
@@ -191,7 +192,7 @@ TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
 TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     record_panes();
     ASSERT_EQ(strata("record red_and_green_glass -o glass.strata").code, 0);
-    const std::string both = "report panes.strata glass.strata --repeats 1";
+    const std::string both = "report panes.strata glass.strata --repeats 1 --sweep pool=2";
     const Finished made = strata(both + " --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json reports = json::parse(made.out);

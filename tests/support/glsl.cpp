@@ -34,7 +34,8 @@ Shader glsl(const std::string& name, std::string_view source, const std::string&
     const std::string glsl = base.string() + extension, spirv = base.string() + ".spv", log = base.string() + ".log";
     std::ofstream(glsl) << preamble << source;
     const std::string command =
-        fmt::format("glslangValidator --quiet --target-env vulkan1.3 '-I{}' -o {} {} > {}", include_folder, spirv, glsl, log);
+        fmt::format("glslangValidator --quiet --target-env vulkan1.3 '-I{}' -I" STRATA_SOURCE_DIR " -o {} {} > {}",
+                    include_folder, spirv, glsl, log);
     const bool compiled = std::system(command.c_str()) == 0;
     const std::string said = read_text(log), bytes = read_text(spirv);
     for (const std::string& file : {glsl, spirv, log}) std::filesystem::remove(file);
