@@ -189,6 +189,17 @@ TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {
     EXPECT_GT(most, 1e-4);
 }
 
+/// Of a line of comma-separated values; a quoted field may hold commas.
+std::size_t fields(std::string_view line) {
+    std::size_t count = 1;
+    bool quoted = false;
+    for (const char c : line) {
+        quoted = quoted != (c == '"');
+        count += c == ',' && !quoted;
+    }
+    return count;
+}
+
 TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     record_panes();
     ASSERT_EQ(strata("record red_and_green_glass -o glass.strata").code, 0);
@@ -208,7 +219,7 @@ TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
     std::getline(csv, head);
     std::size_t pooled = 0;
     for (std::string line; std::getline(csv, line);) {
-        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ',')) << line;
+        EXPECT_EQ(fields(line), fields(head)) << line;
         pooled += line.starts_with("\"pooled\",");
     }
     EXPECT_EQ(pooled, reports["pooled"]["rows"].size());
