@@ -36,7 +36,7 @@ std::string as_text(const HardCaseReport& report) {
     std::size_t width = 4;
     for (const HardCase& hard_case : hard_cases()) width = std::max(width, hard_case.name.size());
     for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>2}  {}\n", i + 1, report.rows[i].technique);
-    text += fmt::format("\n  {:<{}}  {:>7}", "case", width, "holds at");
+    text += fmt::format("\n  {:<{}}  {:>8}", "case", width, "holds at");
     for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>7}", i + 1);
     text += '\n';
     for (std::size_t c = 0; c < hard_cases().size(); ++c) {
