@@ -1,5 +1,7 @@
 #include "passes/registry.h"
 
+#include <algorithm>
+
 #include "capture_format/nearest_name.h"
 
 namespace strata {
@@ -18,6 +20,11 @@ std::vector<const Technique*> techniques_of(Stage stage) {
     for (const Technique& technique : techniques())
         if (technique.stage == stage) found.push_back(&technique);
     return found;
+}
+
+std::optional<Feature> unsupported(const Technique& technique, const Features& features) {
+    const auto found = std::ranges::find_if(technique.cannot, [&](Feature feature) { return features.has(feature); });
+    return found == technique.cannot.end() ? std::nullopt : std::optional(*found);
 }
 
 std::uint32_t index_in_stage(const Technique& technique) {

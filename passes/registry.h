@@ -1,6 +1,7 @@
 // Finds techniques by name and by stage. The table itself is written by the build from the list in passes/CMakeLists.txt.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ std::span<const Technique> techniques();
 Result<const Technique*> find_technique(std::string_view name);
 /// The techniques of a stage, in the list's order; the first is the stage's default.
 std::vector<const Technique*> techniques_of(Stage);
+/// The first of its features that the technique cannot do, or nothing.
+std::optional<Feature> unsupported(const Technique&, const Features&);
 /// The technique's place among those of its stage: what generated shader switches (gbuffer decoders) use.
 std::uint32_t index_in_stage(const Technique&);
 

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include "passes/frame_images.h"
+#include "passes/registry.h"
 #include "replay/measure/flip.h"
 
 namespace strata {
@@ -101,11 +102,10 @@ ImageSet run_model(const JudgedStage& stage) {
 Accuracy judge_stage(const JudgedStage& stage) {
     Accuracy accuracy;
     const Technique& technique = *stage.choice.technique;
-    for (const Feature feature : technique.cannot)
-        if (stage.features.has(feature)) {
-            accuracy.not_supported = fmt::format("{} ({})", name(feature), stage.features.reason(feature));
-            return accuracy;
-        }
+    if (const auto feature = unsupported(technique, stage.features)) {
+        accuracy.not_supported = fmt::format("{} ({})", name(*feature), stage.features.reason(*feature));
+        return accuracy;
+    }
     Compared all;
     if (stage.against == Against::model_and_truth)
         for (const auto& [name, wanted] : run_model(stage))

@@ -1,7 +1,7 @@
 // What methods that are a transmittance function T(z) share: their sums' formats and their counters.
 #ifndef PASSES_TRANSPARENCY_FUNCTION_SHARED_H
 #define PASSES_TRANSPARENCY_FUNCTION_SHARED_H
-#include "passes/shader_interop.h"
+#include "passes/transparency/lists.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif
@@ -11,11 +11,8 @@ const uint accumulation_half = 0u;
 const uint accumulation_packed = 1u;
 const uint accumulation_single = 2u;
 
-// The first three are those of lists.shared.h, for methods that make lists, too.
 struct FunctionCounters {
-    uint fragments;
-    uint deepest;
-    uint dropped;
+    ListCounters lists;  // of methods that make lists, too
     uint drawn;
     uint scrubbed;
 };

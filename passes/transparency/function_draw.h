@@ -36,7 +36,23 @@ std::vector<Counter> function_counters_with_lists();
 /// (1 - exp(-X)) / N of the first sample's first channel, 1 where nothing is drawn: how far T(z) is from a function that
 /// telescopes.
 Image normalization_view(Graph&, const FrameImages&, const FunctionSums&);
-/// The row of such a view; `add` is the technique's own.
+
+/// A technique's own part: everything up to the sums.
+using SumsFunction = FunctionSums (*)(Graph&, FrameImages&, const Settings&);
+
+/// Technique::add of a method that is its sums.
+template <SumsFunction sums>
+void add_function(Graph& graph, FrameImages& images, const Settings& settings) {
+    resolve_sums(graph, images, sums(graph, images, settings));
+}
+
+/// The row of its normalization view.
 DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&));
+template <SumsFunction sums>
+DebugView normalization_row() {
+    return normalization_row([](Graph& graph, FrameImages& images, const Settings& settings) {
+        return normalization_view(graph, images, sums(graph, images, settings));
+    });
+}
 
 }  // namespace strata::transparency

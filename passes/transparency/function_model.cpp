@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "passes/transparency/function_prepass.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
@@ -80,8 +81,9 @@ struct Projected {
 
 Projected project(const StageInput& input, const PrepassModel& model) {
     Frame low = input.frame;
-    low.view.width = (low.view.width + model.divisor - 1) / model.divisor;
-    low.view.height = (low.view.height + model.divisor - 1) / model.divisor;
+    const Extent extent = prepass_extent({low.view.width, low.view.height}, model.divisor);
+    low.view.width = extent.width;
+    low.view.height = extent.height;
     low.view.samples = 1;
     const auto depth = input.before.find("depth_layers");
     const ReferenceImage opaque = depth != input.before.end() ? farthest_depth(depth->second, low.view.width, low.view.height)
@@ -130,6 +132,11 @@ Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 e
 
 double optical_depth_in_double(double t) {
     return t > 0 ? std::min(-std::log(t), double(largest_optical_depth)) : double(largest_optical_depth);
+}
+
+double channel_depth(const Fragment& f, std::size_t channel, std::size_t channels) {
+    const glm::dvec3 t = f.transmittance;
+    return optical_depth_in_double(channels == 3 ? t[static_cast<int>(channel)] : .2126 * t.x + .7152 * t.y + .0722 * t.z);
 }
 
 glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const Transmittance& transmittance,

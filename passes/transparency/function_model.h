@@ -22,6 +22,9 @@ glm::dvec3 function_blend(std::span<const Fragment>, glm::dvec3 behind, const Tr
 /// tau = -ln t, at most largest_optical_depth.
 double optical_depth_in_double(double t);
 
+/// Optical depth of one of `channels` functions, 3 or 1: of a channel, or of the luminance that is let through.
+double channel_depth(const Fragment&, std::size_t channel, std::size_t channels);
+
 /// T of a sample from all its fragments, in submission order.
 using FunctionOfSample = std::function<Transmittance(std::span<const Fragment>)>;
 ImageSet function_model(const StageInput&, std::uint32_t accumulation, const FunctionOfSample&);

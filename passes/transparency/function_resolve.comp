@@ -7,9 +7,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
 layout(set = 0, binding = 5, scalar) buffer Counters { FunctionCounters counters; };
 
-// Half floats end here: past it hardware adds to infinity and lavapipe stays. Both become the largest half.
-const float largest_half = 65504.0;
-
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(color)))) return;

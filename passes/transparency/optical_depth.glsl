@@ -14,7 +14,10 @@ vec3 optical_depth(vec3 t) { return vec3(optical_depth(t.r), optical_depth(t.g),
 float opacity(float x) { return x < 0.01 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0))) : 1.0 - exp(-x); }
 vec3 opacity(vec3 x) { return vec3(opacity(x.r), opacity(x.g), opacity(x.b)); }
 
-// One number for a colored event: the optical depth of the luminance it lets through (chapter 0.3).
-float grey_optical_depth(vec3 t) { return optical_depth(dot(t, vec3(0.2126, 0.7152, 0.0722))); }
+// Of one channel of transmittance; 3: one number for a colored event, that of the luminance it lets through (chapter 0.3).
+const uint luminance_channel = 3u;
+float channel_depth(vec3 t, uint channel) {
+    return optical_depth(channel < luminance_channel ? t[channel] : dot(t, vec3(0.2126, 0.7152, 0.0722)));
+}
 
 #endif

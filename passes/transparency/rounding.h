@@ -12,10 +12,14 @@ struct SmallFloat {
 };
 inline constexpr SmallFloat half_float = {10, 65504}, float11 = {6, 65024}, float10 = {5, 64512};
 
-enum class Rounding { towards_zero, to_nearest };
+/// Codes: of what shaders round themselves, see nearest_code().
+enum class Rounding { towards_zero, to_nearest, to_nearest_code };
 
-/// Denormals kept, saturated as lavapipe's blending is (hardware goes to infinity, which the resolves read as the largest
-/// number).
+/// To nearest, but down from .503: a number halfway between two codes must not hang on how a float was rounded. Of what is >= 0.
+double nearest_code(double);
+
+/// Denormals kept, saturated at the largest number as lavapipe's blending is (hardware goes to infinity, which the resolves read
+/// as the largest number).
 double rounded(double value, SmallFloat, Rounding = Rounding::towards_zero);
 
 }  // namespace strata::transparency

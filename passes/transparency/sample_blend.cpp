@@ -36,6 +36,15 @@ ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet&
     return color;
 }
 
+double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
+
+glm::dvec3 transmittance_before(std::span<const Fragment> fragments, double depth) {
+    glm::dvec3 through(1);
+    for (const Fragment& fragment : fragments)
+        if (fragment.depth < depth) through *= fragment.transmittance;
+    return through;
+}
+
 std::vector<Fragment> nearest_first(std::span<const Fragment> in_submission_order) {
     std::vector<Fragment> sorted(in_submission_order.rbegin(), in_submission_order.rend());
     std::ranges::stable_sort(sorted, std::ranges::less{}, &Fragment::depth);

@@ -27,6 +27,12 @@ using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::
 ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const SampleBlend&);
 ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const PlacedBlend&);
 
+/// Scalar coverage of a fragment that may be colored: alpha (1 - mean k) = mean (1 - t) (McGuire and Mara 2016).
+double coverage(const Fragment&);
+
+/// T(z): what the fragments strictly in front of a depth let through.
+glm::dvec3 transmittance_before(std::span<const Fragment>, double depth);
+
 /// The fragments near to far; of equal depths the later submission is nearer.
 std::vector<Fragment> nearest_first(std::span<const Fragment> in_submission_order);
 

@@ -3,6 +3,9 @@
 #ifndef PASSES_TRANSPARENCY_SANITIZE_GLSL
 #define PASSES_TRANSPARENCY_SANITIZE_GLSL
 
+// Half floats end here: past it hardware adds to infinity and lavapipe 22.3 stays. Resolves read both as the largest half.
+const float largest_half = 65504.0;
+
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7fffffffu) < 0x7f800000u; }
 
 float finite_or_zero(float x) { return is_finite(x) ? x : 0.0; }

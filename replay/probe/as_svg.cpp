@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "passes/transparency/sample_blend.h"
 #include "replay/counted.h"
 #include "replay/image_io.h"
 #include "replay/probe/order.h"
@@ -173,7 +174,7 @@ private:
 
     template <typename Channel>
     void step(const Pen& pen, Channel channel) {
-        glm::dvec3 t = exact_transmittance(probe_.fragments, probe_.from);
+        glm::dvec3 t = transparency::transmittance_before(probe_.fragments, probe_.from);
         std::vector<glm::dvec2> points{{x(probe_.from), y_through(channel(t))}};
         for (const Fragment& f : probe_.fragments) {
             if (!is_seen(f)) continue;

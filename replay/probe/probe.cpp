@@ -124,13 +124,6 @@ Result<std::vector<Row>> rows_of(Session& session, const ProbeScene& scene, std:
     return rows;
 }
 
-/// Why the technique has no answer for a frame with these features; nothing where it has one.
-std::string unsupported(const Technique& technique, const Features& features) {
-    for (const Feature feature : technique.cannot)
-        if (features.has(feature)) return fmt::format("it cannot do {}", name(feature));
-    return {};
-}
-
 /// T at every probe's depth, and behind everything.
 struct Measured {
     Row through;
@@ -194,8 +187,10 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
                 std::ranges::find(methods[i].technique->cannot, Feature::additive) == methods[i].technique->cannot.end();
             if (has_additive != (kind == ProbeKind::additive)) continue;
             probe.curves[i].method = methods[i].name;
-            probe.curves[i].not_supported = unsupported(*methods[i].technique, features);
-            if (!probe.curves[i].not_supported.empty()) continue;
+            if (const auto feature = unsupported(*methods[i].technique, features)) {
+                probe.curves[i].not_supported = fmt::format("it cannot do {}", name(*feature));
+                continue;
+            }
             together.push_back(methods[i]);
             curves.push_back(&probe.curves[i]);
         }
@@ -257,13 +252,6 @@ Result<void> check_pixel(const FragmentLists& lists, PixelAt at) {
 
 }  // namespace
 
-glm::dvec3 exact_transmittance(std::span<const Fragment> fragments, double z) {
-    glm::dvec3 through(1);
-    for (const Fragment& fragment : fragments)
-        if (fragment.depth < z) through *= fragment.transmittance;
-    return through;
-}
-
 Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& options) {
     const auto methods = parse_methods(options.methods);
     if (!methods) return methods.error();
@@ -282,13 +270,13 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
     for (std::uint32_t i = 0; i < options.samples; ++i) probe.depths.push_back(axis.depth((i + .5) / options.samples));
     std::vector<ProbePoint> points;
     for (const double z : probe.depths) {
-        probe.exact.push_back(exact_transmittance(probe.fragments, z));
+        probe.exact.push_back(transparency::transmittance_before(probe.fragments, z));
         points.push_back({z, stack.fragments.size()});
     }
     for (const Fragment& fragment : probe.fragments) {
         const auto submitted = std::ranges::find(stack.fragments, fragment.submission, &Fragment::submission);
         points.push_back({fragment.depth * just_in_front, static_cast<std::size_t>(submitted - stack.fragments.begin())});
-        probe.before_events.push_back(exact_transmittance(probe.fragments, points.back().depth));
+        probe.before_events.push_back(transparency::transmittance_before(probe.fragments, points.back().depth));
         const glm::dvec3 t = fragment.transmittance;
         probe.colored = probe.colored || t.x != t.y || t.y != t.z;
         probe.exact_total *= t;

@@ -74,9 +74,6 @@ struct ProbedStack {
 };
 Result<Probe> probe(Session&, ProbedStack, const ProbeOptions&);
 
-/// Product of t of what is strictly nearer than z.
-glm::dvec3 exact_transmittance(std::span<const Fragment>, double z);
-
 /// Fragments in order, then figures by method, best first.
 std::string as_text(const Probe&);
 std::string as_json(const Probe&);

@@ -37,8 +37,7 @@ Result<Request> stand_in(Session& session, Stage stage, Request base) {
     if (!frame) return frame.error();
     const Features features = frame_features(*frame);
     for (const Technique* technique : techniques_of(stage)) {
-        const auto lacks = [&](Feature feature) { return features.has(feature); };
-        if (!technique->stands_in_for_truth || std::ranges::any_of(technique->cannot, lacks)) continue;
+        if (!technique->stands_in_for_truth || unsupported(*technique, features)) continue;
         base.uses.push_back(std::string(technique->name));
         return base;
     }

@@ -214,32 +214,36 @@ std::string identifier(std::string_view name) {
     return text;
 }
 
-/// The struct that C++ and GLSL share is called for the technique: WeightedParams, WeightedCounters. Wherever its shaders have
-/// one, it has these members at these offsets.
-void expect_offsets(const Technique& technique, std::string_view suffix, const std::vector<Field>& fields) {
-    for (const auto& [name, members] : structs_of(technique)) {
-        if (!name.ends_with(suffix) || name == suffix) continue;
-        for (const Field& field : fields) {
-            const auto member = members.find(identifier(field.name));
-            ASSERT_NE(member, members.end()) << technique.name << ": " << name << " has no " << field.name;
-            EXPECT_EQ(member->second, field.offset) << technique.name << ": " << name << "." << field.name;
+/// The struct that C++ and GLSL share is called for the technique: WeightedParams. Wherever its shaders have one, it has these
+/// members at these offsets.
+TEST(Layout, ParametersLieWhereTheTechniquesShadersReadThem) {
+    for (const Technique& technique : techniques()) {
+        for (const auto& [name, members] : structs_of(technique)) {
+            if (!name.ends_with("Params") || name == "Params") continue;
+            for (const Param& param : technique.params) {
+                const auto member = members.find(identifier(param.name));
+                ASSERT_NE(member, members.end()) << technique.name << ": " << name << " has no " << param.name;
+                EXPECT_EQ(member->second, param.offset) << technique.name << ": " << name << "." << param.name;
+            }
         }
     }
 }
 
-TEST(Layout, ParametersLieWhereTheTechniquesShadersReadThem) {
-    for (const Technique& technique : techniques()) {
-        std::vector<Field> fields;
-        for (const Param& param : technique.params) fields.push_back({param.name, param.offset});
-        if (!fields.empty()) expect_offsets(technique, "Params", fields);
-    }
-}
-
+/// Structs in the block count, too: a technique's counters begin with those of what it is made of.
 TEST(Layout, CountersLieWhereTheTechniquesShadersCount) {
     for (const Technique& technique : techniques()) {
-        std::vector<Field> fields;
-        for (const Counter& counter : technique.counters) fields.push_back({counter.name, counter.offset});
-        if (!fields.empty()) expect_offsets(technique, "Counters", fields);
+        for (const Shader* shader : built_in_shaders()) {
+            if (!shader->name.starts_with(std::string(technique.name) + "/")) continue;
+            std::map<std::string, std::uint32_t> offsets;
+            for (const BlockMember& member : shader->members)
+                if (member.block == "Counters") offsets[own_name(member)] = member.offset;
+            if (offsets.empty()) continue;
+            for (const Counter& counter : technique.counters) {
+                const auto member = offsets.find(identifier(counter.name));
+                ASSERT_NE(member, offsets.end()) << shader->name << " has no " << counter.name;
+                EXPECT_EQ(member->second, counter.offset) << shader->name << ": " << counter.name;
+            }
+        }
     }
 }
 

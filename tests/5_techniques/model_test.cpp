@@ -76,8 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Matrix, testing::ValuesIn(cases()), test_na
 std::string richest_scenario(const Technique& technique) {
     const auto scenarios = info(technique.stage).scenarios;
     const auto can = [&](std::string_view scenario) {
-        const Features features = frame_features(scenario_frames(scenario).front());
-        return std::ranges::none_of(technique.cannot, [&](Feature feature) { return features.has(feature); });
+        return !unsupported(technique, frame_features(scenario_frames(scenario).front()));
     };
     const auto found = std::ranges::find_if(scenarios.rbegin(), scenarios.rend(), can);
     return std::string(found == scenarios.rend() ? scenarios.back() : *found);

@@ -9,16 +9,13 @@
 #include "captures/cards.h"
 #include "passes/transparency/a_buffer/model.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 
 Technique a_buffer();
 
 namespace {
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 double blend(std::span<const Fragment> fragments, double behind, StoredAs kind = StoredAs::rgb, std::size_t layers = 9) {
     return a_buffer_blend(fragments, glm::dvec3(behind), layers, kind).x;

@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 namespace {
 
-/// To nearest, but down from .503: a number halfway between two codes must not hang on how a float was rounded.
-double nearest_code(double x) { return std::floor(x + .497); }
-
-/// A float with 5 bits of exponent, this many of mantissa and no sign.
-double nearest_small_float(double x, int mantissa_bits) {
-    const double largest = std::ldexp(2 - std::ldexp(1., -mantissa_bits), 15);
-    x = std::clamp(x, 0., largest);
-    const int lowest_bit = (x > 0 ? std::max(std::ilogb(x), -14) : -14) - mantissa_bits;
-    return std::ldexp(nearest_code(std::ldexp(x, -lowest_bit)), lowest_bit);
+/// Without a sign, as colors are stored and depths are.
+double stored_as(double x, SmallFloat format) {
+    return rounded(std::clamp(x, 0., format.largest), format, Rounding::to_nearest_code);
 }
-
-double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
 
 glm::dvec3 through(const Fragment& f, StoredAs kind) {
     return kind == StoredAs::rgb ? f.transmittance : glm::dvec3(1 - coverage(f));
@@ -67,11 +60,9 @@ bool is_doubtful(std::span<const Fragment> fragments, std::size_t layers) {
 
 }  // namespace
 
-glm::dvec3 nearest_r11g11b10(glm::dvec3 c) {
-    return {nearest_small_float(c.x, 6), nearest_small_float(c.y, 6), nearest_small_float(c.z, 5)};
-}
+glm::dvec3 nearest_r11g11b10(glm::dvec3 c) { return {stored_as(c.x, float11), stored_as(c.y, float11), stored_as(c.z, float10)}; }
 
-double nearest_half(double x) { return nearest_small_float(x, 10); }
+double nearest_half(double x) { return stored_as(x, half_float); }
 
 double nearest_unorm8(double x) { return nearest_code(std::clamp(x, 0., 1.) * 255) / 255; }
 

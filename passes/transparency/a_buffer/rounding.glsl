@@ -2,12 +2,7 @@
 // (llvmpipe 22.3 does, R11G11B10F and R16F), .49999997 becomes .4961, in blue .4922.
 #ifndef PASSES_TRANSPARENCY_A_BUFFER_ROUNDING_GLSL
 #define PASSES_TRANSPARENCY_A_BUFFER_ROUNDING_GLSL
-
-// To nearest, but what lies halfway goes down however a float's last bit fell: .1, .3 and .5 do in 8 bits, and every sixteenth of
-// a deep image's half floats in R11G11B10F. No such number lies near .503.
-const float to_nearest = 0.497;
-
-float power_of_two(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23); }
+#include "passes/transparency/codes.glsl"
 
 // To a float of 5 bits of exponent and no sign.
 float rounded(float x, int mantissa_bits, float largest) {

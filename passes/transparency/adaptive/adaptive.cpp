@@ -31,14 +31,6 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     return drawn;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
-    resolve_sums(graph, images, sums(graph, images, settings));
-}
-
-Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
-    return normalization_view(graph, images, sums(graph, images, settings));
-}
-
 }  // namespace
 
 Technique adaptive() {
@@ -61,8 +53,8 @@ Technique adaptive() {
         .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {layers_view_row, normalization_row(factor_view)},
-        .add = add,
+        .views = {layers_view_row, normalization_row<sums>()},
+        .add = add_function<sums>,
         .model = adaptive_model,
         .tolerance = {.rmse = 5e-3,
                       .worst = 5e-2,

@@ -10,13 +10,10 @@
 
 #include "passes/transparency/function_model.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
-
-Fragment layer(double depth, double alpha, double color = 0) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 double blend(std::span<const Fragment> fragments, std::uint32_t nodes) {
     const std::vector<CurveStep> curve = adaptive_curve(fragments, nodes);
@@ -24,7 +21,7 @@ double blend(std::span<const Fragment> fragments, std::uint32_t nodes) {
 }
 
 TEST(AdaptiveCurve, RemovesTheLeastAreaTowardsTheEye) {
-    const std::array fragments{layer(.2, .5), layer(.6, .5), layer(.4, .5)};
+    const std::array fragments{layer(.2, .5, 0), layer(.6, .5, 0), layer(.4, .5, 0)};
     const std::vector<CurveStep> curve = adaptive_curve(fragments, 2);
     ASSERT_EQ(curve.size(), 2u);
     EXPECT_DOUBLE_EQ(curve[0].depth, .2);
@@ -44,7 +41,7 @@ TEST(AdaptiveCurve, KeepsWhatShowsThroughEverythingExactly) {
     std::vector<Fragment> fragments;
     double total = 1;
     for (int i = 0; i < 50; ++i) {
-        fragments.push_back(layer(double(random() % 1000), .1));
+        fragments.push_back(layer(double(random() % 1000), .1, 0));
         total *= .9;
     }
     for (const std::uint32_t nodes : {4u, 8u, 16u})
@@ -66,7 +63,7 @@ TEST(AdaptiveCurve, LosesLittleOfTwoHundredThinLayersInWhateverOrderTheyCome) {
 }
 
 TEST(AdaptiveCurve, DoesNotHideCoincidentFragmentsFromEachOther) {
-    const std::array fragments{layer(1, .5), layer(1, .5)};
+    const std::array fragments{layer(1, .5, 0), layer(1, .5, 0)};
     const std::vector<CurveStep> curve = adaptive_curve(fragments, 4);
     EXPECT_EQ(transmittance_at(curve, 1).x, 1);
     EXPECT_DOUBLE_EQ(transmittance_at(curve, 1.001).x, .25);

@@ -8,15 +8,12 @@
 
 #include "passes/transparency/depth_peeling/model.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
 
 constexpr double near_plane = .1;
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 double blend(std::span<const Fragment> fragments, double behind, std::uint32_t passes) {
     return peeled_blend(fragments, glm::dvec3(behind), passes, near_plane).x;

@@ -22,14 +22,6 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     return drawn;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
-    resolve_sums(graph, images, sums(graph, images, settings));
-}
-
-Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
-    return normalization_view(graph, images, sums(graph, images, settings));
-}
-
 }  // namespace
 
 Technique exact_function() {
@@ -45,8 +37,8 @@ Technique exact_function() {
         .points = {"accumulation=packed", "accumulation=single"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {layers_view_row, normalization_row(factor_view)},
-        .add = add,
+        .views = {layers_view_row, normalization_row<sums>()},
+        .add = add_function<sums>,
         .model = exact_function_model,
         .tolerance = {.rmse = 2e-3,
                       .worst = 2e-2,

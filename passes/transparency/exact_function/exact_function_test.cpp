@@ -8,13 +8,10 @@
 #include "passes/transparency/function_model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 Transmittance exact(std::span<const Fragment> fragments) {
     return [fragments](const Fragment& at) {

@@ -2,17 +2,13 @@
 #include "passes/technique.h"
 #include "passes/transparency/exact_function/exact_function.shared.h"
 #include "passes/transparency/function_model.h"
+#include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 namespace {
 
 Transmittance step_function(std::span<const Fragment> fragments) {
-    return [fragments](const Fragment& at) {
-        glm::dvec3 through(1);
-        for (const Fragment& fragment : fragments)
-            if (fragment.depth < at.depth) through *= fragment.transmittance;
-        return through;
-    };
+    return [fragments](const Fragment& at) { return transmittance_before(fragments, at.depth); };
 }
 
 }  // namespace

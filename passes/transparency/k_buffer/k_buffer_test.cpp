@@ -7,15 +7,12 @@
 
 #include "passes/transparency/k_buffer/model.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
 
 constexpr std::array all_tails{tail_drop, tail_blend, tail_hybrid};
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 Fragment spark(double depth, double light) { return {.depth = depth, .emission = glm::dvec3(light)}; }
 

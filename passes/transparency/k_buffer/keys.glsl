@@ -5,9 +5,7 @@
 #ifndef PASSES_TRANSPARENCY_K_BUFFER_KEYS_GLSL
 #define PASSES_TRANSPARENCY_K_BUFFER_KEYS_GLSL
 #extension GL_ARB_gpu_shader_int64 : require
-
-// To nearest, but what lies halfway goes down however a float's last bit fell: every fourth of a deep image's half floats does. No such number lies near .503.
-const float to_nearest = 0.497;
+#include "passes/transparency/codes.glsl"
 
 // Farther than any fragment: infinity, were it a depth.
 const uint64_t empty_slot = 0xffffffffffffffffUL;
@@ -26,8 +24,6 @@ uint alpha_code(float alpha) {
 }
 
 float alpha_of(uint code) { return float(code > 128u ? code + 1u : code) / 256.0; }
-
-float power_of_two(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23); }
 
 // EXT_texture_shared_exponent: 9 bits a channel, bias 15. The exponent is read from the float's bits: log2() may round up.
 uint color_code(vec3 color) {

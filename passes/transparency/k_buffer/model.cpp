@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
@@ -15,17 +16,16 @@ struct Layer {
     double alpha = 0;
 };
 
-/// To nearest, but down from .503: a number halfway between two codes must not hang on how a float was rounded.
-std::uint64_t nearest_code(double x) { return static_cast<std::uint64_t>(std::floor(x + .497)); }
+std::uint64_t code_of(double x) { return static_cast<std::uint64_t>(nearest_code(x)); }
 
 /// RGB9E5: a common exponent, from -15 on, for the largest channel's 9 bits to suffice.
 std::uint64_t rgb9e5(glm::dvec3 color) {
     color = glm::clamp(color, 0., 65408.);
     const double largest = std::max({color.x, color.y, color.z});
     int exponent = largest > 0 ? std::max(std::ilogb(largest) + 1, -15) : -15;
-    if (nearest_code(std::ldexp(largest, 9 - exponent)) > 511) ++exponent;
+    if (code_of(std::ldexp(largest, 9 - exponent)) > 511) ++exponent;
     std::uint64_t code = static_cast<std::uint64_t>(exponent + 15) << 27;
-    for (int c = 0; c < 3; ++c) code |= nearest_code(std::ldexp(color[c], 9 - exponent)) << (9 * c);
+    for (int c = 0; c < 3; ++c) code |= code_of(std::ldexp(color[c], 9 - exponent)) << (9 * c);
     return code;
 }
 
@@ -101,7 +101,7 @@ std::uint64_t k_buffer_key(const Fragment& f, double nudge) {
     const double factor = 1 + nudge * 0x1p-23;
     const auto z = static_cast<float>(std::max(f.depth * factor, 0.));
     const std::uint64_t depth = (std::bit_cast<std::uint32_t>(z) + 64) >> 7;
-    const auto of_256 = nearest_code(std::min(f.alpha * factor, 1.) * 256);
+    const auto of_256 = code_of(std::min(f.alpha * factor, 1.) * 256);
     const std::uint64_t color = rgb9e5((f.color + f.emission) * factor);
     return depth << 40 | (of_256 > 128 ? of_256 - 1 : of_256) << 32 | color;
 }

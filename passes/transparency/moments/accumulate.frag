@@ -71,6 +71,6 @@ void main() {
     for (uint channel = 0u; channel < push.channels; ++channel)
         through[channel] = transmittance(channel, event.z, moment_depth(event.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
-    atomicAdd(counters.drawn, 1u);
+    atomicAdd(counters.function.drawn, 1u);
     write_event(event, through);
 }

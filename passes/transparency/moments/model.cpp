@@ -86,13 +86,8 @@ double transmittance_of(const MomentsParams& params, std::span<const double> kep
     return std::exp(std::min(own - total * share, 0.));
 }
 
-/// Luminance where one function serves all channels.
-double channel_of(glm::dvec3 t, std::size_t channel, std::size_t channels) {
-    return channels == 3 ? t[static_cast<int>(channel)] : .2126 * t.x + .7152 * t.y + .0722 * t.z;
-}
-
 double moment_depth(const Fragment& f, std::size_t channel, std::size_t channels) {
-    return std::min(optical_depth_in_double(channel_of(f.transmittance, channel, channels)), double(largest_moment_depth));
+    return std::min(channel_depth(f, channel, channels), double(largest_moment_depth));
 }
 
 }  // namespace

@@ -102,14 +102,6 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     return drawn;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
-    resolve_sums(graph, images, sums(graph, images, settings));
-}
-
-Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
-    return normalization_view(graph, images, sums(graph, images, settings));
-}
-
 std::vector<Counter> counters() {
     std::vector<Counter> rows = function_counters_with_lists();
     rows.push_back(counter<&MomentsCounters::repaired>(
@@ -173,7 +165,7 @@ Technique moments() {
                    "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(MomentsCounters),
-        .views = {normalization_row(factor_view)},
+        .views = {normalization_row<sums>()},
         .known_failures = {{"H1c", 0.043, "the cards are closer than the bias can tell apart"},
                            {"H2", 0.169, "four moments serve up to three depths; every further card bends the curve"},
                            {"H4", 0.115, "the panes are closer than the bias can tell apart"},
@@ -181,7 +173,7 @@ Technique moments() {
                            {"H13", 0.134, "the panes are closer than the bias can tell apart"},
                            {"H14b", 0.469,
                             "a quarter of the card's own optical depth hides it: compensation=own or overestimation=0"}},
-        .add = add,
+        .add = add_function<sums>,
         .model = moments_model,
         .tolerance = {.rmse = 1.2e-2,
                       .worst = .4,

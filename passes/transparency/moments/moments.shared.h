@@ -1,7 +1,7 @@
 // What moment-based transparency's C++ and shaders share.
 #ifndef PASSES_TRANSPARENCY_MOMENTS_SHARED_H
 #define PASSES_TRANSPARENCY_MOMENTS_SHARED_H
-#include "passes/shader_interop.h"
+#include "passes/transparency/function.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif
@@ -44,11 +44,7 @@ struct MomentsPush {
 };
 
 struct MomentsCounters {
-    uint fragments;
-    uint deepest;
-    uint dropped;
-    uint drawn;
-    uint scrubbed;
+    FunctionCounters function;
     uint repaired;
 };
 

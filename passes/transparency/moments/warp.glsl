@@ -20,10 +20,7 @@ float warped(float z) { return clamp((log(z) - push.log_nearest) * push.per_log 
 
 float phase(float w) { return (w + 1.0) * (half_turn - 0.5 * wrapping_zone); }
 
-// Of one channel of transmittance, or of their luminance.
-float moment_depth(vec3 t, uint channel) {
-    return min(channel < 3u ? optical_depth(t[channel]) : grey_optical_depth(t), largest_moment_depth);
-}
+float moment_depth(vec3 t, uint channel) { return min(channel_depth(t, channel), largest_moment_depth); }
 
 // What a fragment of optical depth 1 adds besides b0: w, w^2, ...; or cos and sin of the phase's multiples.
 void fill_moments(float w, out float moments[8]) {

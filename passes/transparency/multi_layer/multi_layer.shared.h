@@ -22,9 +22,7 @@ struct MultiLayerPush {
 const uint most_layers = 16u;
 
 struct MultiLayerCounters {
-    uint fragments;
-    uint deepest;
-    uint dropped;
+    ListCounters lists;
     uint merged;
 };
 

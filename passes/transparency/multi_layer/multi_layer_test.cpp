@@ -8,13 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 double blend(std::span<const Fragment> fragments, std::uint32_t layers, double behind = 0) {
     return multi_layer_blend(fragments, glm::dvec3(behind), layers).x;

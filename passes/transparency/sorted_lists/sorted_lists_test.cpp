@@ -12,13 +12,10 @@
 #include "captures/cards.h"
 #include "passes/transparency/row_bounds.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata {
 namespace {
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 /// Model and truth are written differently and must agree to the last digits.
 double blend(std::span<const Fragment> fragments, double behind) {

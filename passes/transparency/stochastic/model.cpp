@@ -8,20 +8,22 @@
 
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
+#include "passes/transparency/rounding.h"
+#include "passes/transparency/sample_blend.h"
 #include "passes/transparency/stochastic/subset.shared.h"
 
 namespace strata::transparency {
 namespace {
 
-constexpr double largest_half = 65504;
 // How far a float alpha may be from ours: textures are filtered and particles faded in float.
 constexpr double alpha_rounding = 4e-6;
 // And a threshold: its octave comes from a float logarithm.
 constexpr double threshold_rounding = 1e-4;
 
-double coverage(const Fragment& f) {
-    const double coverage = 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3;
-    return coverage < double(least_coverage) ? 0 : std::min(coverage, 1.);
+/// What a fragment draws lots with.
+double lot_coverage(const Fragment& f) {
+    const double mean = coverage(f);
+    return mean < double(least_coverage) ? 0 : std::min(mean, 1.);
 }
 
 std::uint32_t subsample_count(const StochasticParams& params) { return params.mode == mode_hashed ? 1 : 4u << params.samples; }
@@ -37,7 +39,7 @@ struct CoveredSubset {
 };
 
 CoveredSubset covered_by(const SeededFragment& fragment, const StochasticParams& params) {
-    const double alpha = coverage(fragment.event);
+    const double alpha = lot_coverage(fragment.event);
     if (alpha == 0) return {};
     if (params.mode == mode_hashed)
         return {alpha >= fragment.threshold, std::abs(alpha - fragment.threshold) < threshold_rounding};
@@ -87,7 +89,7 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
     for (const SeededFragment& fragment : fragments) {
         covered.push_back(covered_by(fragment, params));
         result.undecided |= covered.back().undecided;
-        if (coverage(fragment.event) > 0) reveal *= fragment.event.transmittance;
+        if (lot_coverage(fragment.event) > 0) reveal *= fragment.event.transmittance;
         for (std::uint32_t s = 0; s < subsamples; ++s)
             if (covered.back().bits >> s & 1) nearest[s] = std::min(nearest[s], std::max(fragment.event.depth, 0.));
     }
@@ -99,10 +101,10 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
         std::uint64_t shown = 0;
         for (std::uint32_t s = 0; s < subsamples; ++s)
             if (std::max(event.depth, 0.) <= nearest[s]) shown |= std::uint64_t{1} << s;
-        const double share = std::popcount(shown) / double(subsamples), alpha = coverage(event);
+        const double share = std::popcount(shown) / double(subsamples), alpha = lot_coverage(event);
         const double weight =
             params.mode == mode_depth_based ? alpha * share : std::popcount(shown & covered[i].bits) / double(subsamples);
-        if (alpha > 0) colors += glm::min(event.color / alpha, glm::dvec3(largest_half)) * weight;
+        if (alpha > 0) colors += glm::min(event.color / alpha, glm::dvec3(half_float.largest)) * weight;
         weights += weight;
         result.radiance += (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share;
     }

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,8 +14,6 @@ layout(set = 0, binding = 3) uniform sampler2DArray emitted;
 layout(set = 0, binding = 4) uniform sampler2DArray reveal;
 layout(push_constant, scalar) uniform Push { StochasticBand band; };
 
-// Half floats end here: past it hardware adds to infinity and lavapipe 22.3 stays. Both become the largest half.
-const float largest_half = 65504.0;
 
 float uncovered(uvec3 at) {
     const uint first = ((at.y * band.width + at.x) * band.samples + at.z) * band.subsamples;

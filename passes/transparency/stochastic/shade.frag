@@ -12,7 +12,6 @@ layout(set = 0, binding = 2, scalar) buffer Counters { StochasticCounters counte
 
 // Compilers may round the depth differently in the two draws.
 const uint depth_slack = 2u;
-const float largest_half = 65504.0;
 
 void main() {
     const Event event = transparent_event();

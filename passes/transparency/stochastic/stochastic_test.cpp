@@ -10,15 +10,12 @@
 #include "passes/transparency/stochastic/model.h"
 #include "passes/transparency/stochastic/subset.shared.h"
 #include "passes/transparency/truth.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
 
 constexpr std::uint32_t many = 200000;
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 struct Spread {
     double mean = 0, deviation = 0;

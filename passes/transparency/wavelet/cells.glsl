@@ -33,9 +33,6 @@ float cell_of_depth(float z, uvec2 texel) {
 
 float root_of_two_to(uint p) { return exp2(0.5 * float(p)); }
 
-// Of one channel of transmittance, or of their luminance.
-float wavelet_depth(vec3 t, uint channel) {
-    return min(channel < 3u ? optical_depth(t[channel]) : grey_optical_depth(t), largest_wavelet_depth);
-}
+float wavelet_depth(vec3 t, uint channel) { return min(channel_depth(t, channel), largest_wavelet_depth); }
 
 #endif

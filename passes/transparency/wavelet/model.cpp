@@ -28,9 +28,7 @@ void add(double& sum, double term, std::uint32_t storage) {
 }
 
 double depth_of(const Fragment& f, std::size_t channel, std::size_t channels) {
-    const double t = channels == 3 ? f.transmittance[static_cast<int>(channel)]
-                                   : .2126 * f.transmittance.x + .7152 * f.transmittance.y + .0722 * f.transmittance.z;
-    return std::min(optical_depth_in_double(t), double(largest_wavelet_depth));
+    return std::min(channel_depth(f, channel, channels), double(largest_wavelet_depth));
 }
 
 /// The whole frame's, or those of a texel's fragments.

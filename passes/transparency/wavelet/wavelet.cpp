@@ -76,14 +76,6 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     return drawn;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
-    resolve_sums(graph, images, sums(graph, images, settings));
-}
-
-Image factor_view(Graph& graph, FrameImages& images, const Settings& settings) {
-    return normalization_view(graph, images, sums(graph, images, settings));
-}
-
 std::vector<Param> params() {
     return {
         param<&WaveletParams::rank>(
@@ -133,14 +125,14 @@ Technique wavelet() {
                    "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
         .counters = function_counters(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {normalization_row(factor_view)},
+        .views = {normalization_row<sums>()},
         .known_failures = {{"H1b", 0.288, "the cards share a cell"},
                            {"H1c", 0.656, "the cards share a cell"},
                            {"H2", 0.587, "cards in the cell of the first one dim it"},
                            {"H4", 0.125, "the panes share a cell: the value of a tie"},
                            {"H5", 0.0304, "eight cells, and half floats cut what is added"},
                            {"H13", 0.231, "panes, smoke and car share a cell"}},
-        .add = add,
+        .add = add_function<sums>,
         .model = wavelet_model,
         .tolerance = {.rmse = 1e-2, .worst = 1e-1, .because = "to be measured"},
     };

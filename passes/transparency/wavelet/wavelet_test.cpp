@@ -1,5 +1,6 @@
 // Facts about wavelet transparency (transparency chapter 5, oracles (a) to (d), section 11, hard cases H5 and H14).
 #include "passes/transparency/wavelet/model.h"
+#include "tests/support/layers.h"
 
 #include <array>
 #include <cmath>
@@ -50,10 +51,6 @@ TEST(Wavelet, KnowsWhatShowsThroughEverything) {
         const std::array events{at(rank, 0, .5), at(rank, .37, 2), at(rank, 1, .25)};
         EXPECT_NEAR(haar_depth(haar_coefficients(rank, storage_float, events), (2u << rank) - 1), 2.5 + .25 * 0, 1e-12);
     }
-}
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
 }
 
 /// A pixel whose fragments lie at d = depth.

@@ -9,12 +9,7 @@
 namespace strata::transparency {
 namespace {
 
-double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
-
 double bounded(double weight) { return std::max(1e-2, std::min(3e3, weight)); }
-
-// A sum of half floats holds no more: hardware's infinity and lavapipe's largest number are both read as this.
-constexpr double largest_half = 65504;
 
 }  // namespace
 
@@ -62,8 +57,8 @@ glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind
     if (params.form == form_sum) return colors + behind * (1 - coverages);
     const auto layers = double(fragments.size());
     if (params.form == form_average) through = glm::dvec3(fragments.empty() ? 1 : std::pow(1 - coverages / layers, layers));
-    colors = glm::clamp(colors, -largest_half, largest_half);
-    return colors / std::max(std::min(coverages, largest_half), 1e-5) * (glm::dvec3(1) - through) + through * behind;
+    colors = glm::clamp(colors, -half_float.largest, half_float.largest);
+    return colors / std::max(std::min(coverages, half_float.largest), 1e-5) * (glm::dvec3(1) - through) + through * behind;
 }
 
 ImageSet weighted_model(const StageInput& input, const Settings& settings) {

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/scene.glsl"
+#include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted/weights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,8 +13,6 @@ layout(set = 0, binding = 2) uniform sampler2DArray reveal;
 layout(set = 0, binding = 3, scalar) buffer Counters { WeightedCounters counters; };
 layout(push_constant, scalar) uniform Push { WeightedParams params; };
 
-// Half floats end here: past it hardware adds to infinity and lavapipe stays. Both become the largest half.
-const float largest_half = 65504.0;
 
 // As many layers of the mean alpha.
 float through_layers(float alphas, float layers) {

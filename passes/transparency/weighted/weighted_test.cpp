@@ -7,6 +7,7 @@
 
 #include "passes/transparency/truth.h"
 #include "passes/transparency/weighted/model.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 constexpr double near_plane = .1;
 constexpr std::array all_weights{weight_w7,   weight_w8,   weight_w9,         weight_w10,
                                  weight_blog, weight_2015, weight_2015_plain, weight_constant};
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 double blend(std::uint32_t weight, std::span<const Fragment> fragments, double behind) {
     return weighted_blend(fragments, glm::dvec3(behind), {.weight = weight, .scale = 1}, near_plane).x;

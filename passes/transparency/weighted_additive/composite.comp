@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -21,8 +22,7 @@ layout(set = 0, binding = 9, scalar) readonly buffer Written { uint written[]; }
 layout(set = 0, binding = 10, scalar) buffer Counters { WeightedAdditiveCounters counters; };
 layout(push_constant, scalar) uniform Push { WeightedAdditiveParams params; };
 
-// Half floats end here: past it hardware adds to infinity and lavapipe 22.3 stays. Both become the largest half.
-const float largest_half = 65504.0, overflowed = 100.0;
+const float overflowed = 100.0;
 
 struct Totals {
     vec4 sum;  // weighted colors, weights

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <optional>
 
+#include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 namespace {
 
-// A sum of half floats holds no more: hardware's infinity and lavapipe's largest number are both read as this.
-constexpr double largest_half = 65504;
+constexpr double largest_half = half_float.largest;
 
 double saturated(double value) { return std::clamp(value, 0., 1.); }
 glm::dvec3 bounded(const glm::dvec3& v) { return glm::clamp(v, -largest_half, largest_half); }
 double mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
-double coverage(const Fragment& f) { return saturated(mean(1.0 - f.transmittance)); }
+double covered(const Fragment& f) { return saturated(coverage(f)); }
 double relative_emission(const Fragment& f, double exposure) {
     return glm::dot(f.emission, glm::dvec3(.2126, .7152, .0722)) * exposure;
 }
@@ -34,7 +34,7 @@ double additive_depth_weight(const WeightedAdditiveParams& params, double z) {
 
 double additive_weight(const WeightedAdditiveParams& params, double exposure, const Fragment& f) {
     const double emission = saturated(relative_emission(f, exposure)) / double(params.feather_start);
-    return additive_depth_weight(params, f.depth) * std::pow(saturated(3 * coverage(f) + emission), 3);
+    return additive_depth_weight(params, f.depth) * std::pow(saturated(3 * covered(f) + emission), 3);
 }
 
 AdditiveSums summed(std::span<const Fragment> fragments, const WeightedAdditiveParams& params, double exposure) {
@@ -47,7 +47,7 @@ AdditiveSums summed(std::span<const Fragment> fragments, const WeightedAdditiveP
             sums.weights += weight;
         } else {
             sums.colors += glm::min(f.color, brightest) * weight;
-            sums.weights += coverage(f) * weight;
+            sums.weights += covered(f) * weight;
             sums.emissions += glm::min(f.emission, brightest) * weight;
             if (f.emission != glm::dvec3(0)) sums.emission_weights += weight;
         }

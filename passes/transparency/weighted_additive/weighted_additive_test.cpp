@@ -6,16 +6,13 @@
 
 #include "passes/transparency/truth.h"
 #include "passes/transparency/weighted_additive/model.h"
+#include "tests/support/layers.h"
 
 namespace strata::transparency {
 namespace {
 
 constexpr WeightedAdditiveParams published{.far = 300, .feather_start = .3333f};
 constexpr WeightedAdditiveParams corrected{.far = 300, .feather_start = .3333f, .normalization = normalization_corrected};
-
-Fragment layer(double depth, double alpha, double color) {
-    return {.depth = depth, .color = glm::dvec3(alpha * color), .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
-}
 
 Fragment glow(double depth, double light) { return {.depth = depth, .emission = glm::dvec3(light)}; }
 
