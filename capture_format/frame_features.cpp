@@ -40,6 +40,7 @@ constexpr std::array<std::string_view, feature_count> names = {
     "bloom",
     "auto_exposure",
     "depth_of_field",
+    "lens_distortion",
     "grain",
 };
 static_assert(names.back() == "grain", "one name per feature, in order");
@@ -169,7 +170,7 @@ void find_in_surroundings(Features& features, const Frame& frame) {
 }
 
 void find_in_camera(Features& features, const Lens& lens, const Film& film) {
-    if (lens.distortion) features.set(Feature::distortion, "the lens distorts");
+    if (lens.distortion) features.set(Feature::lens_distortion, "the lens distorts");
     if (lens.bloom > 0) features.set(Feature::bloom, fmt::format("the lens blooms by {}", lens.bloom));
     if (lens.auto_exposure) features.set(Feature::auto_exposure, "the camera sets its exposure itself");
     if (lens.aperture > 0) features.set(Feature::depth_of_field, fmt::format("the aperture is {} m", lens.aperture));

@@ -42,6 +42,7 @@ enum class Feature : std::uint32_t {
     bloom,
     auto_exposure,
     depth_of_field,
+    lens_distortion,
     grain,
     count_,
 };

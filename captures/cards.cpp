@@ -14,7 +14,7 @@ Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {
     Mesh& square = frame.meshes.emplace_back();
     square.name = "square";
     square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    square.normals.assign(4, glm::vec3(0, 0, -1));
+    square.normals.assign(4, glm::vec3(0, 0, 1));  // the outward side: the eye sees the back
     square.indices = {0, 1, 2, 0, 2, 3};
     for (const Card& card : cards) {
         Material& material = frame.materials.emplace_back();
@@ -23,6 +23,7 @@ Frame frame_of_cards(std::span<const Card> cards, std::uint32_t extent) {
         material.alpha_mode = card.alpha_mode;
         material.double_sided = true;
         material.base_color = card.color;
+        material.distortion = card.distortion;
         glm::dmat4 to_world = glm::translate(glm::dmat4(1), card.center);
         to_world = glm::rotate(to_world, card.tilt, glm::dvec3(0, 1, 0));
         to_world = glm::scale(to_world, glm::dvec3(double(card.half)));

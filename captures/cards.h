@@ -15,6 +15,7 @@ struct Card {
     double tilt = 0;     ///< radians around the vertical axis
     std::int32_t sort_priority = 0;
     AlphaMode alpha_mode = AlphaMode::blend;
+    float distortion = 0;  ///< uv per unit of the normal, which a tilt turns
 };
 
 /// Width = height = extent, black background, one draw per card in the given order.

@@ -79,7 +79,7 @@ Reason no_sun_shafts(const Features& features) {
 }
 
 Reason plain_lens(const Features& features) {
-    for (const Feature feature : {Feature::bloom, Feature::auto_exposure, Feature::depth_of_field, Feature::distortion})
+    for (const Feature feature : {Feature::bloom, Feature::auto_exposure, Feature::depth_of_field, Feature::lens_distortion})
         if (features.has(feature)) return std::nullopt;
     return "the lens neither blooms, adapts, focuses nor distorts";
 }

@@ -65,13 +65,13 @@ Run describe_run(const Declaration& d) {
     return run;
 }
 
-void add_times(Run& run, const std::vector<std::vector<double>>& repeats) {
+void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
     const auto sums_of = [&](const std::function<bool(std::size_t)>& counts) {
         std::vector<double> sums;
-        for (const std::vector<double>& steps : repeats) {
+        for (const std::vector<StepCost>& steps : repeats) {
             sums.push_back(0);
             for (std::size_t i = 0; i < steps.size(); ++i)
-                if (counts(i)) sums.back() += steps[i];
+                if (counts(i)) sums.back() += steps[i].ms;
         }
         return sums;
     };
@@ -81,9 +81,12 @@ void add_times(Run& run, const std::vector<std::vector<double>>& repeats) {
     for (const auto& [stage, choice] : run.choices) {
         // A scope is named "place: stage/technique", so a technique's acts count for it wherever they stand.
         const std::string technique = ": " + choice.substr(0, choice.find(' '));
-        const auto sums = sums_of([&](std::size_t step) { return run.steps[step].scope.ends_with(technique); });
+        const auto is_its = [&](std::size_t step) { return run.steps[step].scope.ends_with(technique); };
+        const auto sums = sums_of(is_its);
         run.stage_ms[stage] = spread_of(sums);
         run.stage_ms_by_repeat[stage] = sums;
+        for (std::size_t i = 0; !repeats.empty() && i < repeats.back().size(); ++i)
+            if (is_its(i) && repeats.back()[i].invocations) run.stage_invocations[stage] += *repeats.back()[i].invocations;
     }
 }
 

@@ -15,8 +15,8 @@ std::map<std::string, HostImage> images_of(const Declaration&, const Execution&)
 std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, std::optional<std::uint32_t> scope = {});
 /// A technique that acts at several stages counts in each: equal counters are added up.
 std::vector<CounterRecord> summed(std::vector<CounterRecord>);
-/// Spreads over repeats of the milliseconds of each step.
-void add_times(Run&, const std::vector<std::vector<double>>& repeats);
+/// Spreads over repeats of the milliseconds of each step; how often shaders ran, in the last one.
+void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats);
 /// "technique key=value ..."
 std::string choice_line(const Choice&);
 

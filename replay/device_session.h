@@ -53,7 +53,7 @@ private:
     Result<Inspected> inspect(const Request&, Stage);
     struct TimedRun {
         Run run;
-        std::vector<double> step_ms;
+        std::vector<StepCost> step_costs;
     };
     Result<TimedRun> time_alone(const Request&);
     /// What is known of a run that executes everything, before any run.

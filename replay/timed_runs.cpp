@@ -5,10 +5,10 @@
 namespace strata {
 namespace {
 
-/// Milliseconds of the steps of an act, in order.
-using StepTimes = std::vector<std::pair<std::string, double>>;
+/// The steps of an act by name, in order.
+using ActCosts = std::vector<std::pair<std::string, StepCost>>;
 /// What one repeat has executed, by what tells equal acts from others.
-using ExecutedActs = std::map<std::string, StepTimes>;
+using ExecutedActs = std::map<std::string, ActCosts>;
 
 /// Tells the scopes of a request apart: acts by what they depend on, so that equal acts of two requests are the same one; what
 /// is no act (debug views) by the request.
@@ -32,16 +32,16 @@ void add_executed(const Declaration& d, const Execution& execution, const ScopeN
     ExecutedActs now;
     for (std::size_t i = 0; i < d.plan.steps.size(); ++i) {
         const Step& step = d.plan.steps[i].step;
-        now[name(d.plan.scopes[step.scope].name)].emplace_back(step.name, execution.step_ms[i]);
+        now[name(d.plan.scopes[step.scope].name)].emplace_back(step.name, execution.step_costs[i]);
     }
-    for (auto& [scope, times] : now) acts.insert_or_assign(scope, std::move(times));
+    for (auto& [scope, costs] : now) acts.insert_or_assign(scope, std::move(costs));
 }
 
-/// The times of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
-std::optional<std::vector<double>> times_of(const std::vector<StepRecord>& steps, const ScopeNames& name,
-                                            const ExecutedActs& acts) {
+/// The costs of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
+std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& steps, const ScopeNames& name,
+                                              const ExecutedActs& acts) {
     std::map<std::string, std::size_t> next;
-    std::vector<double> times;
+    std::vector<StepCost> costs;
     for (const StepRecord& step : steps) {
         const std::string scope = name(step.scope);
         const auto act = acts.find(scope);
@@ -49,9 +49,9 @@ std::optional<std::vector<double>> times_of(const std::vector<StepRecord>& steps
         std::size_t& at = next[scope];
         while (at < act->second.size() && act->second[at].first != step.name) ++at;
         if (at == act->second.size()) return {};
-        times.push_back(act->second[at++].second);
+        costs.push_back(act->second[at++].second);
     }
-    return times;
+    return costs;
 }
 
 /// What an execution with the memo gave, for a run that describes the whole frame.
@@ -71,7 +71,7 @@ Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request
     if (!declared) return declared.error();
     auto execution = execute(*declared, {.timestamps = Timestamps::on});
     if (!execution) return execution.error();
-    TimedRun timed{finished(*declared, *execution), std::move(execution->step_ms)};
+    TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
     timed.run.images = images_of(*declared, *execution);
     return timed;
 }
@@ -84,8 +84,8 @@ Result<Run> DeviceSession::plan_run(const Request& request) {
 
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
     std::vector<Run> runs;
-    std::vector<std::vector<std::vector<double>>> step_ms(requests.size());  // [request][repeat][step]
-    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {              // the first of each warms up
+    std::vector<std::vector<std::vector<StepCost>>> step_costs(requests.size());  // [request][repeat][step]
+    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {                   // the first of each warms up
         memo_.clear();
         ExecutedActs acts;
         for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -94,7 +94,7 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 if (!planned) return planned.error();
                 runs.push_back(*std::move(planned));
             }
-            std::optional<std::vector<double>> times;
+            std::optional<std::vector<StepCost>> costs;
             if (requests.size() > 1) {
                 const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
                 if (!declared) return declared.error();
@@ -103,19 +103,19 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 remember(*declared, *execution);
                 const ScopeNames name(*declared, i);
                 add_executed(*declared, *execution, name, acts);
-                times = times_of(runs[i].steps, name, acts);
+                costs = costs_of(runs[i].steps, name, acts);
                 if (repeat == 0) add_results(runs[i], finished(*declared, *execution), images_of(*declared, *execution));
             }
-            if (!times) {
+            if (!costs) {
                 auto alone = time_alone(requests[i]);
                 if (!alone) return alone.error();
-                times = std::move(alone->step_ms);
+                costs = std::move(alone->step_costs);
                 if (repeat == 0) runs[i] = std::move(alone->run);
             }
-            if (repeat > 0) step_ms[i].push_back(*std::move(times));
+            if (repeat > 0) step_costs[i].push_back(*std::move(costs));
         }
     }
-    for (std::size_t i = 0; i < runs.size(); ++i) add_times(runs[i], step_ms[i]);
+    for (std::size_t i = 0; i < runs.size(); ++i) add_costs(runs[i], step_costs[i]);
     return runs;
 }
 

@@ -61,6 +61,27 @@ void add_fire(FrameBuilder& builder) {
     builder.frame.emitters.push_back(std::move(fire));
 }
 
+/// A flat square in the xy plane whose normals rise in waves: what air of uneven heat bends light by.
+Mesh ripples(float half, std::uint32_t cells) {
+    Mesh mesh;
+    mesh.name = "ripples";
+    for (std::uint32_t y = 0; y <= cells; ++y)
+        for (std::uint32_t x = 0; x <= cells; ++x) {
+            const glm::vec2 at = glm::vec2(x, y) / float(cells) * 2.0f - 1.0f;
+            mesh.positions.emplace_back(at * half, 0.0f);
+            const glm::vec3 normal = glm::normalize(glm::vec3(std::sin(9 * at.y + 2 * at.x), std::sin(7 * at.x - 5 * at.y), 1));
+            mesh.normals.push_back(normal);
+            mesh.tangents.emplace_back(glm::normalize(glm::cross(glm::vec3(0, 1, 0), normal)), 1.0f);
+            mesh.uv0.emplace_back(0.5f + 0.5f * at.x, 0.5f - 0.5f * at.y);
+        }
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t corner = y * (cells + 1) + x, above = corner + cells + 1;
+            mesh.indices.insert(mesh.indices.end(), {corner, corner + 1, above + 1, corner, above + 1, above});
+        }
+    return mesh;
+}
+
 void add_smoke(FrameBuilder& builder) {
     Emitter smoke = cloud({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, builder.add(puff(builder.seed())), builder);
     for (Particle& particle : smoke.particles) particle.color = glm::vec3(static_cast<float>(0.08 + 0.08 * particle.center.y));
@@ -83,7 +104,7 @@ Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
     add_fire(builder);
     Material hot_air = unlit("hot air", {0.9f, 0.85f, 0.8f, 0.04f});
     hot_air.distortion = 0.02f;
-    builder.draw(builder.add(quad({1.1f, 1.1f})), builder.add(hot_air), {.position = {0, 1.6, 1.5}});
+    builder.draw(builder.add(ripples(1.1f, 24)), builder.add(hot_air), {.position = {0, 1.6, 1.5}});
     builder.frame.hemisphere = {.sky = {0.5f, 0.55f, 0.65f}, .ground = {0.25f, 0.22f, 0.2f}};
     builder.frame.background = {0.3f, 0.38f, 0.5f};
     return std::move(builder.frame);

@@ -78,6 +78,7 @@ std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, c
     if (const Material* material = material_of(frame, point.draw)) {
         const double alpha = std::clamp(finite(surface.alpha), 0.0, 1.0);
         fragment = event(material->alpha_mode, alpha, surface, lit(frame, surface));
+        fragment.distortion = double(material->distortion) * glm::dvec2(surface.normal.x, -surface.normal.y);
     } else {
         const Emitter& emitter = frame.emitters[point.draw - frame.draws.size()];
         const Particle& particle = emitter.particles[point.triangle / 2];
@@ -91,7 +92,7 @@ std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, c
     fragment.color = finite(fragment.color);
     fragment.emission = finite(fragment.emission);
     if (fragment.alpha < smallest_alpha && brightest(fragment.color) < smallest_alpha &&
-        brightest(fragment.emission) < smallest_emission)
+        brightest(fragment.emission) < smallest_emission && fragment.distortion == glm::dvec2(0))
         return std::nullopt;
     fragment.depth = z - depth_offset;
     fragment.submission = triangle.ordinal;

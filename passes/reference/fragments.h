@@ -31,6 +31,7 @@ struct Fragment {
     glm::dvec3 transmittance{1};   ///< t per channel
     glm::dvec3 emission{0};        ///< e, added without coverage
     double alpha = 0;              ///< scalar coverage
+    glm::dvec2 distortion{0};      ///< d, in uv: how far from here what is behind is seen, added without coverage
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
 };
 

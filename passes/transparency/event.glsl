@@ -1,4 +1,5 @@
-// The transparent event under a sample, from the varyings of draw.vert: L_out = p + e + t L_behind (transparency chapter 0.1).
+// The transparent event under a sample, from the varyings of draw.vert: L_out = p + e + t L_behind (transparency chapter 0.1), with
+// L_behind seen d away (6.13).
 // Every technique draws the same events; they differ in how they combine them. gl_SampleID makes the shader run per sample.
 // event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
 #ifndef PASSES_TRANSPARENCY_EVENT_GLSL
@@ -19,12 +20,14 @@ layout(location = 6) flat in uint in_draw;
 layout(constant_id = 0) const uint first_emitter = 0u;  // draws from here on are emitters
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
+layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
     float z;       // view depth, depth offset applied: what ordering uses
     float alpha;   // scalar coverage
     vec3 p, t, e;  // premultiplied scattered radiance, transmittance, emission; fog is in them
+    vec2 d;        // distortion: how far away, in uv, what is behind is seen
     bool visible;
 };
 
@@ -52,10 +55,10 @@ vec3 lit(MaterialPoint m) {
 }
 
 Event blended(float alpha, vec3 p, vec3 transmission) {
-    return Event(position_here().z, alpha, p, 1.0 - alpha * (1.0 - transmission), vec3(0.0), true);
+    return Event(position_here().z, alpha, p, 1.0 - alpha * (1.0 - transmission), vec3(0.0), vec2(0.0), true);
 }
 
-Event additive(vec3 e) { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), e, true); }
+Event additive(vec3 e) { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), e, vec2(0.0), true); }
 
 Event mesh_event(MaterialPoint m) {
     const float a = valid_alpha(m.alpha);
@@ -97,6 +100,10 @@ Event transparent_event() {
     event.p = finite_or_zero(event.p);
     event.e = finite_or_zero(event.e);
     event.visible = is_finite(event.z) && !invisible(event.alpha, event.p, event.e);
+    if (distorts != 0u && !particle) {
+        event.d = materials[draws[in_draw].material].distortion * vec2(m.normal.x, -m.normal.y);
+        event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
+    }
     event.z -= in_emissive.w * scale;
     return event;
 }

@@ -1,7 +1,9 @@
 #include "passes/transparency/event_draw.h"
 
+#include <cassert>
 #include <utility>
 
+#include "passes/reference/fragments.h"
 #include "passes/texture_uses.h"
 
 namespace strata {
@@ -11,6 +13,7 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
+        .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("first_emitter", static_cast<std::uint32_t>(images.recorded->draws.size()));
     return fix_textures(pass, images, Surfaces::transparent);
 }
@@ -24,6 +27,25 @@ DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, con
 
 DrawPass draw_events_untested(Graph& graph, std::string shader, const DrawList& list, const FrameImages& images) {
     return bound(graph.draw(std::move(shader), list), images, images.depth_layers);
+}
+
+std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution) {
+    const Frame& frame = *images.recorded;
+    // The list has this order, too.
+    const std::vector<std::uint32_t> draws = transparent_draws(frame);
+    assert(draws.size() == images.transparent.count);
+    std::vector<DrawList> stretches;
+    bool goes_on = false;
+    for (std::uint32_t i = 0; i < draws.size(); ++i) {
+        const bool is_mesh = draws[i] < frame.draws.size();
+        const Resolution at =
+            is_mesh ? frame.draws[draws[i]].resolution : frame.emitters[draws[i] - frame.draws.size()].resolution;
+        if (at == resolution && !goes_on)
+            stretches.push_back({images.transparent.commands, images.transparent.indices, images.transparent.first + i, 0});
+        goes_on = at == resolution;
+        if (goes_on) ++stretches.back().count;
+    }
+    return stretches;
 }
 
 }  // namespace strata

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
@@ -13,5 +14,8 @@ namespace strata {
 DrawPass draw_events(Graph&, std::string shader, const DrawList& list, const FrameImages&);
 /// The same without the test, for a technique with a depth of its own: `depth_layers` is bound whether the frame needs it or not.
 DrawPass draw_events_untested(Graph&, std::string shader, const DrawList& list, const FrameImages&);
+
+/// The transparent draws of one resolution: stretches of images.transparent, most often all of it or nothing.
+std::vector<DrawList> drawn_at(const FrameImages&, Resolution);
 
 }  // namespace strata

@@ -2,7 +2,9 @@
 
 #include <utility>
 
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
+#include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
 
 namespace strata::transparency {
@@ -11,34 +13,72 @@ namespace {
 constexpr std::string_view accumulations[] = {"half", "packed", "single"};
 
 struct SumFormats {
-    Format color, scalar;
+    Format color, scalar, pair;
 };
 
 SumFormats formats_of(std::uint32_t accumulation) {
-    if (accumulation == accumulation_packed) return {Format::r11g11b10f, Format::r16f};
-    if (accumulation == accumulation_single) return {Format::rgba32f, Format::r32f};
-    return {Format::rgba16f, Format::r16f};
+    if (accumulation == accumulation_packed) return {Format::r11g11b10f, Format::r16f, Format::rg16f};
+    if (accumulation == accumulation_single) return {Format::rgba32f, Format::r32f, Format::rg32f};
+    return {Format::rgba16f, Format::r16f, Format::rg16f};
 }
 
 bool emits(const FrameImages& images) {
     return images.features->has(Feature::additive) || images.features->has(Feature::emissive);
 }
 
+bool distorts(const FrameImages& images) { return images.features->has(Feature::distortion); }
+
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
 
-/// The sums by sample, under the names function_sums.glsl reads them by.
+ResolutionSums cleared_sums(Graph& graph, const FrameImages& images, const SumFormats& formats, const std::string& prefix) {
+    const Format weights = images.features->has(Feature::chromatic) ? formats.color : formats.scalar;
+    const auto cleared = [&](const char* name, Format format) {
+        Image sum = graph.create(prefix + name, Shape{.extent = images.extent, .format = format, .samples = images.samples});
+        graph.clear(sum, {});
+        return sum;
+    };
+    ResolutionSums sums{.color = cleared("color sum", formats.color),
+                        .extinction = cleared("extinction", weights),
+                        .normalizer = cleared("normalizer", weights)};
+    // Targets are numbered: there is no offset without emission, though it be 0.
+    if (emits(images) || distorts(images)) sums.emission = cleared("emission sum", formats.color);
+    if (distorts(images)) sums.offset = cleared("offset sum", formats.pair);
+    return sums;
+}
+
+void draw_at(Graph& graph, const std::string& shader, const FrameImages& images, Resolution resolution, ResolutionSums& sums,
+             const std::function<void(DrawPass&, Resolution)>& chain) {
+    for (const DrawList& list : drawn_at(images, resolution)) {
+        DrawPass draw = draw_events(graph, shader, list, images);
+        draw.adds_to(sums.color).adds_to(sums.extinction).adds_to(sums.normalizer);
+        if (sums.emission) draw.adds_to(sums.emission);
+        if (sums.offset) draw.adds_to(sums.offset);
+        draw.drops_other_colors().fixes("drawn_width", images.extent.width).fixes("drawn_height", images.extent.height);
+        chain(draw, resolution);
+    }
+}
+
+/// The sums under the names function_sums.glsl reads them by.
 ComputePass reading_sums(Graph& graph, std::string shader, const FrameImages& images, const FunctionSums& sums) {
-    const Image color = spread(graph, sums.color, "color sum by sample");
-    const Image extinction = spread(graph, sums.extinction, "extinction by sample");
-    const Image normalizer = spread(graph, sums.normalizer, "normalizer by sample");
-    const Image emission = sums.emission ? spread(graph, sums.emission, "emission by sample") : Image{};
+    const auto layers = [&](const Image& image) {
+        return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
+    };
+    const ResolutionSums full{layers(sums.full.color), layers(sums.full.extinction), layers(sums.full.normalizer),
+                              layers(sums.full.emission), layers(sums.full.offset)};
     ComputePass pass = graph.compute(std::move(shader));
-    pass.samples("color_sum", color)
-        .samples("extinction", extinction)
-        .samples("normalizer", normalizer)
-        .samples("emission", emission)
+    pass.samples("color_sum", full.color)
+        .samples("extinction", full.extinction)
+        .samples("normalizer", full.normalizer)
+        .samples("emission", full.emission)
+        .samples("offset", full.offset)
+        .samples("low_color_sum", sums.low.color)
+        .samples("low_extinction", sums.low.extinction)
+        .samples("low_normalizer", sums.low.normalizer)
+        .samples("low_emission", sums.low.emission)
+        .samples("low_offset", sums.low.offset)
         .fixes("chromatic", flag(images.features->has(Feature::chromatic)))
-        .fixes("emits", flag(emits(images)));
+        .fixes("emits", flag(emits(images)))
+        .fixes("low_resolution", flag(bool(sums.low.color)));
     return pass;
 }
 
@@ -54,29 +94,25 @@ const Param accumulation_row = {
 
 FunctionSums create_sums(Graph& graph, const FrameImages& images, std::uint32_t accumulation) {
     const SumFormats formats = formats_of(accumulation);
-    const Format weights = images.features->has(Feature::chromatic) ? formats.color : formats.scalar;
-    const auto cleared = [&](const char* name, Format format) {
-        Image sum = graph.create(name, Shape{.extent = images.extent, .format = format, .samples = images.samples});
-        graph.clear(sum, {});
-        return sum;
-    };
-    return {.color = cleared("color sum", formats.color),
-            .extinction = cleared("extinction", weights),
-            .normalizer = cleared("normalizer", weights),
-            .emission = emits(images) ? cleared("emission sum", formats.color) : Image{}};
+    FunctionSums sums{.full = cleared_sums(graph, images, formats, "")};
+    if (!images.features->has(Feature::low_resolution)) return sums;
+    sums.low_images = prepass_images(graph, images, 2);
+    sums.low = cleared_sums(graph, sums.low_images, formats, "low ");
+    return sums;
 }
 
-DrawPass draw_into(Graph& graph, std::string shader, const FrameImages& images, FunctionSums& sums) {
-    DrawPass draw = draw_events(graph, std::move(shader), images.transparent, images);
-    draw.adds_to(sums.color).adds_to(sums.extinction).adds_to(sums.normalizer);
-    if (sums.emission) draw.adds_to(sums.emission);
-    draw.drops_other_colors();
-    return draw;
+void draw_into(Graph& graph, const std::string& shader, const FrameImages& images, FunctionSums& sums,
+               const std::function<void(DrawPass&, Resolution)>& chain) {
+    draw_at(graph, shader, images, Resolution::full, sums.full, chain);
+    if (sums.low.color) draw_at(graph, shader, sums.low_images, Resolution::low, sums.low, chain);
 }
 
 void resolve_sums(Graph& graph, FrameImages& images, const FunctionSums& sums) {
+    const Image behind = undistorted(graph, images);
     reading_sums(graph, "transparency/function_resolve.comp", images, sums)
         .updates("color", images.color)
+        .samples("behind", behind)
+        .fixes("distorts", flag(bool(behind)))
         .over({images.extent.width, images.extent.height, images.samples});
 }
 

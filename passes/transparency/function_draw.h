@@ -1,8 +1,10 @@
 // How every method that is a transmittance function T(z) draws and resolves: C = sum p T(z), X = sum of optical depths,
 // N = sum (1 - t) T(z), E = sum e T(z), then L = L_behind exp(-X) + C (1 - exp(-X)) / N + E. For the exact T the factor is 1:
-// sum (1 - t_i) T_i telescopes (transparency chapter 1 and 7). Methods differ in T alone.
+// sum (1 - t_i) T_i telescopes (transparency chapter 1 and 7). Methods differ in T alone. Sums have no order, so those of draws
+// at half resolution, which look T(z) up like the others, are added to those at full resolution when they are resolved.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "passes/technique.h"
@@ -10,18 +12,24 @@
 
 namespace strata::transparency {
 
-/// Drawn with the frame's samples. X and N have three channels where the frame has colored transmission; E is there only
-/// where something emits.
+/// X and N have three channels where the frame has colored transmission; E is there only where something emits, the offset D
+/// where something distorts.
+struct ResolutionSums {
+    Image color, extinction, normalizer, emission, offset;
+};
 struct FunctionSums {
-    Image color, extinction, normalizer, emission;
+    ResolutionSums full;     ///< drawn with the frame's samples
+    ResolutionSums low;      ///< half the extent, one sample; no images where nothing is drawn so
+    FrameImages low_images;  ///< what those draws see
 };
 
 /// Cleared sums. accumulation: see function.shared.h.
 FunctionSums create_sums(Graph&, const FrameImages&, std::uint32_t accumulation);
 
-/// Declares the draw that adds every fragment to the sums. The fragment shader includes function_outputs.glsl and calls
-/// write_event(). Chain the technique's own verbs.
-DrawPass draw_into(Graph&, std::string shader, const FrameImages&, FunctionSums&);
+/// Declares the draws that add every fragment to the sums: one, and more in a frame of two resolutions. The fragment shader
+/// includes function_outputs.glsl and calls write_event(); `chain` adds the technique's own verbs to each.
+void draw_into(Graph&, const std::string& shader, const FrameImages&, FunctionSums&,
+               const std::function<void(DrawPass&, Resolution)>& chain);
 
 /// Blends the sums over images.color.
 void resolve_sums(Graph&, FrameImages&, const FunctionSums&);

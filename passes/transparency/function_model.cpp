@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/low_draws_model.h"
 #include "passes/transparency/rounding.h"
-#include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 namespace {
@@ -25,6 +25,19 @@ bool is_chromatic(const Frame& frame) { return frame_features(frame).has(Feature
 
 struct Sums {
     glm::dvec3 color{0}, extinction{0}, normalizer{0}, emission{0};
+    glm::dvec2 offset{0};
+
+    Sums& operator+=(const Sums& other) {
+        color += other.color;
+        extinction += other.extinction;
+        normalizer += other.normalizer;
+        emission += other.emission;
+        offset += other.offset;
+        return *this;
+    }
+    friend Sums operator*(const Sums& s, double share) {
+        return {s.color * share, s.extinction * share, s.normalizer * share, s.emission * share, s.offset * share};
+    }
 };
 
 Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, std::uint32_t accumulation,
@@ -32,6 +45,9 @@ Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmitt
     Sums sums;
     for (const Fragment& fragment : fragments) {
         const glm::dvec3 through = transmittance(fragment);
+        for (int axis = 0; axis < 2; ++axis)
+            sums.offset[axis] =
+                blended(sums.offset[axis], fragment.distortion[axis] * dimming(through), accumulation, half_float);
         for (int c = 0; c < 3; ++c) {
             // Grey extinction and weights are one half float each, whatever the color's format.
             const SmallFloat color = color_format(accumulation, c), weight = chromatic ? color : half_float;
@@ -55,23 +71,6 @@ glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind) {
     return radiance;
 }
 
-/// The farthest opaque depth of every texel of the prepass.
-ReferenceImage farthest_depth(const ReferenceImage& fine, std::uint32_t width, std::uint32_t height) {
-    ReferenceImage coarse(width, height, 1);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) {
-            double farthest = 1;
-            const std::uint32_t end_x = ((x + 1) * fine.width + width - 1) / width,
-                                end_y = ((y + 1) * fine.height + height - 1) / height;
-            for (std::uint32_t s = 0; s < fine.layers; ++s)
-                for (std::uint32_t fy = y * fine.height / height; fy < end_y; ++fy)
-                    for (std::uint32_t fx = x * fine.width / width; fx < end_x; ++fx)
-                        farthest = std::min(farthest, fine.at(fx, fy, s).x);
-            coarse.at(x, y, 0) = glm::dvec4(farthest);
-        }
-    return coarse;
-}
-
 /// The numbers of every texel, and whether its coverage hangs on rounding.
 struct Projected {
     std::uint32_t width = 0, height = 0;
@@ -85,10 +84,8 @@ Projected project(const StageInput& input, const PrepassModel& model) {
     low.view.width = extent.width;
     low.view.height = extent.height;
     low.view.samples = 1;
-    const auto depth = input.before.find("depth_layers");
-    const ReferenceImage opaque = depth != input.before.end() ? farthest_depth(depth->second, low.view.width, low.view.height)
-                                                              : ReferenceImage(low.view.width, low.view.height, 1);
-    const FragmentLists lists = transparent_fragments(low, opaque);
+    const FragmentLists lists =
+        transparent_fragments(low, farthest_depth(opaque_depth(input.before, input.before.at("color")), extent));
     Projected projected{low.view.width, low.view.height, {}, {}};
     for (std::uint32_t y = 0; y < low.view.height; ++y)
         for (std::uint32_t x = 0; x < low.view.width; ++x) {
@@ -98,7 +95,12 @@ Projected project(const StageInput& input, const PrepassModel& model) {
     return projected;
 }
 
-/// What is read at a pixel's center.
+/// The texel of another image under a pixel's center.
+glm::uvec2 texel_under(glm::uvec2 pixel, glm::uvec2 extent, glm::uvec2 other) {
+    return (2u * pixel + 1u) * other / (2u * extent);
+}
+
+/// What is read under a pixel's center.
 struct Read {
     std::vector<double> numbers;
     glm::uvec2 texel{0};  ///< the nearest
@@ -107,25 +109,50 @@ struct Read {
 
 /// Bilinear, clamped at the edges, or the nearest texel.
 Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 extent, glm::uvec2 pixel) {
-    const glm::dvec2 place =
-        glm::dvec2(pixel.x + .5, pixel.y + .5) / glm::dvec2(extent) * glm::dvec2(projected.width, projected.height);
-    Read read{.texel = glm::uvec2(place)};
-    const bool linear = model.filter == PrepassModel::Filter::linear;
-    const glm::dvec2 at = linear ? place - .5 : glm::floor(place);
-    const glm::dvec2 corner = glm::floor(at), share = at - corner;
-    for (int dy = 0; dy < 2; ++dy)
-        for (int dx = 0; dx < 2; ++dx) {
-            const double weight = (dx ? share.x : 1 - share.x) * (dy ? share.y : 1 - share.y);
-            if (weight == 0) continue;
-            const auto clamped = [](double i, std::uint32_t count) { return std::size_t(std::clamp(i, 0., double(count - 1))); };
-            const std::size_t texel =
-                clamped(corner.y + dy, projected.height) * projected.width + clamped(corner.x + dx, projected.width);
-            const std::vector<double>& numbers = projected.texels[texel];
-            read.numbers.resize(numbers.size());
-            for (std::size_t i = 0; i < numbers.size(); ++i) read.numbers[i] += weight * numbers[i];
-            read.undecided = read.undecided || projected.undecided[texel];
-        }
+    const glm::uvec2 size(projected.width, projected.height);
+    Read read{.texel = texel_under(pixel, extent, size)};
+    std::array<Tap, 4> taps = bilinear_taps(place_of(pixel, extent), size);
+    if (model.filter == PrepassModel::Filter::nearest) taps = {{{read.texel.x, read.texel.y, 1}}};
+    for (const Tap& tap : taps) {
+        if (tap.share == 0) continue;
+        const std::size_t texel = tap.y * projected.width + tap.x;
+        const std::vector<double>& numbers = projected.texels[texel];
+        read.numbers.resize(numbers.size());
+        for (std::size_t i = 0; i < numbers.size(); ++i) read.numbers[i] += tap.share * numbers[i];
+        read.undecided = read.undecided || projected.undecided[texel];
+    }
     return read;
+}
+
+/// A T(z), and whether it hangs on rounding.
+struct Found {
+    Transmittance transmittance;
+    bool undecided = false;
+};
+/// For fragments drawn to a pixel (x, y, sample) of an image of `extent`: the frame's, or half of it.
+using Lookup = std::function<Found(std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent)>;
+
+ImageSet modelled(const StageInput& input, std::uint32_t accumulation, const Lookup& lookup) {
+    const bool chromatic = is_chromatic(input.frame);
+    const auto summed = [&](std::span<const Fragment> fragments, glm::uvec3 at, glm::uvec2 extent) -> LowSums<Sums>::Texel {
+        if (fragments.empty()) return {};
+        const Found found = lookup(fragments, at, extent);
+        return {sums_of(fragments, found.transmittance, accumulation, chromatic), found.undecided};
+    };
+    const ReferenceImage& before = input.before.at("color");
+    const glm::uvec2 extent(before.width, before.height), half = (extent + 1u) / 2u;
+    const LowSums<Sums> low(input, [&](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        return summed(fragments, glm::uvec3(texel, 0), half);
+    });
+    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
+        auto [sums, undecided] = summed(fragments, at, extent);
+        const LowSums<Sums>::Texel read = low.at(place_of(glm::uvec2(at), extent));
+        sums += read.sums;
+        const bool bent = sums.offset != glm::dvec2(0);
+        const BlendedSample seen = bent ? seen_behind(before, at, sums.offset) : BlendedSample{behind};
+        return {resolved(sums, seen.radiance), undecided || read.undecided || seen.undecided};
+    };
+    return {{"color", blended(before, low.empty() ? input.frame : only(input.frame, Resolution::full), input.before, blend)}};
 }
 
 }  // namespace
@@ -145,25 +172,26 @@ glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind
 }
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
-    const bool chromatic = is_chromatic(input.frame);
-    const SampleBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind) {
-        return resolved(sums_of(fragments, function(fragments), accumulation, chromatic), behind);
-    };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    if (!frame_features(input.frame).has(Feature::low_resolution))
+        return modelled(input, accumulation,
+                        [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
+    // T is that of all fragments, of whichever resolution, of the sample under the center.
+    const ReferenceImage& before = input.before.at("color");
+    const FragmentLists all = transparent_fragments(input.frame, opaque_depth(input.before, before));
+    return modelled(input, accumulation, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+        const glm::uvec2 pixel = texel_under(glm::uvec2(at), extent, {before.width, before.height});
+        return Found{function(all.at(pixel.x, pixel.y, at.z)), all.undecided(pixel.x, pixel.y, at.z)};
+    });
 }
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const PrepassModel& model) {
-    const bool chromatic = is_chromatic(input.frame);
     const Projected projected = project(input, model);
-    ReferenceImage color = input.before.at("color");
-    const glm::uvec2 extent(color.width, color.height);
-    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
-        if (fragments.empty()) return {behind};
-        const Read read = read_at(projected, model, extent, glm::uvec2(at));
-        const Sums sums = sums_of(fragments, model.function(read.numbers, read.texel), accumulation, chromatic);
-        return {resolved(sums, behind), read.undecided};
-    };
-    return {{"color", blended(std::move(color), input.frame, input.before, blend)}};
+    // What a T(z) looks up lives as long as the pixel does.
+    Read read;
+    return modelled(input, accumulation, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+        read = read_at(projected, model, extent, glm::uvec2(at));
+        return Found{model.function(read.numbers, read.texel), read.undecided};
+    });
 }
 
 }  // namespace strata::transparency

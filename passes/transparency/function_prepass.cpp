@@ -89,4 +89,8 @@ std::uint32_t channel_count(std::uint32_t channels, const Features& features) {
 
 std::uint32_t divisor_of(std::uint32_t resolution) { return 1u << resolution; }
 
+Filter prepass_filter(std::uint32_t resolution, Resolution drawn_at) {
+    return resolution == 0 && drawn_at == Resolution::full ? Filter::nearest : Filter::linear;
+}
+
 }  // namespace strata::transparency

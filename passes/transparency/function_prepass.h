@@ -24,6 +24,8 @@ DepthRange transparent_depth_range(const Frame&);
 /// The row of the `resolution` parameter: a choice by name; divisor_of() is what it stands for.
 extern const Param resolution_row;
 std::uint32_t divisor_of(std::uint32_t resolution);
+/// How draws of the frame or of half its extent read a prepass at `resolution`: nearest where texel lies on texel.
+Filter prepass_filter(std::uint32_t resolution, Resolution drawn_at);
 
 /// The row of the `channels` parameter: automatic, mono, rgb. channel_count() is how many functions a texel has: 1 or 3.
 extern const Param channels_row;

@@ -1,20 +1,23 @@
-// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E (transparency chapter 7).
+// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E, with L_behind seen D away (transparency chapters 7 and 6.13).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/distortion.glsl"
 #include "passes/transparency/function_sums.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
-layout(set = 0, binding = 5, scalar) buffer Counters { FunctionCounters counters; };
+layout(set = 0, binding = 11) uniform sampler2DArray behind;
+layout(set = 0, binding = 12, scalar) buffer Counters { FunctionCounters counters; };
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(color)))) return;
-    const vec3 x = channels(texelFetch(extinction, at, 0)), n = channels(texelFetch(normalizer, at, 0));
-    vec3 over = min(texelFetch(color_sum, at, 0).rgb, largest_half) * factor(x, n);
-    if (emits != 0u) over += min(texelFetch(emission, at, 0).rgb, largest_half);
+    const vec3 x = extinction_at(at), n = normalizer_at(at);
+    vec3 over = merged(color_sum, low_color_sum, at).rgb * factor(x, n);
+    if (emits != 0u) over += merged(emission, low_emission, at).rgb;
     const vec3 clean = finite_or_zero(over);
     if (any(notEqual(clean, over))) atomicAdd(counters.scrubbed, 1u);
-    const vec4 behind = imageLoad(color, at);
-    imageStore(color, at, vec4(clean + behind.rgb * exp(-x), behind.a));
+    const vec4 here = imageLoad(color, at);
+    const vec3 seen = distorts != 0u ? seen_behind(behind, at, merged(offset, low_offset, at).rg) : here.rgb;
+    imageStore(color, at, vec4(clean + seen * exp(-x), here.a));
 }

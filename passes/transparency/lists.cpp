@@ -51,6 +51,7 @@ void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band
         .loads("GroupStarts", lists.group_starts)
         .stores("Keys", lists.keys)
         .stores("Events", lists.events)
+        .stores("Offsets", lists.offsets)
         .push(band);
 }
 
@@ -65,6 +66,8 @@ EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
     lists.group_starts = graph.create("list group starts", groups(largest) * sizeof(std::uint32_t));
     lists.keys = graph.create("list keys", std::uint64_t{largest.pool} * sizeof(ListKey));
     lists.events = graph.create("list events", std::uint64_t{largest.pool} * sizeof(ListEvent));
+    const bool distorts = images.features->has(Feature::distortion);
+    lists.offsets = graph.create("list offsets", std::uint64_t{distorts ? largest.pool : 1} * 2 * sizeof(float));
     return lists;
 }
 
@@ -86,6 +89,7 @@ std::vector<Counter> list_counters() {
         counter<&ListCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
         counter<&ListCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
         counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room: always 0"}),
+        counter<&ListCounters::atomics>(atomics_row),
     };
 }
 

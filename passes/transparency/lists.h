@@ -13,6 +13,7 @@ namespace strata::transparency {
 struct EventLists {
     std::vector<Band> bands;  ///< at least one
     Buffer counts, starts, group_starts, keys, events;
+    Buffer offsets;  ///< d of every event, in a frame with materials that distort; else of none
 };
 
 /// Memory for the largest band. pool: million fragments kept at a time (52 bytes each).
@@ -43,6 +44,9 @@ inline constexpr Param pool_row = {
     .fallback = 2,
     .help = "million fragments kept at a time (52 bytes each); a frame that can have more is done in bands of rows",
     .scale = Scale::logarithmic};
+
+/// The row of a count of atomic operations; a technique without one has none but those that count.
+inline constexpr Counter atomics_row = {.name = "atomics", .help = "atomic operations on what is kept of fragments"};
 
 /// The rows of ListCounters, which a technique's counters begin with.
 std::vector<Counter> list_counters();

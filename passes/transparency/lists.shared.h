@@ -34,6 +34,7 @@ struct ListCounters {
     uint fragments;
     uint deepest;
     uint dropped;
+    uint atomics;
 };
 
 // What a list is sorted by: near to far, or in the order of submission.

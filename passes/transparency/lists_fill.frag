@@ -12,6 +12,7 @@ layout(early_fragment_tests) in;
 layout(set = 0, binding = 1, scalar) buffer Counts { uint counts[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Keys { ListKey keys[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Events { ListEvent events[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
 
 void main() {
@@ -27,4 +28,5 @@ void main() {
     }
     keys[node] = ListKey(event.z, draws[in_draw].submission, gl_PrimitiveID, node);
     events[node] = ListEvent(event.p, event.t, event.e);
+    if (distorts != 0u) offsets[node] = event.d;
 }

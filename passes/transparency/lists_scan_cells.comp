@@ -10,6 +10,7 @@ layout(push_constant, scalar) uniform Push { Band band; };
 layout(set = 0, binding = 0, scalar) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Starts { uint starts[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer GroupStarts { uint group_starts[]; };
+layout(set = 0, binding = 3, scalar) buffer Counters { ListCounters counters; };
 
 void main() {
     const uint cells = band.width * band.rows * band.samples;
@@ -23,5 +24,8 @@ void main() {
     const Scanned scanned = scan_group(sum);
     for (uint i = 0u; i < 4u; ++i)
         if (first + i < cells) starts[first + i] = scanned.before + before[i];
-    if (gl_LocalInvocationIndex == 0u) group_starts[gl_WorkGroupID.x] = scanned.total;
+    if (gl_LocalInvocationIndex == 0u) {
+        group_starts[gl_WorkGroupID.x] = scanned.total;
+        atomicAdd(counters.atomics, scanned.total);  // one each counted them
+    }
 }

@@ -60,6 +60,7 @@ void main() {
     const uint together = subgroupAdd(count), longest = subgroupMax(count);
     if (subgroupElect()) {
         atomicAdd(counters.fragments, together);
+        atomicAdd(counters.atomics, together);  // one each found its slot
         atomicMax(counters.deepest, longest);
     }
 }

@@ -3,16 +3,32 @@
 #include <algorithm>
 #include <utility>
 
+#include "passes/transparency/object_order.h"
+
 namespace strata::transparency {
 namespace {
 
-/// Opaque depth per sample; nothing is in front of anything where the frame has no opaque depth.
+/// The frame with one transparent object and no other draws; the particles of an emitter far to near.
+void keep_only(Frame& frame, const Frame& whole, std::uint32_t index) {
+    frame.draws.clear();
+    frame.emitters.clear();
+    if (index < whole.draws.size()) {
+        frame.draws.push_back(whole.draws[index]);
+        return;
+    }
+    const Emitter& emitter = whole.emitters[index - whole.draws.size()];
+    frame.emitters.push_back(emitter);
+    frame.emitters[0].particles.clear();
+    for (const std::uint32_t particle : back_to_front_particles(whole, emitter))
+        frame.emitters[0].particles.push_back(emitter.particles[particle]);
+}
+
+}  // namespace
+
 ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color) {
     const auto found = before.find("depth_layers");
     return found != before.end() ? found->second : ReferenceImage(color.width, color.height, color.layers);
 }
-
-}  // namespace
 
 ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend) {
     return blended(std::move(color), frame, before, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
@@ -32,6 +48,15 @@ ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet&
                 if (lists.undecided(x, y, s) || result.undecided) color.undecided[color.index(x, y, s)] = true;
             }
         }
+    }
+    return color;
+}
+
+ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, const SampleBlend& blend) {
+    Frame alone = input.frame;
+    for (const std::uint32_t index : back_to_front_draws(input.frame)) {
+        keep_only(alone, input.frame, index);
+        color = blended(std::move(color), alone, input.before, blend);
     }
     return color;
 }

@@ -1,6 +1,6 @@
 #include "passes/transparency/truth.h"
 
-#include "passes/transparency/sample_blend.h"
+#include "passes/transparency/distortion_model.h"
 
 namespace strata {
 
@@ -13,8 +13,26 @@ glm::dvec3 exact_blend(std::span<const Fragment> fragments, glm::dvec3 behind) {
     return color + through * behind;
 }
 
+glm::dvec2 exact_distortion(std::span<const Fragment> fragments) {
+    glm::dvec2 offset(0);
+    glm::dvec3 through(1);
+    for (const Fragment& fragment : transparency::nearest_first(fragments)) {
+        offset += transparency::dimming(through) * fragment.distortion;
+        through *= fragment.transmittance;
+    }
+    return offset;
+}
+
 ImageSet transparency_truth(const StageInput& input) {
-    return {{"color", transparency::blended(input.before.at("color"), input.frame, input.before, exact_blend)}};
+    const ReferenceImage& before = input.before.at("color");
+    const transparency::PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind,
+                                                glm::uvec3 at) -> transparency::BlendedSample {
+        const glm::dvec2 offset = exact_distortion(fragments);
+        if (offset == glm::dvec2(0)) return {exact_blend(fragments, behind)};
+        const transparency::BlendedSample seen = transparency::seen_behind(before, at, offset);
+        return {exact_blend(fragments, seen.radiance), seen.undecided};
+    };
+    return {{"color", transparency::blended(before, input.frame, input.before, blend)}};
 }
 
 }  // namespace strata

@@ -155,7 +155,7 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     execution.host_ms.render = lap();
     fail_on_messages();
 
-    execution.step_ms = frame.stopwatch.milliseconds();
+    execution.step_costs = frame.stopwatch.costs();
     for (const HostCopies::Copy& copy : frame.peeked) execution.peeked.push_back(frame.peeks.take(copy));
     read_kept(frame, execution);
     execution.host_ms.read_back = lap();

@@ -52,8 +52,14 @@ struct HostTimes {
     double allocate = 0, pipelines = 0, record = 0, render = 0, read_back = 0;  ///< render: submit to fence
 };
 
+/// What a step took on the device.
+struct StepCost {
+    double ms = 0;
+    std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
+};
+
 struct Execution {
-    std::vector<double> step_ms;  ///< one per executed step with timestamps on
+    std::vector<StepCost> step_costs;  ///< one per executed step with timestamps on
     HostTimes host_ms;
     std::size_t pipelines_created = 0;
     // Images with several samples come back as layers, their depth as r32f. A shortened run gives what it made.

@@ -137,6 +137,8 @@ Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
     return found;
 }
 
+bool counts_invocations(const vk::raii::PhysicalDevice& device) { return device.getFeatures().pipelineStatisticsQuery; }
+
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
     const vk::QueueFlags everything = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
@@ -152,6 +154,8 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Cap
     for (const FeatureRow& row : baseline) row.of(wanted) = VK_TRUE;
     const auto has = [&](Capability capability) { return std::ranges::find(capabilities, capability) != capabilities.end(); };
     wanted.get<V12>().shaderBufferInt64Atomics = has(Capability::buffer_int64_atomics);
+
+    wanted.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery = counts_invocations(physical);
 
     std::vector<const char*> extensions;
     vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT interlock;

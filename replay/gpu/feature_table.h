@@ -24,6 +24,8 @@ std::vector<std::string_view> baseline_features();
 /// What the device has beyond the baseline.
 Capabilities capabilities_of(const vk::raii::PhysicalDevice&);
 
+/// Whether queries can count how often shaders ran.
+bool counts_invocations(const vk::raii::PhysicalDevice&);
 /// The family of the one queue: graphics and compute with timestamps.
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice&);
 

@@ -22,6 +22,7 @@ public:
     const vk::raii::Device& handle() const { return device_; }
     MemoryPool& memory() { return memory_; }
     double timestamp_period_ns() const { return timestamp_period_ns_; }
+    bool counts_invocations() const { return counts_invocations_; }
 
     /// Gives the object a name in validation messages and debuggers.
     template <typename Handle>
@@ -42,6 +43,7 @@ private:
     DeviceInfo info_;
     vk::raii::PhysicalDevice physical_;
     double timestamp_period_ns_;
+    bool counts_invocations_;
     vk::raii::Device device_;
     vk::raii::Queue queue_;
     vk::raii::CommandPool commands_;

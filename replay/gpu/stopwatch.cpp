@@ -4,33 +4,58 @@
 #include "replay/gpu/step_recorder.h"
 
 namespace strata {
+namespace {
+
+// In the order of their bits: that of the results.
+constexpr vk::QueryPipelineStatisticFlags counted = vk::QueryPipelineStatisticFlagBits::eFragmentShaderInvocations |
+                                                    vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations;
+constexpr std::uint32_t counts = 2;
+
+/// The first `count` results of a pool, `each` numbers wide.
+std::vector<std::uint64_t> results(const vk::raii::QueryPool& pool, std::uint32_t count, std::uint32_t each) {
+    const std::size_t bytes = each * sizeof(std::uint64_t);
+    return pool
+        .getResults<std::uint64_t>(0, count, count * bytes, bytes, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
+        .second;
+}
+
+}  // namespace
 
 Stopwatch::Stopwatch(const OpenedDevice& device, std::uint32_t intervals)
     : period_ns_(device.timestamp_period_ns()),
-      capacity_(2 * intervals),
-      pool_(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, capacity_)) {
-    pool_.reset(0, capacity_);
+      times_(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2 * intervals)) {
+    times_.reset(0, 2 * intervals);
+    if (!device.counts_invocations()) return;
+    invocations_.emplace(device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::ePipelineStatistics, intervals, counted));
+    invocations_->reset(0, intervals);
 }
 
-void Stopwatch::write(const vk::raii::CommandBuffer& commands) {
+void Stopwatch::write_time(const vk::raii::CommandBuffer& commands) {
     full_barrier(commands);
-    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *pool_, written_++);
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *times_, written_++);
     full_barrier(commands);
 }
 
-void Stopwatch::begin(const vk::raii::CommandBuffer& commands) { write(commands); }
+void Stopwatch::begin(const vk::raii::CommandBuffer& commands) {
+    write_time(commands);
+    if (invocations_) commands.beginQuery(**invocations_, begun_, {});
+    ++begun_;
+}
 
-void Stopwatch::end(const vk::raii::CommandBuffer& commands) { write(commands); }
+void Stopwatch::end(const vk::raii::CommandBuffer& commands) {
+    if (invocations_) commands.endQuery(**invocations_, begun_ - 1);
+    write_time(commands);
+}
 
-std::vector<double> Stopwatch::milliseconds() const {
-    std::vector<double> intervals;
-    if (written_ == 0) return intervals;
-    const auto [result, ticks] =
-        pool_.getResults<std::uint64_t>(0, written_, written_ * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-    for (std::size_t i = 0; i + 1 < ticks.size(); i += 2) {
-        intervals.push_back(static_cast<double>(ticks[i + 1] - ticks[i]) * period_ns_ * 1e-6);
-    }
+std::vector<StepCost> Stopwatch::costs() const {
+    std::vector<StepCost> intervals(begun_);
+    if (begun_ == 0) return intervals;
+    const std::vector<std::uint64_t> ticks = results(times_, written_, 1);
+    for (std::size_t i = 0; i < begun_; ++i)
+        intervals[i].ms = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * period_ns_ * 1e-6;
+    if (!invocations_) return intervals;
+    const std::vector<std::uint64_t> numbers = results(*invocations_, begun_, counts);
+    for (std::size_t i = 0; i < begun_; ++i) intervals[i].invocations = numbers[counts * i] + numbers[counts * i + 1];
     return intervals;
 }
 

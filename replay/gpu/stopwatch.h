@@ -1,5 +1,6 @@
-// GPU times of steps. They stand outside rendering scopes with a barrier on both sides: inside a scope llvmpipe measures its
-// binning, and without the barriers 22.3.6 shifts the times of dispatches by one (platform.md 2.4).
+// GPU times of steps, and how often their shaders ran. Queries stand outside rendering scopes with a barrier on both sides:
+// inside a scope llvmpipe measures its binning, and without the barriers 22.3.6 shifts the times of dispatches by one
+// (platform.md 2.4).
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
+
+#include "replay/gpu/executor.h"
 
 namespace strata {
 
@@ -18,15 +21,16 @@ public:
 
     void begin(const vk::raii::CommandBuffer&);
     void end(const vk::raii::CommandBuffer&);
-    /// Milliseconds of every interval, once the queue is idle.
-    std::vector<double> milliseconds() const;
+    /// Of every interval, once the queue is idle.
+    std::vector<StepCost> costs() const;
 
 private:
-    void write(const vk::raii::CommandBuffer&);
+    void write_time(const vk::raii::CommandBuffer&);
 
     double period_ns_;
-    std::uint32_t capacity_, written_ = 0;
-    vk::raii::QueryPool pool_;
+    std::uint32_t begun_ = 0, written_ = 0;
+    vk::raii::QueryPool times_;
+    std::optional<vk::raii::QueryPool> invocations_;  ///< where the device counts them
 };
 
 }  // namespace strata

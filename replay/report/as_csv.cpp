@@ -7,7 +7,8 @@ namespace strata {
 namespace {
 
 constexpr std::string_view head =
-    "implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,time,time_mad,stage_bytes,bytes_per_pixel,flicker,"
+    "implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,time,time_mad,stage_bytes,bytes_per_pixel,invocations,"
+    "flicker,"
     "on_pareto_front,on_memory_front,counters,not_supported";
 
 std::string csv_field(std::string_view text) {
@@ -38,13 +39,14 @@ std::string counters_text(const Measurement& row) {
 std::string line_of(const Measurement& row, std::size_t figures) {
     std::string line = row.technique + "," + csv_field(row.settings);
     if (!row.accuracy.not_supported.empty())
-        return line + std::string(figures + 14, ',') + csv_field(row.accuracy.not_supported) + "\n";
+        return line + std::string(figures + 15, ',') + csv_field(row.accuracy.not_supported) + "\n";
     for (const Figure& figure : errors_of(row)) line += fmt::format(",{}", number(figure.value));
     line += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}", row.accuracy.model_rmse, row.stage_ms.median, row.stage_ms.mad,
                         row.frame_ms.median, row.frame_ms.mad);
     const auto time = [&](double Spread::*part) { return row.time ? number(*row.time.*part) : std::string(); };
     line += fmt::format(",{},{}", time(&Spread::median), time(&Spread::mad));
-    return line + fmt::format(",{},{},{},{:d},{:d},{},\n", row.stage_bytes, number(row.bytes_per_pixel), number(row.flicker),
+    return line + fmt::format(",{},{},{},{},{:d},{:d},{},\n", row.stage_bytes, number(row.bytes_per_pixel),
+                              row.invocations ? fmt::format("{}", *row.invocations) : std::string(), number(row.flicker),
                               row.on_front, row.on_memory_front, csv_field(counters_text(row)));
 }
 
@@ -70,7 +72,7 @@ std::string as_csv(std::span<const Report> reports, const Pool& pool) {
         for (const std::string& figure : figures)
             csv += fmt::format(",{}", figure == pool.error ? number(row.error) : std::string());
         csv += fmt::format(
-            ",,,,,,{},,,{},{},{:d},{:d},,{}\n", number(row.time), number(row.bytes_per_pixel), number(row.flicker), row.on_front,
+            ",,,,,,{},,,{},,{},{:d},{:d},,{}\n", number(row.time), number(row.bytes_per_pixel), number(row.flicker), row.on_front,
             row.on_memory_front,
             row.captures == pool.captures ? std::string() : fmt::format("\"{} of {} captures\"", row.captures, pool.captures));
     }

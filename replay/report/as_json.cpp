@@ -39,6 +39,7 @@ ordered_json json_of(const Measurement& row) {
     json["frame_ms"] = json_of(row.frame_ms);
     json["stage_bytes"] = row.stage_bytes;
     json["bytes_per_pixel"] = row.bytes_per_pixel;
+    if (row.invocations) json["invocations"] = *row.invocations;
     if (row.flicker) json["flicker"] = *row.flicker;
     json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : row.counters) json["counters"][counter.name] = counter.value;

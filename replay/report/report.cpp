@@ -81,6 +81,8 @@ void add_timing(Measurement& row, const Run& run, const Report& report) {
     row.frame_ms = *run.frame_ms;
     if (const auto bytes = run.stage_bytes.find(stage_name); bytes != run.stage_bytes.end()) row.stage_bytes = bytes->second;
     row.bytes_per_pixel = double(row.stage_bytes) / (double(report.width) * report.height);
+    if (const auto ran = run.stage_invocations.find(stage_name); ran != run.stage_invocations.end())
+        row.invocations = ran->second;
     std::ranges::copy_if(run.counters, std::back_inserter(row.counters),
                          [&](const CounterRecord& counter) { return counter.technique == row.technique; });
 }

@@ -42,6 +42,7 @@ struct Measurement {
     std::optional<Spread> time;  ///< stage_ms as multiples of the time unit's, turn by turn
     std::uint64_t stage_bytes = 0;
     double bytes_per_pixel = 0;
+    std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
     std::optional<double> flicker;
     std::vector<CounterRecord> counters;  ///< of the technique
     bool on_front = false;                ///< nothing is both more accurate and faster

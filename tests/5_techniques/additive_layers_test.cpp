@@ -1,4 +1,4 @@
-// transparency/weighted_additive on a device: the chapter's table of layers (3.2), the mask of tiles, and two resolutions in one.
+// transparency/weighted_additive on a device: the chapter's table of layers (3.2), and the mask of tiles.
 #include <algorithm>
 #include <array>
 
@@ -105,47 +105,6 @@ TEST(TilesWithoutFragments, AreSkippedAndNoPixelKnowsIt) {
         EXPECT_EQ(counted(all, "tiles skipped"), 0u);
         EXPECT_EQ(some.images.at("color").texels, all.images.at("color").texels);
     }
-}
-
-/// Smoke at half resolution among panes at full; odd sizes share no pixel grid.
-Frame low_resolution_smoke(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
-    Frame frame = scenario_frames("glass_and_smoke", samples).front();
-    frame.view.width = width, frame.view.height = height;
-    for (Emitter& emitter : frame.emitters) emitter.resolution = Resolution::low;
-    return frame;
-}
-
-TEST(LowResolution, IsMergedAsTheModelSays) {
-    const auto session =
-        must(Session::open({low_resolution_smoke(96, 54, 1), low_resolution_smoke(53, 31, 1), low_resolution_smoke(64, 36, 4)},
-                           {.validation = true}));
-    const Technique& technique = *must(find_technique(additive));
-    for (std::size_t frame = 0; frame < session->frame_count(); ++frame)
-        for (const char* set : {"normalization=published", "normalization=corrected"}) {
-            const Accuracy accuracy =
-                must(session->judge({.frame = frame, .uses = {std::string(additive)}, .sets = {set}}, technique.stage));
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
-            EXPECT_LT(double(accuracy.undecided), .3 * double(accuracy.compared + accuracy.undecided));
-        }
-}
-
-TEST(LowResolution, SkipsNoTileThatItsBilinearEdgesReach) {
-    const auto session =
-        must(Session::open({low_resolution_smoke(96, 54, 1), low_resolution_smoke(53, 31, 4)}, {.validation = true}));
-    for (const std::size_t frame : {0u, 1u})
-        EXPECT_EQ(color_of(*session, frame).texels, color_of(*session, frame, {"tiles=all"}).texels) << frame;
-}
-
-TEST(LowResolution, ShadesAQuarterOfTheFragments) {
-    const auto fragments = [](Resolution resolution) {
-        Frame frame = low_resolution_smoke(96, 54, 1);
-        for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
-        std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
-        const auto session = must(Session::open({frame}, {.validation = true}));
-        return double(counted(must(session->run({.uses = {std::string(additive)}})), "fragments"));
-    };
-    EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
 }
 
 }  // namespace

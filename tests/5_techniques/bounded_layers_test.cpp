@@ -53,7 +53,7 @@ TEST(KBufferOnDevice, CountsWhatFallsOutWhateverBecomesOfIt) {
         EXPECT_EQ(counted(run, "fragments"), 40u * pixels);
         EXPECT_EQ(counted(run, "displaced"), 32u * pixels);
         // Far to near: each is in front of all others and goes through every slot that is taken, and one more.
-        EXPECT_EQ(counted(run, "steps"), (1 + 2 + 3 + 4 + 5 + 6 + 7 + 33 * 8) * pixels);
+        EXPECT_EQ(counted(run, "atomics"), (1 + 2 + 3 + 4 + 5 + 6 + 7 + 33 * 8) * pixels);
     }
 }
 
@@ -62,7 +62,7 @@ TEST(KBufferOnDevice, SpendsNoAtomicOnWhatIsBehindItsLastSlot) {
     std::reverse(frame.draws.begin() + 1, frame.draws.end());
     const auto run = run_on(frame, "transparency/k_buffer", {});
     EXPECT_EQ(counted(run, "displaced"), 32u * pixels);
-    EXPECT_EQ(counted(run, "steps"), (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8) * pixels);
+    EXPECT_EQ(counted(run, "atomics"), (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8) * pixels);
 }
 
 TEST(DepthPeelingOnDevice, ShadesEverythingInEveryPass) {

@@ -2,6 +2,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
 #include "passes/transparency/a_buffer/model.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
@@ -60,6 +61,7 @@ Merged create_merged(Graph& graph, const FrameImages& images, const ABufferPush&
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const ABufferPush push = push_of(images, settings);
     Layers layers = create_layers(graph, images, push);
     Merged merged = create_merged(graph, images, push);
@@ -111,7 +113,8 @@ Technique a_buffer() {
         .points = {"layers=4", "layers=16", "layout=rgb"},
         .counters = {counter<&ABufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&ABufferCounters::overflow>(
-                         {.name = "overflow", .help = "fragments that came too late and were merged into one layer"})},
+                         {.name = "overflow", .help = "fragments that came too late and were merged into one layer"}),
+                     counter<&ABufferCounters::atomics>({.name = "atomics", .help = "compare-and-swaps of byte counts"})},
         .counter_bytes = sizeof(ABufferCounters),
         .views = {{.name = "overflow",
                    .help = "visible fragments of a pixel that are merged, the worst sample's",

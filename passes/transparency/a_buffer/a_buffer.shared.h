@@ -24,6 +24,7 @@ struct ABufferPush {
 struct ABufferCounters {
     uint fragments;
     uint overflow;
+    uint atomics;
 };
 
 #ifdef __cplusplus

@@ -20,11 +20,13 @@ layout(set = 0, binding = 5, scalar) buffer Counters { ABufferCounters counters;
 // How many came before; 255 are as good as more. Helper invocations, which cover nothing, must not wait for their swap.
 uint arrival(ivec3 texel) {
     const CountPlace place = count_place(texel);
-    uint seen = counts[place.word], expected = ~seen;
+    uint seen = counts[place.word], expected = ~seen, swaps = 0u;
     while (seen != expected && count_in(seen, place) < most_counted && gl_SampleMaskIn[0] != 0) {
         expected = seen;
         seen = atomicCompSwap(counts[place.word], expected, expected + (1u << place.shift));
+        ++swaps;
     }
+    atomicAdd(counters.atomics, swaps);
     return count_in(seen, place);
 }
 

@@ -1,4 +1,4 @@
-// T(z) is that of the last node in front.
+// T(z) is that of the last node in front. Draws at half resolution look it up in a pixel under their center.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
@@ -8,13 +8,12 @@
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
 layout(constant_id = 10) const uint curve_nodes = 8u;
-layout(constant_id = 11) const uint width = 1u;  // pixels of a row
-layout(constant_id = 12) const uint samples = 1u;
+layout(constant_id = 11) const uint samples = 1u;
 layout(set = 0, binding = 1, scalar) readonly buffer Curves { CurveNode curves[]; };
 
 vec3 transmittance(float z) {
-    const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    const uint first = ((pixel.y * width + pixel.x) * samples + gl_SampleID) * curve_nodes;
+    const uvec2 pixel = texel_under(view.extent);
+    const uint first = ((pixel.y * view.extent.x + pixel.x) * samples + gl_SampleID) * curve_nodes;
     vec3 through = vec3(1.0);
     for (uint i = 0u; i < curve_nodes; ++i) {
         const CurveNode node = curves[first + i];

@@ -23,11 +23,9 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
             .over(over(band));
     }
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    draw_into(graph, "transparency/adaptive/accumulate", images, drawn)
-        .loads("Curves", curves)
-        .fixes("curve_nodes", nodes)
-        .fixes("width", images.extent.width)
-        .fixes("samples", images.samples);
+    draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawPass& draw, Resolution) {
+        draw.loads("Curves", curves).fixes("curve_nodes", nodes).fixes("samples", images.samples);
+    });
     return drawn;
 }
 

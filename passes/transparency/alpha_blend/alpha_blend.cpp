@@ -1,6 +1,7 @@
 // Objects from back to front, each blended over what is there: what most renderers do.
 #include "passes/technique.h"
 #include "passes/transparency/alpha_blend/alpha_blend.shared.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
@@ -10,6 +11,7 @@ ImageSet alpha_blend_model(const StageInput&, const Settings&);  // model.cpp
 namespace {
 
 void add(Graph& graph, FrameImages& images, const Settings&) {
+    distort_background(graph, images);
     Image color = gather(graph, images.color, "alpha_blend color");
     draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
     images.color = spread(graph, color, graph.record(images.color).name);

@@ -2,6 +2,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
 #include "passes/transparency/depth_peeling/model.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
@@ -60,6 +61,7 @@ void composite(Graph& graph, const FrameImages& images, std::uint32_t pass, cons
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const std::uint32_t passes = settings.as<DepthPeelingParams>().passes;
     Targets targets = create_targets(graph, images);
     Front front{create_layers(graph, images, "depth_peeling front", Format::rgba32f, {}),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/transparency/distortion_model.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
@@ -40,7 +41,7 @@ ImageSet depth_peeling_model(const StageInput& input, const Settings& settings) 
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {peeled_blend(fragments, behind, passes, near), is_doubtful(fragments)};
     };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

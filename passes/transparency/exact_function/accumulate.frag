@@ -1,4 +1,5 @@
 // T(z) is the product over the fragments of the list that are strictly nearer; coincident fragments do not hide each other.
+// Draws at half resolution read the list of a pixel under their center.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
@@ -23,7 +24,7 @@ vec3 transmittance(uint start, uint count, float z) {
 
 void main() {
     const Event event = transparent_event();
-    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uvec2 pixel = texel_under(view.extent);
     if (!event.visible || !in_band(pixel.y)) discard;
     const uint cell = cell_of(pixel, gl_SampleID), start = list_start(cell);
     atomicAdd(counters.drawn, 1u);

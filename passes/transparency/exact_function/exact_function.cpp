@@ -17,7 +17,8 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
-        read_lists(draw_into(graph, "transparency/exact_function/accumulate", images, drawn), lists, band);
+        draw_into(graph, "transparency/exact_function/accumulate", images, drawn,
+                  [&](DrawPass& draw, Resolution) { read_lists(draw, lists, band); });
     }
     return drawn;
 }

@@ -1,5 +1,6 @@
 // The K nearest fragments of a sample, kept in order by 64-bit atomics; what is behind them becomes a tail.
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 #include "passes/transparency/k_buffer/model.h"
@@ -45,6 +46,7 @@ void keep(Graph& graph, const FrameImages& images, const KBufferParams& params, 
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const auto params = settings.as<KBufferParams>();
     const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
     Buffer slots = graph.create("k_buffer slots", samples * params.layers * sizeof(std::uint64_t));
@@ -89,7 +91,7 @@ Technique k_buffer() {
         .counters = {counter<&KBufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&KBufferCounters::displaced>(
                          {.name = "displaced", .help = "fragments that had no place among the nearest: the tail"}),
-                     counter<&KBufferCounters::steps>({.name = "steps", .help = "64-bit atomics issued"})},
+                     counter<&KBufferCounters::atomics>({.name = "atomics", .help = "64-bit atomics issued"})},
         .counter_bytes = sizeof(KBufferCounters),
         .views = {{.name = "beyond",
                    .help = "visible fragments of a pixel beyond those kept, the worst sample's",

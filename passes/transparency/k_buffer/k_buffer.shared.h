@@ -19,7 +19,7 @@ struct KBufferParams {
 struct KBufferCounters {
     uint fragments;
     uint displaced;
-    uint steps;
+    uint atomics;
 };
 
 #ifdef __cplusplus

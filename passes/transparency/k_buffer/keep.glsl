@@ -26,7 +26,7 @@ uint64_t keep(Event event) {
         carried = there > carried ? there : carried;  // empty is the farthest: nothing is left to carry
     }
     atomicAdd(counters.fragments, 1u);
-    atomicAdd(counters.steps, steps);
+    atomicAdd(counters.atomics, steps);
     if (carried != empty_slot) atomicAdd(counters.displaced, 1u);
     return carried;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "passes/transparency/distortion_model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
@@ -124,7 +125,7 @@ ImageSet k_buffer_model(const StageInput& input, const Settings& settings) {
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {k_buffer_blend(fragments, behind, params), is_doubtful(fragments)};
     };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

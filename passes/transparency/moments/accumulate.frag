@@ -52,7 +52,7 @@ float absorbance(float moments[8], float z) {
 }
 
 float transmittance(uint channel, float z, float own_depth) {
-    const vec3 at = vec3(gl_FragCoord.xy / vec2(view.extent), float(channel));
+    const vec3 at = vec3(drawn_place(), float(channel));
     const float sum = textureLod(total, at, 0.0).r;
     if (sum < least_moment_depth) return 1.0;
     float moments[8];

@@ -90,15 +90,16 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     } else {
         add_up(graph, low, params, push, moments);
     }
-    const Filter filter = params.resolution == 0 ? Filter::nearest : Filter::linear;
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    draw_into(graph, "transparency/moments/accumulate", images, drawn)
-        .samples("total", moments.total, filter)
-        .samples("head", moments.head, filter)
-        .samples("tail", moments.tail, filter)
-        .fixes("kind", params.kind)
-        .fixes("storage", params.storage)
-        .push(push);
+    draw_into(graph, "transparency/moments/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+        const Filter filter = prepass_filter(params.resolution, resolution);
+        draw.samples("total", moments.total, filter)
+            .samples("head", moments.head, filter)
+            .samples("tail", moments.tail, filter)
+            .fixes("kind", params.kind)
+            .fixes("storage", params.storage)
+            .push(push);
+    });
     return drawn;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/transparency/distortion_model.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/sample_blend.h"
 
@@ -47,7 +48,7 @@ ImageSet multi_layer_model(const StageInput& input, const Settings& settings) {
         }
         return behind;
     };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
 #include "passes/transparency/multi_layer/model.h"
@@ -10,6 +11,7 @@ namespace strata::transparency {
 namespace {
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const auto params = settings.as<MultiLayerParams>();
     const DepthRange range = transparent_depth_range(*images.recorded);
     const float per_log = float(params.buckets) / std::log(range.farthest / range.nearest);

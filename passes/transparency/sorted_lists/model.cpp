@@ -1,6 +1,6 @@
 #include "passes/transparency/sorted_lists/model.h"
 
-#include "passes/transparency/sample_blend.h"
+#include "passes/transparency/distortion_model.h"
 
 namespace strata::transparency {
 
@@ -13,7 +13,21 @@ glm::dvec3 sorted_blend(std::span<const Fragment> fragments, glm::dvec3 behind) 
 }
 
 ImageSet sorted_lists_model(const StageInput& input, const Settings&) {
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, sorted_blend)}};
+    const ReferenceImage& before = input.before.at("color");
+    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
+        // Offsets per channel of light: what dims them all alike is taken of the sum.
+        glm::dvec3 right(0), down(0);
+        const std::vector<Fragment> sorted = nearest_first(fragments);
+        for (auto fragment = sorted.rbegin(); fragment != sorted.rend(); ++fragment) {
+            right = fragment->distortion.x + fragment->transmittance * right;
+            down = fragment->distortion.y + fragment->transmittance * down;
+        }
+        const glm::dvec2 offset(dimming(right), dimming(down));
+        if (offset == glm::dvec2(0)) return {sorted_blend(fragments, behind)};
+        const BlendedSample seen = seen_behind(before, at, offset);
+        return {sorted_blend(fragments, seen.radiance), seen.undecided};
+    };
+    return {{"color", blended(before, input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

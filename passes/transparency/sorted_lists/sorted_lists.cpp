@@ -1,5 +1,6 @@
 // Every fragment in a list of its sample, sorted, composited: the reference on the device. Exact but for float.
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/lists.h"
 #include "passes/transparency/sorted_lists/model.h"
 #include "passes/transparency/sorted_lists/sorted_lists.shared.h"
@@ -8,11 +9,15 @@ namespace strata::transparency {
 namespace {
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    const Image behind = undistorted(graph, images);
     EventLists lists = create_lists(graph, images, settings.as<SortedListsParams>().pool);
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
         read_lists(graph.compute("transparency/sorted_lists/resolve.comp"), lists, band)
             .updates("color", images.color)
+            .loads("Offsets", lists.offsets)
+            .samples("behind", behind)
+            .fixes("distorts", behind ? 1u : 0u)
             .over(over(band));
     }
 }

@@ -6,6 +6,7 @@
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_reveal;  // multiplied
 layout(set = 0, binding = 1, scalar) buffer Depths { uint depths[]; };
+layout(set = 0, binding = 2, scalar) buffer Counters { StochasticCounters counters; };
 
 void main() {
     const Event event = transparent_event();
@@ -14,6 +15,11 @@ void main() {
     out_reveal = vec4(event.t, 1.0);
     const uint first = first_subsample(pixel), depth = depth_bits(event);
     Subset subset = subset_of(event, pixel);
-    for (uint s = 0u; s < band.subsamples; ++s)
-        if (covers(subset, s)) atomicMin(depths[first + s], depth);
+    uint covered = 0u;
+    for (uint s = 0u; s < band.subsamples; ++s) {
+        if (!covers(subset, s)) continue;
+        atomicMin(depths[first + s], depth);
+        ++covered;
+    }
+    atomicAdd(counters.atomics, covered);
 }

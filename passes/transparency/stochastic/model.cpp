@@ -8,6 +8,7 @@
 
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
+#include "passes/transparency/distortion_model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/stochastic/subset.shared.h"
@@ -178,7 +179,7 @@ ImageSet stochastic_model(const StageInput& input, const Settings& settings) {
         for (const Fragment& fragment : fragments) seeded.push_back(origins.seeded(fragment, at, params));
         return stochastic_blend(seeded, behind, params);
     };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input.frame, input.before, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/stochastic/model.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
@@ -81,6 +82,7 @@ void resolve(Graph& graph, FrameImages& images, const Targets& targets, const St
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const std::vector<StochasticBand> listed = bands(images, settings.as<StochasticParams>());
     Targets targets = create_targets(graph, images, listed.front());
     for (const StochasticBand& band : listed) {
@@ -141,7 +143,9 @@ Technique stochastic() {
         .params = params(),
         .points = {"mode=depth_based", "samples=64", "samples=64 mode=depth_based", "mode=hashed"},
         .counters = {counter<&StochasticCounters::fragments>(
-            {.name = "fragments", .help = "visible transparent fragments shaded"})},
+                         {.name = "fragments", .help = "visible transparent fragments shaded"}),
+                     counter<&StochasticCounters::atomics>(
+                         {.name = "atomics", .help = "subsamples that fragments covered: a minimum each"})},
         .counter_bytes = sizeof(StochasticCounters),
         .known_failures = {{"H2", 0.0999, "eight subsamples hold T in eighths"},
                            {"H4", 0.125, "eight subsamples: in the worst pixel an eighth is off"},

@@ -41,6 +41,7 @@ struct StochasticBand {
 
 struct StochasticCounters {
     uint fragments;
+    uint atomics;
 };
 
 // Subsamples that nothing covers.

@@ -52,8 +52,11 @@ float cell_value(uint cell) {
     return value;
 }
 
-float transmittance(uint channel, float s, float own_depth) {
-    read_coefficients(vec3(gl_FragCoord.xy / vec2(view.extent), float(channel)));
+float transmittance(uint channel, uvec2 texel, float s, float own_depth) {
+    // Half-resolution draws lie between the texels, whose coefficients mix where their cells are the same.
+    vec2 place = drawn_place();
+    if (bounds == bounds_pixel) place = (vec2(texel) + 0.5) / vec2(push.width, push.height);
+    read_coefficients(vec3(place, float(channel)));
     const uint cell = uint(s);
     const float share = s - float(cell);
     float depth = mix(cell > 0u ? cell_value(cell - 1u) : 0.0, cell_value(cell), share);
@@ -64,11 +67,11 @@ float transmittance(uint channel, float s, float own_depth) {
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
-    const uvec2 texel = uvec2(vec2(push.width, push.height) * gl_FragCoord.xy / vec2(view.extent));
+    const uvec2 texel = texel_under(uvec2(push.width, push.height));
     const float s = cell_of_depth(event.z, texel);
     vec3 through = vec3(0.0);
     for (uint channel = 0u; channel < push.channels; ++channel)
-        through[channel] = transmittance(channel, s, wavelet_depth(event.t, push.channels == 1u ? 3u : channel));
+        through[channel] = transmittance(channel, texel, s, wavelet_depth(event.t, push.channels == 1u ? 3u : channel));
     if (push.channels == 1u) through = through.rrr;
     atomicAdd(counters.drawn, 1u);
     write_event(event, through);

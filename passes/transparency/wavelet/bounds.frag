@@ -8,6 +8,7 @@ layout(push_constant, scalar) uniform Push { WaveletPush push; };
 #include "passes/transparency/wavelet/cells.glsl"
 
 layout(early_fragment_tests) in;
+layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
 
 void main() {
     const Event event = transparent_event();
@@ -15,4 +16,5 @@ void main() {
     const uint at = index_of(uvec2(gl_FragCoord.xy)), bits = floatBitsToUint(max(event.z, 1e-30));
     atomicMin(bits_of_bounds[at].x, bits);
     atomicMin(bits_of_bounds[at].y, ~bits);
+    atomicAdd(counters.lists.atomics, 2u);
 }

@@ -7,6 +7,7 @@
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_prepass.h"
+#include "passes/transparency/lists.h"
 #include "passes/transparency/wavelet/model.h"
 
 namespace strata::transparency {
@@ -62,17 +63,17 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
             .push(push);
     }
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    DrawPass draw = draw_into(graph, "transparency/wavelet/accumulate", images, drawn);
-    // Coefficients of pixels with bounds of their own do not mix.
-    const bool linear = params.resolution != 0 && params.bounds == bounds_frame;
-    for (std::uint32_t i = 0; i < 8; ++i)
-        draw.samples(fmt::format("coefficients{}", i), i < coefficients.size() ? coefficients[i] : Image{},
-                     linear ? Filter::linear : Filter::nearest);
-    draw.updates("Bounds", bounds)
-        .fixes("rank", params.rank)
-        .fixes("bounds", params.bounds)
-        .fixes("correction", params.correction)
-        .push(push);
+    draw_into(graph, "transparency/wavelet/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+        // Coefficients of pixels with bounds of their own do not mix.
+        const Filter filter = params.bounds == bounds_pixel ? Filter::nearest : prepass_filter(params.resolution, resolution);
+        for (std::uint32_t i = 0; i < 8; ++i)
+            draw.samples(fmt::format("coefficients{}", i), i < coefficients.size() ? coefficients[i] : Image{}, filter);
+        draw.updates("Bounds", bounds)
+            .fixes("rank", params.rank)
+            .fixes("bounds", params.bounds)
+            .fixes("correction", params.correction)
+            .push(push);
+    });
     return drawn;
 }
 
@@ -109,6 +110,12 @@ std::vector<Param> params() {
     };
 }
 
+std::vector<Counter> counters() {
+    std::vector<Counter> rows = function_counters();
+    rows.push_back(counter<&ListCounters::atomics>(atomics_row));  // of bounds of its own
+    return rows;
+}
+
 }  // namespace
 
 Technique wavelet() {
@@ -123,7 +130,7 @@ Technique wavelet() {
         .params = params(),
         .points = {"rank=1", "rank=3", "rank=4", "storage=single", "correction=none", "bounds=pixel", "rank=3 bounds=pixel",
                    "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
-        .counters = function_counters(),
+        .counters = counters(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {normalization_row<sums>()},
         .known_failures = {{"H1b", 0.288, "the cards share a cell"},

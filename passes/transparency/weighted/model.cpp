@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/low_draws_model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
@@ -40,34 +42,74 @@ double weight_in_double(const WeightedParams& params, double near, const Fragmen
     }
 }
 
-glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near,
-                          SumsIn format) {
+namespace {
+
+struct Sums {
+    glm::dvec3 colors{0}, through{1};
+    double coverages = 0, layers = 0;
+
+    Sums& operator+=(const Sums& other) {
+        colors += other.colors;
+        through += other.through;
+        coverages += other.coverages;
+        layers += other.layers;
+        return *this;
+    }
+    friend Sums operator*(const Sums& s, double share) {
+        return {s.colors * share, s.through * share, s.coverages * share, s.layers * share};
+    }
+};
+
+Sums summed(std::span<const Fragment> fragments, const WeightedParams& params, double near, SumsIn format) {
     const auto kept = [&](double sum) { return format == SumsIn::halves ? rounded(sum, half_float) : sum; };
-    glm::dvec3 colors(0), through(1);
-    double coverages = 0;
+    Sums sums;
     for (const Fragment& fragment : fragments) {
         const double weight = params.form == form_normalized ? weight_in_double(params, near, fragment) : 1;
         const glm::dvec3 added = (fragment.color + fragment.emission) * weight;
         for (int c = 0; c < 3; ++c) {
-            colors[c] = kept(colors[c] + added[c]);
-            through[c] = kept(through[c] * fragment.transmittance[c]);
+            sums.colors[c] = kept(sums.colors[c] + added[c]);
+            sums.through[c] = kept(sums.through[c] * fragment.transmittance[c]);
         }
-        coverages = kept(coverages + coverage(fragment) * weight);
+        sums.coverages = kept(sums.coverages + coverage(fragment) * weight);
+        sums.layers += 1;
     }
-    if (params.form == form_sum) return colors + behind * (1 - coverages);
-    const auto layers = double(fragments.size());
-    if (params.form == form_average) through = glm::dvec3(fragments.empty() ? 1 : std::pow(1 - coverages / layers, layers));
-    colors = glm::clamp(colors, -half_float.largest, half_float.largest);
-    return colors / std::max(std::min(coverages, half_float.largest), 1e-5) * (glm::dvec3(1) - through) + through * behind;
+    return sums;
+}
+
+/// Two resolutions of the same place.
+Sums merged(const Sums& a, const Sums& b) {
+    return {a.colors + b.colors, a.through * b.through, a.coverages + b.coverages, a.layers + b.layers};
+}
+
+glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind, const WeightedParams& params) {
+    if (params.form == form_sum) return sums.colors + behind * (1 - sums.coverages);
+    glm::dvec3 through = sums.through;
+    if (params.form == form_average)
+        through = glm::dvec3(sums.layers > 0 ? std::pow(1 - sums.coverages / sums.layers, sums.layers) : 1);
+    const glm::dvec3 colors = glm::clamp(sums.colors, -half_float.largest, half_float.largest);
+    return colors / std::max(std::min(sums.coverages, half_float.largest), 1e-5) * (1.0 - through) + through * behind;
+}
+
+}  // namespace
+
+glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near,
+                          SumsIn format) {
+    return resolved(summed(fragments, params, near, format), behind, params);
 }
 
 ImageSet weighted_model(const StageInput& input, const Settings& settings) {
+    using Low = LowSums<Sums>;
     const auto params = settings.as<WeightedParams>();
-    const double near = double(input.frame.view.near);
-    const SampleBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind) {
-        return weighted_blend(fragments, behind, params, near, SumsIn::halves);
+    const View& view = input.frame.view;
+    const auto sum = [&](std::span<const Fragment> fragments) {
+        return summed(fragments, params, double(view.near), SumsIn::halves);
     };
-    return {{"color", blended(input.before.at("color"), input.frame, input.before, blend)}};
+    const Low low(input, [&](std::span<const Fragment> fragments, glm::uvec2) -> Low::Texel { return {sum(fragments)}; });
+    const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
+        const Low::Texel read = low.at(place_of(glm::uvec2(at), {view.width, view.height}));
+        return {resolved(merged(sum(fragments), read.sums), behind, params), read.undecided};
+    };
+    return {{"color", blended(background(input), only(input.frame, Resolution::full), input.before, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -2,17 +2,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/scene.glsl"
+#include "passes/transparency/bilinear.glsl"
 #include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted/weights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint chromatic = 0u;  // 1: reveal has three channels
+layout(constant_id = 0) const uint chromatic = 0u;       // 1: reveal has three channels
+layout(constant_id = 1) const uint low_resolution = 0u;  // 1: there are targets at half resolution to merge
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
 layout(set = 0, binding = 1) uniform sampler2DArray sum;
 layout(set = 0, binding = 2) uniform sampler2DArray reveal;
 layout(set = 0, binding = 3, scalar) buffer Counters { WeightedCounters counters; };
+layout(set = 0, binding = 4) uniform sampler2DArray low_sum;
+layout(set = 0, binding = 5) uniform sampler2DArray low_reveal;
 layout(push_constant, scalar) uniform Push { WeightedParams params; };
-
 
 // As many layers of the mean alpha.
 float through_layers(float alphas, float layers) {
@@ -34,8 +37,15 @@ void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(color)))) return;
     if (at == ivec3(0)) counters.weights_differ = weights_differ() ? 1u : 0u;
-    const vec4 total = clamp(texelFetch(sum, at, 0), -largest_half, largest_half);
-    const vec3 revealed = texelFetch(reveal, at, 0).rgb;
+    vec4 total = texelFetch(sum, at, 0);
+    vec3 revealed = texelFetch(reveal, at, 0).rgb;
+    if (low_resolution != 0u) {
+        const vec2 place = (vec2(at.xy) + 0.5) / vec2(imageSize(color).xy);
+        const vec3 low = bilinear(low_reveal, place, 0, largest_half).rgb;
+        total += bilinear(low_sum, place, 0, largest_half);
+        revealed = params.form == form_average ? revealed + low : revealed * low;
+    }
+    total = clamp(total, -largest_half, largest_half);
     vec3 through = chromatic != 0u ? revealed : revealed.rrr;
     if (params.form == form_average) through = vec3(through_layers(total.a, revealed.r));
     const vec4 behind = imageLoad(color, at);

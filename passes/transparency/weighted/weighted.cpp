@@ -1,6 +1,8 @@
 // Weighted blended order-independent transparency: one additive pass, no order at all.
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
+#include "passes/transparency/function_prepass.h"
 #include "passes/transparency/weighted/model.h"
 #include "passes/transparency/weighted/weighted.shared.h"
 
@@ -11,34 +13,51 @@ namespace {
 constexpr std::string_view weights[] = {"w7", "w8", "w9", "w10", "blog", "w2015", "w2015_plain", "constant"};
 constexpr std::string_view forms[] = {"normalized", "average", "sum"};
 
-/// Drawn with the frame's samples, read by sample.
-Image create_target(Graph& graph, const FrameImages& images, std::string name, Format format) {
-    return graph.create(std::move(name), Shape{.extent = images.extent, .format = format, .samples = images.samples});
+/// What fragments of one resolution are added and multiplied in.
+struct Targets {
+    Image sum, reveal;
+};
+
+Targets accumulate(Graph& graph, const FrameImages& images, const WeightedParams& params, Resolution resolution,
+                   const std::string& prefix) {
+    const bool counts = params.form == form_average, chromatic = images.features->has(Feature::chromatic) && !counts;
+    const auto create = [&](const char* name, Format format, double value) {
+        Image image = graph.create(prefix + name, Shape{.extent = images.extent, .format = format, .samples = images.samples});
+        graph.clear(image, {{value, value, value, value}});
+        return image;
+    };
+    Targets targets{create("sum", Format::rgba16f, 0),
+                    create("reveal", chromatic ? Format::rgba16f : Format::r16f, counts ? 0 : 1)};
+    for (const DrawList& list : drawn_at(images, resolution)) {
+        DrawPass draw = draw_events(graph, "transparency/weighted/accumulate", list, images);
+        draw.adds_to(targets.sum).push(params);
+        if (counts) {
+            draw.adds_to(targets.reveal);
+        } else {
+            draw.multiplies(targets.reveal);
+        }
+    }
+    return targets;
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const auto params = settings.as<WeightedParams>();
-    const bool counts = params.form == form_average, chromatic = images.features->has(Feature::chromatic) && !counts;
-    Image sum = create_target(graph, images, "weighted sum", Format::rgba16f);
-    Image reveal = create_target(graph, images, "weighted reveal", chromatic ? Format::rgba16f : Format::r16f);
-    graph.clear(sum, {{0, 0, 0, 0}});
-    graph.clear(reveal, counts ? ClearValue{} : ClearValue{{1, 1, 1, 1}});
+    const Targets full = accumulate(graph, images, params, Resolution::full, "weighted ");
+    const bool has_low = images.features->has(Feature::low_resolution);
+    Targets low;
+    if (has_low) low = accumulate(graph, prepass_images(graph, images, 2), params, Resolution::low, "weighted low ");
 
-    DrawPass draw = draw_events(graph, "transparency/weighted/accumulate", images.transparent, images);
-    draw.adds_to(sum).push(params);
-    if (counts) {
-        draw.adds_to(reveal);
-    } else {
-        draw.multiplies(reveal);
-    }
-
-    const Image sum_layers = spread(graph, sum, "weighted sum by sample");
-    const Image reveal_layers = spread(graph, reveal, "weighted reveal by sample");
+    const Image sum_layers = spread(graph, full.sum, "weighted sum by sample");
+    const Image reveal_layers = spread(graph, full.reveal, "weighted reveal by sample");
     graph.compute("transparency/weighted/resolve.comp")
         .samples("sum", sum_layers)
         .samples("reveal", reveal_layers)
+        .samples("low_sum", low.sum)
+        .samples("low_reveal", low.reveal)
         .updates("color", images.color)
-        .fixes("chromatic", chromatic ? 1u : 0u)
+        .fixes("chromatic", images.features->has(Feature::chromatic) && params.form != form_average ? 1u : 0u)
+        .fixes("low_resolution", has_low ? 1u : 0u)
         .push(params)
         .over({images.extent.width, images.extent.height, images.samples});
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/transparency/bilinear.glsl"
 #include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
@@ -33,18 +34,6 @@ struct Totals {
 
 vec4 bounded(vec4 value) { return clamp(value, -largest_half, largest_half); }
 
-// Not the sampler's filter: infinity times a weight of zero is no number.
-vec4 bilinear(sampler2DArray image, vec2 at) {
-    const vec2 texel = at * vec2(textureSize(image, 0).xy) - 0.5, share = fract(texel);
-    const ivec2 last = textureSize(image, 0).xy - 1, low = clamp(ivec2(floor(texel)), ivec2(0), last),
-                high = clamp(ivec2(floor(texel)) + 1, ivec2(0), last);
-    const vec4 top = mix(bounded(texelFetch(image, ivec3(low, 0), 0)), bounded(texelFetch(image, ivec3(high.x, low.y, 0), 0)),
-                         share.x);
-    const vec4 bottom = mix(bounded(texelFetch(image, ivec3(low.x, high.y, 0), 0)),
-                            bounded(texelFetch(image, ivec3(high, 0), 0)), share.x);
-    return mix(top, bottom, share.y);
-}
-
 vec3 channels(vec4 revealed) { return chromatic != 0u ? revealed.rgb : revealed.rrr; }
 
 // Product, sum and sum: the two resolutions need no order between them.
@@ -53,10 +42,10 @@ Totals totals_at(ivec3 at) {
                       channels(texelFetch(reveal, at, 0)), 8.0 * texelFetch(additiveness, at, 0).r);
     if (low_resolution != 0u) {
         const vec2 place = (vec2(at.xy) + 0.5) / vec2(imageSize(color).xy);
-        t.sum = bounded(t.sum + bilinear(low_sum, place));
-        t.emitted = bounded(t.emitted + bilinear(low_emitted, place));
-        t.reveal *= channels(bilinear(low_reveal, place));
-        t.additiveness += 8.0 * bilinear(low_additiveness, place).r;
+        t.sum = bounded(t.sum + bilinear(low_sum, place, 0, largest_half));
+        t.emitted = bounded(t.emitted + bilinear(low_emitted, place, 0, largest_half));
+        t.reveal *= channels(bilinear(low_reveal, place, 0, largest_half));
+        t.additiveness += 8.0 * bilinear(low_additiveness, place, 0, largest_half).r;
     }
     return t;
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/low_draws_model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 
@@ -82,86 +83,38 @@ glm::dvec3 composite(const AdditiveSums& sums, glm::dvec3 behind, const Weighted
     return light + behind * sums.reveal;
 }
 
-namespace {
-
-Frame drawn_at(Frame frame, Resolution resolution) {
-    const auto is_other = [&](const auto& submission) { return submission.resolution != resolution; };
-    std::erase_if(frame.draws, is_other);
-    std::erase_if(frame.emitters, is_other);
-    return frame;
+AdditiveSums& AdditiveSums::operator+=(const AdditiveSums& other) {
+    colors += other.colors;
+    emissions += other.emissions;
+    weights += other.weights;
+    emission_weights += other.emission_weights;
+    reveal += other.reveal;
+    additiveness += other.additiveness;
+    return *this;
 }
 
-/// The farthest depth under each pixel of half the size.
-ReferenceImage farthest(const ReferenceImage& depth, std::uint32_t width, std::uint32_t height) {
-    ReferenceImage low(width, height, 1, glm::dvec4(1));
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x)
-            for (std::uint32_t s = 0; s < depth.layers; ++s)
-                for (std::uint32_t v = y * depth.height / height; v * height < (y + 1) * depth.height; ++v)
-                    for (std::uint32_t u = x * depth.width / width; u * width < (x + 1) * depth.width; ++u)
-                        low.at(x, y) = glm::min(low.at(x, y), depth.at(u, v, s));
-    return low;
+AdditiveSums operator*(const AdditiveSums& sums, double share) {
+    return {.colors = sums.colors * share,
+            .emissions = sums.emissions * share,
+            .weights = sums.weights * share,
+            .emission_weights = sums.emission_weights * share,
+            .reveal = sums.reveal * share,
+            .additiveness = sums.additiveness * share};
 }
-
-/// Half-resolution fragments, summed where they were drawn, and read bilinearly with edges held.
-class LowResolution {
-public:
-    LowResolution(const StageInput& input, const WeightedAdditiveParams& params) {
-        Frame frame = drawn_at(input.frame, Resolution::low);
-        if (transparent_draws(frame).empty()) return;
-        View& view = frame.view;
-        view.width = (view.width + 1) / 2, view.height = (view.height + 1) / 2, view.samples = 1;
-        lists_.emplace(transparent_fragments(frame, farthest(input.before.at("depth_layers"), view.width, view.height)));
-        for (std::uint32_t y = 0; y < view.height; ++y)
-            for (std::uint32_t x = 0; x < view.width; ++x)
-                sums_.push_back(summed(lists_->at(x, y), params, double(view.exposure)));
-    }
-
-    struct Read {
-        AdditiveSums sums;
-        bool undecided = false;
-    };
-    /// At a place of the image, 0 to 1 each way.
-    Read at(glm::dvec2 place) const {
-        Read result;
-        if (!lists_) return result;
-        result.sums.reveal = glm::dvec3(0);
-        const glm::dvec2 size(lists_->width(), lists_->height()), texel = place * size - .5, low = glm::floor(texel);
-        for (int corner = 0; corner < 4; ++corner) {
-            const glm::dvec2 offset(corner % 2, corner / 2), to = glm::abs(low + 1.0 - offset - texel);
-            const glm::uvec2 at(glm::clamp(low + offset, glm::dvec2(0), size - 1.0));
-            add(result.sums, sums_[at.y * lists_->width() + at.x], to.x * to.y);
-            result.undecided |= lists_->undecided(at.x, at.y);
-        }
-        return result;
-    }
-
-private:
-    static void add(AdditiveSums& to, const AdditiveSums& texel, double share) {
-        to.colors += texel.colors * share;
-        to.emissions += texel.emissions * share;
-        to.weights += texel.weights * share;
-        to.emission_weights += texel.emission_weights * share;
-        to.reveal += texel.reveal * share;
-        to.additiveness += texel.additiveness * share;
-    }
-
-    std::optional<FragmentLists> lists_;
-    std::vector<AdditiveSums> sums_;
-};
-
-}  // namespace
 
 ImageSet weighted_additive_model(const StageInput& input, const Settings& settings) {
+    using Low = LowSums<AdditiveSums>;
     const auto params = settings.as<WeightedAdditiveParams>();
     const View& view = input.frame.view;
-    const LowResolution low(input, params);
+    const Low low(input, [&](std::span<const Fragment> fragments, glm::uvec2) -> Low::Texel {
+        return {summed(fragments, params, double(view.exposure))};
+    });
     const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
-        const auto read = low.at((glm::dvec2(at) + .5) / glm::dvec2(view.width, view.height));
+        const Low::Texel read = low.at(place_of(glm::uvec2(at), {view.width, view.height}));
         const AdditiveSums all = merged(summed(fragments, params, double(view.exposure)), read.sums);
         return {composite(all, behind, params), read.undecided};
     };
-    return {{"color", blended(input.before.at("color"), drawn_at(input.frame, Resolution::full), input.before, blend)}};
+    return {{"color", blended(background(input), only(input.frame, Resolution::full), input.before, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -15,6 +15,9 @@ struct AdditiveSums {
     double weights = 0, emission_weights = 0;
     glm::dvec3 reveal{1};
     double additiveness = 0;  ///< layers / 8
+
+    AdditiveSums& operator+=(const AdditiveSums&);
+    friend AdditiveSums operator*(const AdditiveSums&, double share);
 };
 
 /// max(depth term) is 20 up to 4.3 m, 5 from `far` on.

@@ -2,6 +2,7 @@
 #include <cassert>
 
 #include "passes/technique.h"
+#include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/weighted_additive/model.h"
@@ -37,25 +38,6 @@ Targets create_targets(Graph& graph, const FrameImages& images, const WeightedAd
             .emitted = is_apart(params) ? create("emitted", Format::rgba16f, 0) : Image{}};
 }
 
-/// The transparent draws of one resolution: stretches of the list, whose order transparent_draws() has, too.
-std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution) {
-    const Frame& frame = *images.recorded;
-    const std::vector<std::uint32_t> draws = transparent_draws(frame);
-    assert(draws.size() == images.transparent.count);
-    std::vector<DrawList> stretches;
-    bool goes_on = false;
-    for (std::uint32_t i = 0; i < draws.size(); ++i) {
-        const bool is_mesh = draws[i] < frame.draws.size();
-        const Resolution at =
-            is_mesh ? frame.draws[draws[i]].resolution : frame.emitters[draws[i] - frame.draws.size()].resolution;
-        if (at == resolution && !goes_on)
-            stretches.push_back({images.transparent.commands, images.transparent.indices, images.transparent.first + i, 0});
-        goes_on = at == resolution;
-        if (goes_on) ++stretches.back().count;
-    }
-    return stretches;
-}
-
 void accumulate(Graph& graph, const FrameImages& images, Targets& targets, Buffer& written, const WeightedAdditiveParams& params,
                 Resolution resolution) {
     const std::string shader = is_apart(params) ? "accumulate_apart" : "accumulate";
@@ -79,6 +61,7 @@ Targets by_sample(Graph& graph, const Targets& targets) {
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
+    distort_background(graph, images);
     const auto params = settings.as<WeightedAdditiveParams>();
     const bool has_low = images.features->has(Feature::low_resolution);
     const std::uint64_t tile_columns = (images.extent.width + tile_edge - 1) / tile_edge,

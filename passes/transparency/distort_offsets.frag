@@ -1,0 +1,16 @@
+// Offsets composited over each other as alpha blending composites radiance: dst = d + t dst.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/distortion.glsl"
+#include "passes/transparency/event.glsl"
+
+layout(early_fragment_tests) in;
+layout(location = 0, index = 0) out vec4 out_added;
+layout(location = 0, index = 1) out vec4 out_through;
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    out_added = vec4(event.d, 0.0, 0.0);
+    out_through = vec4(dimming(event.t));
+}

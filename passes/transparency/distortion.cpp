@@ -1,0 +1,28 @@
+#include "passes/transparency/distortion.h"
+
+#include "passes/transparency/event_draw.h"
+
+namespace strata::transparency {
+
+Image undistorted(Graph& graph, const FrameImages& images) {
+    if (!images.features->has(Feature::distortion)) return {};
+    Image copied = graph.create("undistorted background", graph.shape(images.color));
+    graph.copy(images.color, copied);
+    return copied;
+}
+
+void distort_background(Graph& graph, FrameImages& images) {
+    const Image behind = undistorted(graph, images);
+    if (!behind) return;
+    Image offsets =
+        graph.create("distortion", Shape{.extent = images.extent, .format = Format::rgba32f, .samples = images.samples});
+    graph.clear(offsets, {});
+    draw_events(graph, "transparency/distort_offsets", images.back_to_front, images).composites(offsets);
+    graph.compute("transparency/distort_background.comp")
+        .updates("color", images.color)
+        .samples("behind", behind)
+        .samples("offsets", spread(graph, offsets, "distortion by sample"))
+        .over({images.extent.width, images.extent.height, images.samples});
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,18 @@
+// Distortion of the background in double: see distortion.h.
+#pragma once
+
+#include "passes/stages.h"
+#include "passes/transparency/sample_blend.h"
+
+namespace strata::transparency {
+
+/// By how much an offset is dimmed by what is in front of it: the luminance that is let through.
+double dimming(glm::dvec3 through);
+
+/// What is behind a sample (x, y, sample), `offset` away in uv: bilinear, edges held.
+BlendedSample seen_behind(const ReferenceImage& behind, glm::uvec3 at, glm::dvec2 offset);
+
+/// What a method blends over that calls distort_background(): `color` before the stage, bent by object.
+ReferenceImage background(const StageInput&);
+
+}  // namespace strata::transparency

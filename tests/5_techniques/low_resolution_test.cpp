@@ -1,0 +1,116 @@
+// Draws of two resolutions in one frame. Methods whose sums have no order draw at half resolution what is recorded so and merge
+// it; the others draw everything at full resolution.
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "replay/image_io.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+constexpr std::string_view additive = "transparency/weighted_additive";
+
+/// Smoke at half resolution among panes at full; odd sizes share no pixel grid.
+Frame low_resolution_smoke(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
+    Frame frame = scenario_frames("glass_and_smoke", samples).front();
+    frame.view.width = width, frame.view.height = height;
+    for (Emitter& emitter : frame.emitters) emitter.resolution = Resolution::low;
+    return frame;
+}
+
+std::uint64_t counted(const Run& run, std::string_view name) {
+    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
+    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
+    return found->value;
+}
+
+struct Merging {
+    std::string_view technique, counter;  ///< of fragments that are shaded into what is merged
+    std::vector<std::string> settings;
+    double rmse;  ///< against the truth, which draws everything at full resolution; measured: about 5 % less
+};
+
+const std::vector<Merging>& merging() {
+    static const std::vector<Merging> methods = {
+        {"transparency/weighted", "fragments", {"form=normalized", "form=average", "form=sum"}, 0},
+        {additive, "fragments", {"normalization=published", "normalization=corrected"}, 0},
+        {"transparency/adaptive", "drawn", {"nodes=8"}, .1},
+        {"transparency/exact_function", "drawn", {"accumulation=half", "accumulation=packed", "pool=0.01"}, .1},
+        {"transparency/moments", "drawn", {"resolution=full", "resolution=quarter", "storage=normalized"}, .1},
+        {"transparency/wavelet", "drawn", {"bounds=frame", "bounds=pixel", "resolution=half"}, .1},
+    };
+    return methods;
+}
+
+Session& smoke() {
+    static const auto session =
+        must(Session::open({low_resolution_smoke(96, 54, 1), low_resolution_smoke(53, 31, 1), low_resolution_smoke(64, 36, 4)},
+                           {.validation = true}));
+    return *session;
+}
+
+class LowResolution : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(LowResolution, IsMergedAsTheModelSays) {
+    const Merging& method = merging()[GetParam()];
+    const Technique& technique = *must(find_technique(method.technique));
+    for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
+        for (const std::string& set : method.settings) {
+            const Accuracy accuracy =
+                must(smoke().judge({.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}}, technique.stage));
+            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
+            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
+            EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));
+        }
+}
+
+TEST_P(LowResolution, ShadesAQuarterOfTheFragments) {
+    const Merging& method = merging()[GetParam()];
+    const auto fragments = [&](Resolution resolution) {
+        Frame frame = low_resolution_smoke(96, 54, 1);
+        for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
+        std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
+        const auto session = must(Session::open({frame}, {.validation = true}));
+        return double(counted(must(session->run({.uses = {std::string(method.technique)}})), method.counter));
+    };
+    EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
+}
+
+std::string test_name(const testing::TestParamInfo<std::size_t>& info) {
+    const std::string_view name = merging()[info.param].technique;
+    return std::string(name.substr(name.find('/') + 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LowResolution, testing::Range(std::size_t{0}, merging().size()), test_name);
+
+/// Smoke is soft: what half resolution costs a method that is exact otherwise is small, and seen.
+TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
+    const auto error = [&](Resolution resolution) {
+        Frame frame = low_resolution_smoke(160, 90, 1);
+        for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
+        const auto session = must(Session::open({frame}, {.validation = true}));
+        return must(session->judge({.uses = {"transparency/exact_function"}, .sets = {"accumulation=single"}},
+                                   Stage::transparency))
+            .method.front()
+            .value;
+    };
+    EXPECT_LT(error(Resolution::full), 1e-5);
+    EXPECT_GT(error(Resolution::low), 1e-3);
+    EXPECT_LT(error(Resolution::low), 5e-2);
+}
+
+TEST(WrittenTiles, AreAllThatBilinearEdgesReach) {
+    const auto color_of = [](std::size_t frame, std::vector<std::string> sets) {
+        return must(smoke().run({.frame = frame, .uses = {std::string(additive)}, .sets = std::move(sets), .outputs = {"color"}}))
+            .images.at("color");
+    };
+    for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
+        EXPECT_EQ(color_of(frame, {}).texels, color_of(frame, {"tiles=all"}).texels) << frame;
+}
+
+}  // namespace
+}  // namespace strata
