@@ -4,7 +4,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -17,27 +16,40 @@
 namespace strata {
 namespace {
 
-/// Whether a point has a choice, or sets a number, that no point before it has. Resolutions do not count: on cards that fill the
-/// picture they change nothing.
-bool is_new(const Technique& technique, std::string_view point, std::set<std::string>& known) {
-    bool found = false;
-    std::istringstream settings{std::string(point)};
-    for (std::string setting; settings >> setting;) {
-        const std::string key = setting.substr(0, setting.find('='));
-        const auto param = std::ranges::find(technique.params, key, &Param::name);
-        const bool is_choice = param != technique.params.end() && !param->choices.empty();
-        if (key != "resolution" && known.insert(is_choice ? setting : key).second) found = true;
-    }
-    return found;
+using Values = std::map<std::string, std::vector<std::string>>;
+
+/// "key=value" by key.
+std::map<std::string, std::string> settings_of(std::string_view point) {
+    std::map<std::string, std::string> settings;
+    std::istringstream words{std::string(point)};
+    for (std::string word; words >> word;) settings[word.substr(0, word.find('='))] = word.substr(word.find('=') + 1);
+    return settings;
 }
 
-/// Every technique at its defaults, and of its points each choice and each number once: all of them would take minutes.
+/// What a technique's points are measured for: of a number one value, of a choice the first and the last. All of them would take
+/// minutes. Not resolutions: on cards that fill the picture they change nothing.
+Values wanted_values(const Technique& technique) {
+    Values wanted;
+    for (const std::string_view point : technique.points)
+        for (const auto& [key, value] : settings_of(point))
+            if (std::ranges::count(wanted[key], value) == 0) wanted[key].push_back(value);
+    wanted.erase("resolution");
+    for (auto& [key, values] : wanted) {
+        const bool is_choice = !std::ranges::find(technique.params, key, &Param::name)->choices.empty();
+        values = is_choice ? std::vector{values.front(), values.back()} : std::vector{values.front()};
+    }
+    return wanted;
+}
+
+/// Every technique at its defaults, and each of the wanted values of its points once.
 std::vector<Variant> measured_settings() {
     std::vector<Variant> kept;
-    std::set<std::string> known;
+    Values wanted;
     for (Variant& variant : must(variants({.stage = Stage::transparency}))) {
-        if (variant.settings.empty()) known.clear();
-        if (variant.settings.empty() || is_new(*variant.technique, variant.settings, known)) kept.push_back(std::move(variant));
+        bool is_wanted = variant.settings.empty();
+        if (is_wanted) wanted = wanted_values(*variant.technique);
+        for (const auto& [key, value] : settings_of(variant.settings)) is_wanted |= std::erase(wanted[key], value) > 0;
+        if (is_wanted) kept.push_back(std::move(variant));
     }
     return kept;
 }

@@ -34,6 +34,7 @@ TEST(HardCasesVerb, TakesNoCaptureAndAReportWithoutItDoes) {
     EXPECT_EQ(strata("report").code, 2);
     EXPECT_THAT(strata("report").err, HasSubstr("wants a capture, or --hard-cases"));
     EXPECT_EQ(strata("report --hard-cases panes.strata").code, 2);
+    EXPECT_EQ(strata("report --points panes.strata").code, 2);  // a report has them anyway
 }
 
 }  // namespace
