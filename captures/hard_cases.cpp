@@ -120,8 +120,11 @@ std::vector<Frame> two_unequal_coincident() { return coincident({{1, .9f}, {0, .
 std::vector<Frame> one_bad_particle() {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     Emitter emitter{.name = "smoke"};
+    // Not at 3.5 and 4 m: there the eye's rays meet the corners of cells that are powers of two of metres, and a hash of the cell
+    // (hashed alpha) hangs on a float's last bit.
     for (int i = 0; i < 19; ++i)
-        emitter.particles.push_back({.center = {0, 0, 3 + .1 * i}, .size = 9, .color = glm::vec3(float(i) / 19), .alpha = .1f});
+        emitter.particles.push_back(
+            {.center = {0, 0, 3.03 + .1 * i}, .size = 9, .color = glm::vec3(float(i) / 19), .alpha = .1f});
     const Particle bad[] = {{.center = {0, 0, 4}, .size = 9, .alpha = nan},
                             {.center = {0, 0, 4}, .size = 9, .color = glm::vec3(nan), .alpha = 0},
                             {.center = {0, 0, 4}, .size = 9, .alpha = -infinite}};

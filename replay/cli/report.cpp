@@ -23,7 +23,7 @@ struct Options {
     std::size_t frame = 0, repeats = 7;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
-    bool json = false, csv = false, hard_cases = false;
+    bool json = false, csv = false, hard_cases = false, points = false;
     std::filesystem::path output;
 };
 
@@ -86,7 +86,10 @@ Result<void> write(const Options& options, const std::string& text) {
 
 Result<void> report_hard_cases(const Options& options) {
     if (options.csv) return fail(Fault::usage, "--hard-cases writes text or --json");
-    const auto made = measure_hard_cases(options.open.device, show_progress);
+    auto rows = variants({.stage = Stage::transparency});
+    if (!rows) return rows.error();
+    if (!options.points) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
+    const auto made = measure_hard_cases(options.open.device, *rows, show_progress);
     if (!made) return made.error();
     return write(options, options.json ? as_json(*made) : as_text(*made));
 }
@@ -117,9 +120,12 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     CLI::Option* captures =
         app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one");
-    app.add_flag("--hard-cases", options->hard_cases,
-                 "every transparency technique on the frames such methods fail on: holds, or by how much it does not")
-        ->excludes(captures);
+    CLI::Option* hard_cases =
+        app.add_flag("--hard-cases", options->hard_cases,
+                     "every transparency technique on the frames such methods fail on: holds, or by how much it does not")
+            ->excludes(captures);
+    app.add_flag("--points", options->points, "the same at the techniques' own points, too, not only at their defaults")
+        ->needs(hard_cases);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
     add_options(app, options->choices);

@@ -5,6 +5,7 @@
 #include "replay/counted.h"
 #include "replay/report/pooled.h"
 #include "replay/report/table.h"
+#include "replay/report/variants.h"
 
 namespace strata {
 namespace {
@@ -12,7 +13,10 @@ namespace {
 constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
 
 /// The stage is named once, above the table.
-std::string below_stage(std::string_view label) { return std::string(label.substr(label.find('/') + 1)); }
+template <typename Row>
+std::string short_label(const Row& row) {
+    return below_stage(label(row.technique, row.settings));
+}
 
 std::string marks(bool fast, bool small) { return fmt::format("{}{}", fast ? '*' : ' ', small ? '+' : ' '); }
 
@@ -33,7 +37,7 @@ Table table_of(const Report& report) {
     table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
     if (report.flicker) table.heads.emplace_back("flicker");
     for (const Measurement& row : report.rows) {
-        Table::Row line{marks(row.on_front, row.on_memory_front), below_stage(label(row)), {}};
+        Table::Row line{marks(row.on_front, row.on_memory_front), short_label(row), {}};
         if (!measured(row)) {
             line.cells = {"not supported: " + row.accuracy.not_supported};
         } else {
@@ -60,7 +64,7 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
         if (budget.cost == &Standing::time && unit.empty()) continue;
         const auto best = best_within(standings, budget);
         text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(first_shown(rows[*best])) : "",
-                            best ? below_stage(label(rows[*best])) : "nothing");
+                            best ? short_label(rows[*best]) : "nothing");
     }
     return text;
 }
@@ -80,8 +84,8 @@ std::string counters_text(const Report& report) {
     std::string text;
     for (const auto& [technique, by_counters] : by_technique)
         for (const auto& [counters, rows] : by_counters) {
-            const std::string several = fmt::format("{} at {}", technique, counted(rows.size(), "setting"));
-            text += fmt::format("   {}: {}\n", below_stage(rows.size() == 1 ? label(*rows.front()) : several), counters);
+            const std::string several = fmt::format("{} at {}", below_stage(technique), counted(rows.size(), "setting"));
+            text += fmt::format("   {}: {}\n", rows.size() == 1 ? short_label(*rows.front()) : several, counters);
         }
     return text.empty() ? "" : "\ncounted\n" + text;
 }
@@ -94,7 +98,7 @@ std::string implementation_text(const Report& report) {
         worst = std::max(worst, row.accuracy.model_rmse);
         if (row.accuracy.model_rmse > row.tolerance)
             wrong += fmt::format("! {} is {:.1e} from its own model, {:.1e} is tolerated: a bug, or this driver's rounding\n",
-                                 below_stage(label(row)), row.accuracy.model_rmse, row.tolerance);
+                                 short_label(row), row.accuracy.model_rmse, row.tolerance);
     }
     return wrong.empty() ? fmt::format("implementations: all within tolerance of their models, rmse {:.1e} at most\n", worst)
                          : wrong;
@@ -135,7 +139,7 @@ std::string as_text(const Pool& pool) {
     if (flickers) table.heads.emplace_back("flicker");
     table.heads.emplace_back("captures");
     for (const PooledRow& row : pool.rows) {
-        Table::Row line{marks(row.on_front, row.on_memory_front), below_stage(label(row)), {short_number(row.error)}};
+        Table::Row line{marks(row.on_front, row.on_memory_front), short_label(row), {short_number(row.error)}};
         if (!pool.time_unit.empty()) line.cells.push_back(row.time ? fmt::format("{:.2f}", *row.time) : "");
         line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
         if (flickers) line.cells.push_back(short_number(*row.flicker));

@@ -4,13 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "passes/registry.h"
-
 namespace strata {
 namespace {
-
-// How far a failure may be from its record: errors of these sizes move with the device's last bits by far less.
-constexpr double relative_slack = .1, absolute_slack = 2e-3;
 
 /// A case's frames in the session.
 struct Placed {
@@ -81,91 +76,98 @@ double measured(HardMeasure measure, std::span<const Seen> frames) {
     return error;
 }
 
-HardOutcome judged(const Technique& technique, const HardCase& hard_case, double error, double model_worst) {
+HardOutcome judged(const Variant& variant, const HardCase& hard_case, double error, double model_worst) {
     using Verdict = HardOutcome::Verdict;
     HardOutcome outcome{.error = error, .model_worst = model_worst};
     const bool holds = error <= hard_case.accept;
-    const std::string_view id = hard_case.name.substr(0, hard_case.name.find(' '));
-    const auto known = std::ranges::find(technique.known_failures, id, &KnownFailure::hard_case);
-    if (known == technique.known_failures.end()) {
+    if (!variant.settings.empty()) {
+        outcome.verdict = holds ? Verdict::holds : Verdict::fails;
+        return outcome;
+    }
+    const std::vector<KnownFailure>& failures = variant.technique->known_failures;
+    const auto known = std::ranges::find(failures, id(hard_case), &KnownFailure::hard_case);
+    if (known == failures.end()) {
         outcome.verdict = holds ? Verdict::holds : Verdict::undocumented;
         return outcome;
     }
     outcome.documented = known->error;
     outcome.reason = known->because;
-    const bool as_documented = std::abs(error - known->error) <= relative_slack * known->error + absolute_slack;
-    outcome.verdict = holds ? Verdict::undeserved : as_documented ? Verdict::documented : Verdict::undocumented;
+    outcome.verdict = holds                              ? Verdict::undeserved
+                      : as_recorded(error, known->error) ? Verdict::documented
+                                                         : Verdict::undocumented;
     return outcome;
 }
 
-/// Truths are the same for every technique.
-class Measuring {
-public:
-    Measuring(Session& session, const CaseFrames& frames) : session_(session), frames_(frames) {}
-
-    Result<HardCaseRow> row(const Technique& technique) {
-        HardCaseRow row{.technique = std::string(technique.name)};
-        for (const Placed& placed : frames_.cases) {
-            auto outcome = outcome_of(technique, placed);
-            if (!outcome) return outcome.error();
-            row.outcomes.push_back(*std::move(outcome));
-        }
-        return row;
-    }
-
-private:
-    Result<HardOutcome> outcome_of(const Technique& technique, const Placed& placed) {
-        std::vector<Seen> seen;
-        double model_worst = 0;
-        for (std::size_t i = placed.first; i < placed.first + placed.count; ++i) {
-            const auto truth = truth_of(i);
-            if (!truth) return truth.error();
-            const Request request{.frame = i, .uses = {std::string(technique.name)}, .outputs = {"color"}};
-            const auto accuracy = session_.judge(request, Stage::transparency, Against::model_and_truth, *truth);
-            if (!accuracy) return accuracy.error();
-            if (!accuracy->not_supported.empty())
-                return HardOutcome{.verdict = HardOutcome::Verdict::not_applicable, .reason = accuracy->not_supported};
-            auto run = session_.run(request);
-            if (!run) return run.error();
-            model_worst = std::max(model_worst, accuracy->model_worst);
-            seen.push_back({in_double(run->images.at("color")), (*truth)->at("color")});
-        }
-        return judged(technique, *placed.hard_case, measured(placed.hard_case->measure, seen), model_worst);
-    }
-
-    Result<const ImageSet*> truth_of(std::size_t frame) {
-        if (const auto known = truths_.find(frame); known != truths_.end()) return &known->second;
-        auto truth = session_.truth({.frame = frame}, Stage::transparency);
-        if (!truth) return truth.error();
-        return &truths_.emplace(frame, *std::move(truth)).first->second;
-    }
-
-    Session& session_;
-    const CaseFrames& frames_;
-    std::map<std::size_t, ImageSet> truths_;
+/// What a row gave on a case's frames so far.
+struct Tried {
+    std::vector<Seen> seen;
+    double model_worst = 0;
+    std::string not_supported;
 };
+
+Result<void> add_frame(Session& session, const Request& request, const ImageSet& truth, Tried& tried) {
+    const auto accuracy = session.judge(request, Stage::transparency, Against::model_and_truth, &truth);
+    if (!accuracy) return accuracy.error();
+    tried.not_supported = accuracy->not_supported;
+    if (!tried.not_supported.empty()) return {};
+    auto run = session.run(request);
+    if (!run) return run.error();
+    tried.model_worst = std::max(tried.model_worst, accuracy->model_worst);
+    tried.seen.push_back({in_double(run->images.at("color")), truth.at("color")});
+    return {};
+}
+
+/// Every row's. Rows in the inner loop: what comes before them, the truth and the fragments are made once for each frame.
+Result<std::vector<Tried>> tried(Session& session, std::span<const Variant> rows, const Placed& placed) {
+    std::vector<Tried> all(rows.size());
+    for (std::size_t frame = placed.first; frame < placed.first + placed.count; ++frame) {
+        const auto truth = session.truth({.frame = frame}, Stage::transparency);
+        if (!truth) return truth.error();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (!all[i].not_supported.empty()) continue;
+            Request request = rows[i].request;
+            request.frame = frame;
+            request.outputs = {"color"};
+            if (const auto added = add_frame(session, request, *truth, all[i]); !added) return added.error();
+        }
+    }
+    return all;
+}
+
+HardOutcome outcome_of(const Tried& tried, const Variant& variant, const HardCase& hard_case) {
+    if (!tried.not_supported.empty()) return {.verdict = HardOutcome::Verdict::not_applicable, .reason = tried.not_supported};
+    return judged(variant, hard_case, measured(hard_case.measure, tried.seen), tried.model_worst);
+}
 
 }  // namespace
 
 std::string_view name(HardOutcome::Verdict verdict) {
     static constexpr std::string_view names[] = {"holds", "documented failure", "undocumented failure", "better than documented",
-                                                 "not applicable"};
+                                                 "fails", "not applicable"};
     return names[static_cast<std::size_t>(verdict)];
 }
 
-Result<HardCaseReport> measure_hard_cases(const DeviceChoice& device,
+bool as_recorded(double error, double recorded) {
+    // Errors of these sizes move with the device's last bits by far less.
+    constexpr double relative_slack = .1, absolute_slack = 2e-3;
+    return std::abs(error - recorded) <= relative_slack * recorded + absolute_slack;
+}
+
+std::string_view id(const HardCase& hard_case) { return hard_case.name.substr(0, hard_case.name.find(' ')); }
+
+Result<HardCaseReport> measure_hard_cases(const DeviceChoice& device, std::span<const Variant> rows,
                                           const std::function<void(std::string_view, double)>& progress) {
     const CaseFrames frames = frames_of_all_cases();
     auto session = Session::open(frames.all, device);
     if (!session) return session.error();
     HardCaseReport report{.device = (*session)->device()};
-    Measuring measuring(**session, frames);
-    const std::vector<const Technique*> techniques = techniques_of(Stage::transparency);
-    for (std::size_t i = 0; i < techniques.size(); ++i) {
-        if (progress) progress(techniques[i]->name, double(i) / double(techniques.size()));
-        auto row = measuring.row(*techniques[i]);
-        if (!row) return row.error();
-        report.rows.push_back(*std::move(row));
+    for (const Variant& row : rows) report.rows.push_back({std::string(row.technique->name), row.settings, {}});
+    for (const Placed& placed : frames.cases) {
+        if (progress) progress(placed.hard_case->name, double(placed.first) / double(frames.all.size()));
+        const auto all = tried(**session, rows, placed);
+        if (!all) return all.error();
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            report.rows[i].outcomes.push_back(outcome_of((*all)[i], rows[i], *placed.hard_case));
     }
     if (progress) progress("done", 1);
     return report;

@@ -1,5 +1,6 @@
 // What every technique of transparency makes of the frames on which such methods come to grief (captures/hard_cases.h): a matrix
-// of technique and case. A failure is documented where the technique says how large it is (Technique::known_failures).
+// of settings and case. A failure is documented where the technique says how large it is (Technique::known_failures), of its
+// defaults alone.
 #pragma once
 
 #include <functional>
@@ -8,14 +9,16 @@
 #include <vector>
 
 #include "captures/hard_cases.h"
+#include "replay/report/variants.h"
 #include "replay/session.h"
 
 namespace strata {
 
 struct HardOutcome {
     /// undocumented: a failure the technique does not know of, or of another size than it says: a bug of code or of record.
-    /// undeserved: it holds what it says it does not.
-    enum class Verdict { holds, documented, undocumented, undeserved, not_applicable } verdict = Verdict::holds;
+    /// undeserved: it holds what it says it does not. fails: at other settings than the defaults, of which techniques say
+    /// nothing.
+    enum class Verdict { holds, documented, undocumented, undeserved, fails, not_applicable } verdict = Verdict::holds;
     double error = 0;        ///< as the case measures; infinite where a pixel is no number
     double documented = 0;   ///< what the technique says, where it does
     double model_worst = 0;  ///< GPU against model over the case's frames, relative
@@ -23,7 +26,7 @@ struct HardOutcome {
 };
 
 struct HardCaseRow {
-    std::string technique, settings;
+    std::string technique, settings;    ///< as in Measurement
     std::vector<HardOutcome> outcomes;  ///< in the order of hard_cases()
 };
 
@@ -32,9 +35,14 @@ struct HardCaseReport {
     std::vector<HardCaseRow> rows;
 };
 
-/// Measures hard_cases() with every technique of the stage at its defaults.
-Result<HardCaseReport> measure_hard_cases(const DeviceChoice&,
+/// Of techniques of transparency with their settings: variants().
+Result<HardCaseReport> measure_hard_cases(const DeviceChoice&, std::span<const Variant> rows,
                                           const std::function<void(std::string_view what, double done)>& = {});
+
+/// Whether a case's error is the recorded one, up to what may move with a device's last bits.
+bool as_recorded(double error, double recorded);
+/// "H14b": what a case's name begins with.
+std::string_view id(const HardCase&);
 
 std::string as_text(const HardCaseReport&);
 std::string as_json(const HardCaseReport&);

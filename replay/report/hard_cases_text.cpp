@@ -5,11 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/report/hard_cases.h"
+#include "replay/report/table.h"
 
 namespace strata {
 namespace {
 
-std::string_view id(const HardCase& hard_case) { return hard_case.name.substr(0, hard_case.name.find(' ')); }
+using nlohmann::ordered_json;
+
+// Of a table of 120 columns, beside labels of 29.
+constexpr std::size_t cases_side_by_side = 11;
 
 /// "ok", or the error with what it means: "!" a bug, "?" better than its record.
 std::string cell(const HardOutcome& outcome) {
@@ -20,6 +24,7 @@ std::string cell(const HardOutcome& outcome) {
         case Verdict::not_applicable:
             return "-";
         case Verdict::documented:
+        case Verdict::fails:
             return fmt::format("{:.2g}", outcome.error);
         case Verdict::undocumented:
             return fmt::format("{:.2g}!", outcome.error);
@@ -29,47 +34,54 @@ std::string cell(const HardOutcome& outcome) {
     return "";
 }
 
+Table table_of(const HardCaseReport& report, std::size_t first_case, std::size_t count) {
+    Table table;
+    for (const HardCase& hard_case : hard_cases().subspan(first_case, count)) table.heads.emplace_back(id(hard_case));
+    for (const HardCaseRow& row : report.rows) {
+        table.rows.push_back({.label = below_stage(label(row.technique, row.settings))});
+        for (std::size_t c = first_case; c < first_case + count; ++c) table.rows.back().cells.push_back(cell(row.outcomes[c]));
+    }
+    return table;
+}
+
+ordered_json json_of(const HardCase& hard_case, const HardOutcome& outcome) {
+    ordered_json json{{"case", id(hard_case)},
+                      {"question", hard_case.question},
+                      {"accept", hard_case.accept},
+                      {"verdict", name(outcome.verdict)}};
+    if (outcome.verdict != HardOutcome::Verdict::not_applicable) {
+        json["error"] = std::isfinite(outcome.error) ? ordered_json(outcome.error) : ordered_json("infinite");
+        json["model_worst"] = outcome.model_worst;
+    }
+    if (outcome.documented > 0) json["documented"] = outcome.documented;
+    if (!outcome.reason.empty()) json["because"] = outcome.reason;
+    return json;
+}
+
 }  // namespace
 
 std::string as_text(const HardCaseReport& report) {
     std::string text = fmt::format("hard cases of transparency on {} ({})\n\n", report.device.name, report.device.driver);
-    std::size_t width = 4;
-    for (const HardCase& hard_case : hard_cases()) width = std::max(width, hard_case.name.size());
-    for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>2}  {}\n", i + 1, report.rows[i].technique);
-    text += fmt::format("\n  {:<{}}  {:>8}", "case", width, "holds at");
-    for (std::size_t i = 0; i < report.rows.size(); ++i) text += fmt::format("  {:>7}", i + 1);
-    text += '\n';
-    for (std::size_t c = 0; c < hard_cases().size(); ++c) {
-        text += fmt::format("  {:<{}}  {:>8.2g}", hard_cases()[c].name, width, hard_cases()[c].accept);
-        for (const HardCaseRow& row : report.rows) text += fmt::format("  {:>7}", cell(row.outcomes[c]));
-        text += '\n';
-    }
+    for (const HardCase& hard_case : hard_cases())
+        text += fmt::format("   {:<28} holds at {:.2g}\n", hard_case.name, hard_case.accept);
+    for (std::size_t first = 0; first < hard_cases().size(); first += cases_side_by_side)
+        text += '\n' + as_text(table_of(report, first, std::min(cases_side_by_side, hard_cases().size() - first)));
     text +=
-        "\nok: holds. A number: fails by so much, as the technique documents. -: not applicable. !: a failure that is not\n"
-        "documented, or of another size. ok?: holds what is documented as a failure.\n";
+        "\nok: holds. A number: fails by so much, at its defaults as the technique documents. -: not applicable.\n"
+        "!: a failure that is not documented, or of another size. ok?: holds what is documented as a failure.\n";
     return text;
 }
 
 std::string as_json(const HardCaseReport& report) {
-    nlohmann::ordered_json json{{"device", report.device.name}, {"driver", report.device.driver}};
+    ordered_json json{{"schema", "strata.hard_cases"},
+                      {"schema_version", 1},
+                      {"device", report.device.name},
+                      {"driver", report.device.driver},
+                      {"rows", ordered_json::array()}};
     for (const HardCaseRow& row : report.rows) {
-        nlohmann::ordered_json cases;
-        for (std::size_t c = 0; c < row.outcomes.size(); ++c) {
-            const HardOutcome& outcome = row.outcomes[c];
-            nlohmann::ordered_json entry{{"case", id(hard_cases()[c])},
-                                         {"question", hard_cases()[c].question},
-                                         {"accept", hard_cases()[c].accept},
-                                         {"verdict", name(outcome.verdict)}};
-            if (outcome.verdict != HardOutcome::Verdict::not_applicable) {
-                entry["error"] =
-                    std::isfinite(outcome.error) ? nlohmann::ordered_json(outcome.error) : nlohmann::ordered_json("infinite");
-                entry["model_worst"] = outcome.model_worst;
-            }
-            if (outcome.documented > 0) entry["documented"] = outcome.documented;
-            if (!outcome.reason.empty()) entry["because"] = outcome.reason;
-            cases.push_back(std::move(entry));
-        }
-        json["techniques"].push_back({{"technique", row.technique}, {"cases", std::move(cases)}});
+        json["rows"].push_back({{"technique", row.technique}, {"settings", row.settings}});
+        for (std::size_t c = 0; c < row.outcomes.size(); ++c)
+            json["rows"].back()["cases"].push_back(json_of(hard_cases()[c], row.outcomes[c]));
     }
     return json.dump(2) + '\n';
 }

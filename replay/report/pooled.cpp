@@ -68,7 +68,9 @@ Pool pooled(std::span<const Report> reports) {
         for (const Measurement& row : report.rows) {
             if (row.accuracy.method.empty()) continue;
             pool.error = pooled_figure(row).name;
-            const auto same = [&](const auto& others) { return label(*others.front()) == label(row); };
+            const auto same = [&](const auto& others) {
+                return std::tie(others.front()->technique, others.front()->settings) == std::tie(row.technique, row.settings);
+            };
             const auto known = std::ranges::find_if(rows, same);
             if (known == rows.end()) rows.push_back({&row});
             else known->push_back(&row);
@@ -91,7 +93,5 @@ std::vector<Standing> standings(const Pool& pool) {
     }
     return all;
 }
-
-std::string label(const PooledRow& row) { return row.settings.empty() ? row.technique : row.technique + " " + row.settings; }
 
 }  // namespace strata

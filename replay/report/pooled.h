@@ -39,7 +39,6 @@ double geometric_mean(std::span<const double>);
 
 /// Rows that cannot do all captures have no error.
 std::vector<Standing> standings(const Pool&);
-std::string label(const PooledRow&);
 
 std::string as_text(const Pool&);
 /// The reports and what they are pooled to.

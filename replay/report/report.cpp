@@ -155,8 +155,6 @@ void mark_fronts(std::vector<Measurement>& rows) {
     }
 }
 
-std::string label(const Measurement& row) { return row.settings.empty() ? row.technique : row.technique + " " + row.settings; }
-
 std::vector<Figure> errors_of(const Measurement& row) {
     std::vector<Figure> errors = row.accuracy.method;
     if (row.accuracy.flip) errors.push_back({"FLIP", "", *row.accuracy.flip});
@@ -200,7 +198,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         report.rows.push_back({.technique = std::string(variant.technique->name),
                                .settings = variant.settings,
                                .tolerance = variant.technique->tolerance.rmse});
-        tell(label(report.rows.back()), .1 + .3 * double(i) / double(all->size()));
+        tell(label(variant.technique->name, variant.settings), .1 + .3 * double(i) / double(all->size()));
         auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);
         if (!accuracy) return accuracy.error();
         report.rows.back().accuracy = *std::move(accuracy);

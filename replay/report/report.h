@@ -75,9 +75,6 @@ std::vector<Standing> standings(std::span<const Measurement>);
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
 std::vector<Figure> errors_of(const Measurement&);
 
-/// Technique and settings in one.
-std::string label(const Measurement&);
-
 std::string as_text(const Report&);
 std::string as_json(const Report&);
 std::string as_csv(const Report&);

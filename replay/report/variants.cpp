@@ -39,6 +39,12 @@ std::vector<Variant> swept(const Variant& defaults, std::span<const Sweep> sweep
 
 }  // namespace
 
+std::string label(std::string_view technique, std::string_view settings) {
+    return fmt::format("{}{}{}", technique, settings.empty() ? "" : " ", settings);
+}
+
+std::string below_stage(std::string_view label) { return std::string(label.substr(label.find('/') + 1)); }
+
 Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     const auto techniques = techniques_of(wanted.stage);
     for (const Sweep& sweep : wanted.sweeps)

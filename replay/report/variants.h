@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "passes/technique.h"
@@ -14,6 +15,11 @@ struct Variant {
     Request request;
     std::string settings;  ///< "falloff=20 weight=w9"
 };
+
+/// Technique and settings in one.
+std::string label(std::string_view technique, std::string_view settings);
+/// The same without the stage, where that is named once above all.
+std::string below_stage(std::string_view label);
 
 /// Every technique of the stage at its defaults and at each of its points; or, with sweeps, with every combination of those whose
 /// keys it has. Fails for a key that no technique has.

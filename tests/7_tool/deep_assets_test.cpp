@@ -1,5 +1,7 @@
-// Deep images made by others, through the whole tool. They lie beside the project or not at all.
+// Deep images through the whole tool: one made here, and those of others, which lie beside the project or not at all.
 #include <algorithm>
+#include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,44 @@ namespace strata {
 namespace {
 
 using nlohmann::json;
+
+/// White of alpha .5 before black of alpha .5 in every pixel, in every other pixel the far one first in the file.
+DeepSource two_layers() {
+    DeepSource source{.width = 16, .height = 9};
+    const std::vector<float> white{.5f, .5f, .5f, .5f, 2}, black{0, 0, 0, .5f, 3};
+    for (std::uint32_t i = 0; i < source.width * source.height; ++i)
+        source.pixels.push_back(i % 2 == 0 ? std::vector{white, black} : std::vector{black, white});
+    return source;
+}
+
+/// By technique: the root mean square of the difference from the exact composite, which is .5.
+std::map<std::string, double> reported_errors(const std::string& options) {
+    const Finished made = strata("report image.strata --stage transparency --repeats 1 --json " + options);
+    EXPECT_EQ(made.code, 0) << made.err;
+    std::map<std::string, double> errors;
+    const json report = json::parse(made.out);
+    for (const json& row : report["rows"])
+        for (const json& figure : row["method_error"])
+            if (figure["metric"] == "rmse") errors[row["technique"]] = figure["value"];
+    return errors;
+}
+
+TEST(DeepReport, IsHowFarEveryMethodIsFromTheExactComposite) {
+    std::ofstream(folder() / "image.exr", std::ios::binary) << deep_file(two_layers());
+    ASSERT_EQ(strata("import --deep image.exr -o image.strata").code, 0);
+    const auto errors = reported_errors("--sweep form=average"), of_sums = reported_errors("--sweep form=sum");
+    EXPECT_EQ(errors.size(), techniques_of(Stage::transparency).size());
+    for (const char* exact : {"sorted_lists", "alpha_blend", "depth_peeling", "multi_layer", "k_buffer", "a_buffer"})
+        EXPECT_LT(errors.at(std::string("transparency/") + exact), 2e-3) << exact;  // the last two keep color and alpha in codes
+    EXPECT_LT(errors.at("transparency/sorted_lists"), 1e-6);
+    // The mean color, .5, over a coverage of .75, is .375; the sum hides nothing of white: .5 and 0, over no background.
+    EXPECT_NEAR(errors.at("transparency/weighted"), .125, 1e-3);
+    EXPECT_LT(of_sums.at("transparency/weighted"), 1e-3);
+    EXPECT_GT(errors.at("transparency/stochastic"), .01);
+    const auto weighted_by_depth = reported_errors("--sweep pool=2");
+    EXPECT_GT(weighted_by_depth.at("transparency/weighted"), .01);
+    EXPECT_LT(weighted_by_depth.at("transparency/weighted"), .125);
+}
 
 class DeepAsset : public testing::TestWithParam<const char*> {
 protected:
@@ -48,9 +88,11 @@ TEST_P(DeepAsset, LooksAsOpenExrCompositesIt) {
 TEST_P(DeepAsset, IsReplayedByEveryTechniqueAndReportedWithinTolerance) {
     for (const Technique* technique : techniques_of(Stage::transparency))
         EXPECT_EQ(strata("replay image.strata --validation --use " + std::string(technique->name)).code, 0) << technique->name;
-    const Finished report = strata("report image.strata --repeats 1 --sweep pool=2 --json");
-    ASSERT_EQ(report.code, 0) << report.err;
-    for (const json& row : json::parse(report.out)["rows"]) {
+    const Finished made = strata("report image.strata --repeats 1 --sweep pool=2 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    EXPECT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    for (const json& row : report["rows"]) {
         const auto technique = find_technique(row["technique"].get<std::string>());
         ASSERT_TRUE(technique);
         EXPECT_LE(row["implementation_error"]["rmse"], (*technique)->tolerance.rmse) << row;

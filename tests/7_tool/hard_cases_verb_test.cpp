@@ -18,10 +18,12 @@ TEST(HardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
     const Finished made = strata("report --hard-cases --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
-    ASSERT_EQ(report["techniques"].size(), techniques_of(Stage::transparency).size());
-    for (const json& technique : report["techniques"]) {
-        ASSERT_EQ(technique["cases"].size(), hard_cases().size());
-        for (const json& one : technique["cases"]) {
+    EXPECT_EQ(report["schema"], "strata.hard_cases");
+    ASSERT_EQ(report["rows"].size(), techniques_of(Stage::transparency).size());
+    for (const json& row : report["rows"]) {
+        EXPECT_EQ(row["settings"], "");
+        ASSERT_EQ(row["cases"].size(), hard_cases().size());
+        for (const json& one : row["cases"]) {
             const auto verdict = one["verdict"].get<std::string>();
             EXPECT_TRUE(verdict == "holds" || verdict == "documented failure" || verdict == "not applicable") << one;
         }
@@ -32,6 +34,7 @@ TEST(HardCasesVerb, TakesNoCaptureAndAReportWithoutItDoes) {
     EXPECT_EQ(strata("report").code, 2);
     EXPECT_THAT(strata("report").err, HasSubstr("wants a capture, or --hard-cases"));
     EXPECT_EQ(strata("report --hard-cases panes.strata").code, 2);
+    EXPECT_EQ(strata("report --points panes.strata").code, 2);  // a report has them anyway
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "passes/reference/difference.h"
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
+#include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
 #include "replay/report/table.h"
 #include "tests/support/session.h"
@@ -243,6 +245,39 @@ TEST(Table, FitsATerminalOf120ColumnsHoweverLongTheSettings) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
     EXPECT_THAT(text, Not(HasSubstr("detail")));
+}
+
+/// Every case with the verdict, at the defaults of a technique and at a point.
+HardCaseReport hard_cases_of(HardOutcome outcome) {
+    HardCaseReport report{.device = {.name = "a device", .driver = "its driver"}};
+    for (const char* settings : {"", "one_key=with_its_value another=choice and=more"})
+        report.rows.push_back({"transparency/some_technique", settings, std::vector(hard_cases().size(), outcome)});
+    return report;
+}
+
+TEST(HardCaseTable, FitsATerminalOf120ColumnsAndSaysWhatEachVerdictIs) {
+    using Verdict = HardOutcome::Verdict;
+    const std::pair<Verdict, const char*> cells[] = {
+        {Verdict::holds, " ok "},          {Verdict::not_applicable, " - "},       {Verdict::fails, " -1.2e-05 "},
+        {Verdict::documented, "-1.2e-05"}, {Verdict::undocumented, " -1.2e-05! "}, {Verdict::undeserved, " ok? "}};
+    for (const auto& [verdict, cell] : cells) {
+        const std::string text = as_text(hard_cases_of({.verdict = verdict, .error = -1.234567e-5}));
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+        EXPECT_THAT(text, HasSubstr(cell));
+        EXPECT_THAT(text, HasSubstr("some_technique one_key=with_its_value another=choice and=more"));
+        for (const HardCase& hard_case : hard_cases()) EXPECT_THAT(text, HasSubstr(std::string(hard_case.name)));
+    }
+}
+
+TEST(HardCaseJson, HasARowForEachOfTheSettings) {
+    const auto json = nlohmann::json::parse(as_json(hard_cases_of({.verdict = HardOutcome::Verdict::fails, .error = .5})));
+    ASSERT_EQ(json["rows"].size(), 2u);
+    EXPECT_EQ(json["rows"][0]["settings"], "");
+    EXPECT_EQ(json["rows"][1]["settings"], "one_key=with_its_value another=choice and=more");
+    EXPECT_EQ(json["rows"][1]["cases"].size(), hard_cases().size());
+    EXPECT_EQ(json["rows"][1]["cases"][0]["verdict"], "fails");
+    EXPECT_EQ(json["rows"][1]["cases"][0]["error"], .5);
 }
 
 TEST(Table, NumbersAreShort) {
