@@ -6,9 +6,7 @@ namespace strata::transparency {
 
 double DepthCurve::slice_of(double z) const { return slices * std::log1p(z / linear) / std::log1p(farthest / linear); }
 
-double DepthCurve::depth_of(double slice) const {
-    return linear * std::expm1(slice / slices * std::log1p(farthest / linear));
-}
+double DepthCurve::depth_of(double slice) const { return linear * std::expm1(slice / slices * std::log1p(farthest / linear)); }
 
 double DepthCurve::thickness_at(double z) const { return (z + linear) * std::log1p(farthest / linear) / slices; }
 

@@ -30,6 +30,11 @@ const uint rounding_stochastic = 1u;
 const uint curve_slices = 0u;
 const uint curve_thickness = 1u;
 
+// What view.comp shows.
+const uint view_zero_depth = 0u;
+const uint view_overflow = 1u;
+const uint view_thickness = 2u;
+
 struct VoxelParams {
     uint slices;
     uint splat;
@@ -54,10 +59,10 @@ struct VoxelPush {
     uint words;  // per column
     uint width;  // columns
     uint height;
-    uint channels;         // 1 or 3
-    uint full_code;        // M: the code of t = 1 / M, from which on nothing is seen
+    uint channels;          // 1 or 3
+    uint full_code;         // M: the code of t = 1 / M, from which on nothing is seen
     float codes_per_depth;  // M / ln M
-    float bias;            // in slices
+    float bias;             // in slices
 };
 
 struct VoxelCounters {
