@@ -33,7 +33,6 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
 std::vector<Param> params() {
     Param resolution = resolution_row;
     resolution.high = 4;
-    resolution.fallback = 3;
     resolution.choices = resolutions;
     return {
         param<&VoxelParams::slices>({.name = "slices",
@@ -147,14 +146,28 @@ Technique voxel() {
             "Adds optical depth to slices of a low-resolution volume by integer atomics and sums them up along the view: order "
             "independent, bit by bit; within a slice nothing hides anything, and layers below 8 bits are lost.",
         .params = params(),
-        .points = {"slices=64", "slices=256", "slices=512", "splatting=point sampling=point", "sampling=bicubic",
-                   "resolution=full", "resolution=half", "resolution=quarter", "bits=16"},
+        .points = {"slices=64", "slices=256", "slices=512", "splatting=point sampling=point", "sampling=bicubic", "bits=16",
+                   "bits=16 slices=512", "curve=thickness", "rounding=stochastic", "resolution=half", "resolution=quarter",
+                   "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),
+        .known_failures = {{"H1b", 0.449, "the cards are .28 m apart, a slice there is .45 m thick"},
+                           {"H1c", 0.667, "the cards share a slice"},
+                           {"H2", 0.458, "cards in the slice of the first one dim it, those behind do so less"},
+                           {"H3", 0.0716, "how much of a slice is between the cards depends on where they are"},
+                           {"H4", 0.125, "the panes share a slice: the value of a tie"},
+                           {"H5", 0.129, "8 bits lose layers below .0108 altogether"},
+                           {"H8", 0.545, "the layers share a slice, so all 30 count in full and half floats end"},
+                           {"H9", 0.0417, "what is beyond `farthest` shares the last slice"},
+                           {"H13", 0.231, "slices at 150 m are 6.6 m thick"}},
         .add = add_function<sums>,
         .model = voxel_model,
-        .tolerance = {.rmse = 1e-2, .worst = 1e-1, .because = "to be measured"},
+        .tolerance = {.rmse = 5e-4,
+                      .worst = 2e-3,
+                      .because =
+                          "codes are the model's to the last bit on every scenario; what is left is a step of the half floats "
+                          "that the sums are rounded to"},
     };
 }
 
