@@ -11,35 +11,36 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 
 layout(early_fragment_tests) in;
 layout(constant_id = 12) const uint sampling = sampling_linear;
-layout(constant_id = 13) const uint columns_read = 4u;  // 4: bilinear; 1 where columns are pixels
+layout(constant_id = 13) const uint filters = 1u;  // 0 where columns are pixels
+layout(set = 0, binding = 10) uniform usampler2DArray voxels;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
 
-// The columns around a pixel's center and their weights.
+// The columns around a pixel's center, two by two, and their weights.
 struct Corners {
-    uvec4 column;
+    ivec2 low, high;
     vec4 weight;
 };
 
 Corners corners_of(vec2 pixel, uint channel) {
     const vec2 extent = vec2(push.width, push.height);
-    const vec2 place = (floor(pixel) + 0.5) / vec2(view.extent) * extent - (columns_read == 1u ? 0.0 : 0.5);
-    const vec2 first = floor(place), share = place - first;
-    const uvec2 a = uvec2(max(first, 0.0)), b = uvec2(min(first + 1.0, extent - 1.0));
-    Corners corners;
-    corners.column = uvec4(column_of(a, channel), column_of(uvec2(b.x, a.y), channel), column_of(uvec2(a.x, b.y), channel),
-                           column_of(b, channel));
-    const vec2 rest = 1.0 - share;
-    corners.weight = vec4(rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y);
-    if (columns_read == 1u) corners.weight = vec4(1.0, 0.0, 0.0, 0.0);
-    return corners;
+    const vec2 place = (floor(pixel) + 0.5) / vec2(view.extent) * extent - (filters != 0u ? 0.5 : 0.0);
+    const vec2 first = floor(place), share = place - first, rest = 1.0 - share;
+    return Corners(column_of(uvec2(max(first, 0.0)), channel), column_of(uvec2(min(first + 1.0, extent - 1.0)), channel),
+                   vec4(rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y));
+}
+
+float code_at(ivec2 column, uint slice) {
+    return float(field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)));
 }
 
 // 0 in front of the volume, the last slice's behind.
-float integral_at(Corners corners, float slice) {
+float integral_at(Corners at, float slice) {
     const uint k = min(uint(max(slice, 0.0)), push.slices - 1u);
-    float sum = 0.0;
-    for (uint i = 0u; i < columns_read; ++i)
-        sum += corners.weight[i] * float(field(voxels[place_of(corners.column[i], k / slices_per_word)], shift_of(k)));
+    const float near = code_at(at.low, k);
+    float sum = near;
+    if (filters != 0u)
+        sum = dot(at.weight, vec4(near, code_at(ivec2(at.high.x, at.low.y), k), code_at(ivec2(at.low.x, at.high.y), k),
+                                  code_at(at.high, k)));
     return slice < 0.0 ? 0.0 : sum;
 }
 

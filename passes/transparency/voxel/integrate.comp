@@ -8,7 +8,8 @@
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/voxels.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
 
 // Of the fields of a word, after what is in front of them.
@@ -23,18 +24,20 @@ uint summed_word(uint word, uint first_slice, uint overflow, inout uint sum) {
 }
 
 void main() {
-    const uint column = gl_GlobalInvocationID.x;
-    if (column >= push.width * push.height * push.channels) return;
-    const uint overflow = splat == splat_overflow_minimum ? nearest_overflow[column] : no_overflow;
+    const ivec2 column = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(column, imageSize(voxels).xy))) return;
+    const uint overflow = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
+    const uint words = uint(imageSize(voxels).z);
     uint sum = 0u, word = 0u;
-    for (; word < push.words && sum < push.full_code; ++word) {
-        const uint at = place_of(column, word);
-        voxels[at] = summed_word(voxels[at], word * slices_per_word, overflow, sum);
+    for (; word < words && sum < push.full_code; ++word) {
+        const ivec3 at = ivec3(column, word);
+        const uint extinction = imageLoad(voxels, at).r;
+        imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));
     }
     const bool full = sum == push.full_code;
-    for (; word < push.words; ++word) {
+    for (; word < words; ++word) {
         uint ahead = sum;
-        voxels[place_of(column, word)] = summed_word(0u, 0u, no_overflow, ahead);
+        imageStore(voxels, ivec3(column, word), uvec4(summed_word(0u, 0u, no_overflow, ahead)));
     }
     atomicAdd(counters.columns, 1u);
     if (overflow != no_overflow) atomicAdd(counters.overflowed, 1u);

@@ -42,7 +42,7 @@ double place_of(const DepthCurve& curve, const Fragment& f) {
 }  // namespace
 
 std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint32_t channels) {
-    constexpr std::uint64_t largest = 128 << 20;
+    constexpr std::uint64_t largest = 512 << 20;
     std::uint32_t divisor = divisor_of(params.resolution);
     const auto bytes = [&](const Extent& low) {
         return std::uint64_t{low.width} * low.height * channels * column_format(params).words() * sizeof(std::uint32_t);

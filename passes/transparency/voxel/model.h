@@ -7,7 +7,7 @@
 
 namespace strata::transparency {
 
-/// Of the prepass: what `resolution` says, doubled until the volume is at most 128 MiB, the most a shader can bind everywhere.
+/// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB.
 std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
 
 /// What stochastic rounding adds to a code, of a fragment's texel, draw and triangle: from 0 to 1.

@@ -13,6 +13,7 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 layout(early_fragment_tests) in;
 layout(constant_id = 12) const uint splatting = splatting_linear;
 layout(constant_id = 13) const uint rounding = rounding_nearest;
+layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
 
 // Pairs of triangles share a number: the halves of a particle meet without a seam.
@@ -25,29 +26,29 @@ float rounded_up_by(uvec2 texel) {
 uint saturated(uint word, uint shift, uint code) { return word + (min(code, field_mask - field(word, shift)) << shift); }
 
 // Helper invocations, whose swap never happens, must not wait for it.
-void add_saturating(uint at, uint slice, uvec2 codes, bool both) {
-    uint seen = voxels[at], expected = ~seen;
+void add_saturating(ivec3 at, uint slice, uvec2 codes, bool both) {
+    uint seen = imageLoad(voxels, at).r, expected = ~seen;
     while (seen != expected && gl_SampleMaskIn[0] != 0) {
         expected = seen;
         uint sum = saturated(seen, shift_of(slice), codes.x);
         if (both) sum = saturated(sum, shift_of(slice + 1u), codes.y);
-        seen = atomicCompSwap(voxels[at], expected, sum);
+        seen = imageAtomicCompSwap(voxels, at, expected, sum);
     }
 }
 
-void note_overflow(uint column, uint before, uint slice, uint code) {
-    if (code > field_mask - field(before, shift_of(slice))) atomicMin(nearest_overflow[column], slice);
+void note_overflow(ivec2 column, uint before, uint slice, uint code) {
+    if (code > field_mask - field(before, shift_of(slice))) atomicMin(nearest_overflow[index_of(column)], slice);
 }
 
 // codes.x to the slice, and where both are in the word codes.y to the next.
-void add_to_word(uint column, uint slice, uvec2 codes, bool both) {
-    const uint at = place_of(column, slice / slices_per_word);
+void add_to_word(ivec2 column, uint slice, uvec2 codes, bool both) {
+    const ivec3 at = place_of(column, slice);
     atomicAdd(counters.atomics, 1u);
     if (splat == splat_saturating) {
         add_saturating(at, slice, codes, both);
     } else {
         const uint farther = both ? codes.y << shift_of(slice + 1u) : 0u;
-        const uint before = atomicAdd(voxels[at], (codes.x << shift_of(slice)) + farther);
+        const uint before = imageAtomicAdd(voxels, at, (codes.x << shift_of(slice)) + farther);
         if (splat == splat_overflow_minimum) {
             note_overflow(column, before, slice, codes.x);
             if (both) note_overflow(column, before, slice + 1u, codes.y);
@@ -55,7 +56,7 @@ void add_to_word(uint column, uint slice, uvec2 codes, bool both) {
     }
 }
 
-void add(uint column, uint slice, uvec2 codes) {
+void add(ivec2 column, uint slice, uvec2 codes) {
     const bool both = slice % slices_per_word + 1u < slices_per_word;
     const bool apart = !both && codes.y > 0u;
     // The word of the nearer slice, which may be there only for the other's sake, then the next.

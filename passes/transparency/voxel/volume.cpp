@@ -16,7 +16,6 @@ VoxelPush push_of(const VoxelParams& params, const ColumnFormat& format, const E
     return {.per_linear = static_cast<float>(1 / curve.linear),
             .slices_per_log2 = static_cast<float>(curve.slices / std::log2(1 + curve.farthest / curve.linear)),
             .slices = params.slices,
-            .words = format.words(),
             .width = low.width,
             .height = low.height,
             .channels = channels,
@@ -27,8 +26,11 @@ VoxelPush push_of(const VoxelParams& params, const ColumnFormat& format, const E
 
 /// To a step that knows of overflows, too.
 template <typename Pass>
-Pass& bind_with_overflow(Volume& volume, const VoxelParams& params, Pass&& pass) {
-    return volume.bind(pass).updates("Overflow", volume.overflow).fixes("splat", params.splat);
+Pass& bind_overflow(Volume& volume, const VoxelParams& params, Pass&& pass) {
+    return pass.updates("Overflow", volume.overflow)
+        .fixes("splat", params.splat)
+        .fixes("field_bits", volume.field_bits)
+        .push(volume.push);
 }
 
 }  // namespace
@@ -38,20 +40,22 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     const std::uint32_t channels = channel_count(params.channels, *images.features);
     const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
     const FrameImages low = prepass_images(graph, images, divisor);
-    const std::uint64_t columns = std::uint64_t{low.extent.width} * low.extent.height * channels;
-    const std::uint64_t noted = params.splat == splat_overflow_minimum ? columns : 1;
-    Volume volume{.voxels = graph.create("voxels", columns * format.words() * sizeof(std::uint32_t)),
+    const Extent columns{low.extent.width, low.extent.height * channels};
+    const std::uint64_t noted = params.splat == splat_overflow_minimum ? std::uint64_t{columns.width} * columns.height : 1;
+    Volume volume{.voxels = graph.create("voxels", Shape{.extent = columns, .format = Format::r32ui, .layers = format.words()}),
                   .overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t)),
                   .divisor = divisor,
                   .field_bits = format.field_bits,
                   .push = push_of(params, format, low.extent, channels)};
-    graph.clear(volume.voxels, 0);
+    graph.clear(volume.voxels, {});
     graph.clear(volume.overflow, no_overflow);
-    bind_with_overflow(volume, params, draw_events(graph, "transparency/voxel/splat", low.transparent, low))
+    bind_overflow(volume, params, draw_events(graph, "transparency/voxel/splat", low.transparent, low))
+        .updates("voxels", volume.voxels)
         .fixes("splatting", params.splatting)
         .fixes("rounding", params.rounding);
-    bind_with_overflow(volume, params, graph.compute("transparency/voxel/integrate.comp"))
-        .over({static_cast<std::uint32_t>(columns)});
+    bind_overflow(volume, params, graph.compute("transparency/voxel/integrate.comp"))
+        .updates("voxels", volume.voxels)
+        .over(columns);
     return volume;
 }
 
@@ -60,7 +64,8 @@ Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& pa
     constexpr float empty_in_front[] = {1, 2.5, 4};
     Volume volume = integrated_volume(graph, images, params);
     Image picture = graph.create("voxel view", Shape{.extent = images.extent, .format = Format::rgba32f});
-    bind_with_overflow(volume, params, graph.compute("transparency/voxel/view.comp"))
+    bind_overflow(volume, params, graph.compute("transparency/voxel/view.comp"))
+        .samples("voxels", volume.voxels)
         .stores("picture", picture)
         .fixes("shown", shown)
         .fixes("empty_in_front", empty_in_front[params.sampling])

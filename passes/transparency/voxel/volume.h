@@ -10,16 +10,10 @@
 namespace strata::transparency {
 
 struct Volume {
-    Buffer voxels;    ///< words, by channel, row, column, then slices
+    Image voxels;     ///< r32ui: layer = word of a column; channels one below the other
     Buffer overflow;  ///< a word per column; one word where nothing notes overflows
     std::uint32_t divisor = 8, field_bits = 8;
     VoxelPush push;
-
-    /// Binds the voxels to a step whose shader includes voxels.glsl.
-    template <typename Pass>
-    Pass& bind(Pass&& pass) {
-        return pass.updates("Voxels", voxels).fixes("field_bits", field_bits).push(push);
-    }
 };
 
 /// Holds inclusive sums instead of extinction.

@@ -22,11 +22,14 @@ constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth",
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
-    Volume volume = integrated_volume(graph, images, params);
+    const Volume volume = integrated_volume(graph, images, params);
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    volume.bind(draw_into(graph, "transparency/voxel/accumulate", images, drawn))
+    draw_into(graph, "transparency/voxel/accumulate", images, drawn)
+        .samples("voxels", volume.voxels)
+        .push(volume.push)
+        .fixes("field_bits", volume.field_bits)
         .fixes("sampling", params.sampling)
-        .fixes("columns_read", volume.divisor == 1 ? 1u : 4u);
+        .fixes("filters", volume.divisor == 1 ? 0u : 1u);
     return drawn;
 }
 
@@ -164,10 +167,9 @@ Technique voxel() {
         .add = add_function<sums>,
         .model = voxel_model,
         .tolerance = {.rmse = 5e-4,
-                      .worst = 2e-3,
-                      .because =
-                          "codes are the model's to the last bit on every scenario; what is left is a step of the half floats "
-                          "that the sums are rounded to"},
+                      .worst = 1e-2,
+                      .because = "codes are the model's to the last bit on every scenario; what is left is a step of the formats "
+                                 "that the sums are rounded to: .008 of R11G11B10F, .001 of half floats"},
     };
 }
 

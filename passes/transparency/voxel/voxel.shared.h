@@ -56,7 +56,6 @@ struct VoxelPush {
     float per_linear;       // 1 / a, per metre: depth is divided evenly up to a, logarithmically beyond
     float slices_per_log2;  // n / log2(1 + farthest / a)
     uint slices;
-    uint words;  // per column
     uint width;  // columns
     uint height;
     uint channels;          // 1 or 3
