@@ -68,7 +68,7 @@ Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& pa
         .samples("voxels", volume.voxels)
         .stores("picture", picture)
         .fixes("shown", shown)
-        .fixes("empty_in_front", empty_in_front[params.sampling])
+        .fixes("empty_in_front", empty_in_front[params.sampling] - params.shift)
         .over(images.extent);
     return picture;
 }
