@@ -33,10 +33,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     return drawn;
 }
 
-std::vector<Param> params() {
-    Param resolution = resolution_row;
-    resolution.high = 4;
-    resolution.choices = resolutions;
+std::vector<Param> code_params() {
     return {
         param<&VoxelParams::slices>({.name = "slices",
                                      .low = 32,
@@ -58,6 +55,21 @@ std::vector<Param> params() {
                                    .fallback = bits_8,
                                    .help = "of a slice: steps of optical depth of .0217, .00017 or .000013",
                                    .choices = bits_choices}),
+        param<&VoxelParams::rounding>({.name = "rounding",
+                                       .low = 0,
+                                       .high = 1,
+                                       .fallback = rounding_nearest,
+                                       .help = "of optical depth to steps; stochastic: right on average, with noise",
+                                       .choices = roundings}),
+    };
+}
+
+std::vector<Param> params() {
+    Param resolution = resolution_row;
+    resolution.high = 4;
+    resolution.choices = resolutions;
+    std::vector<Param> rows = code_params();
+    const std::vector<Param> places = {
         param<&VoxelParams::splatting>({.name = "splatting",
                                         .low = 0,
                                         .high = 1,
@@ -75,12 +87,6 @@ std::vector<Param> params() {
                                     .high = 2,
                                     .fallback = 0,
                                     .help = "slices by which that is farther: above 0 fragments hide themselves"}),
-        param<&VoxelParams::rounding>({.name = "rounding",
-                                       .low = 0,
-                                       .high = 1,
-                                       .fallback = rounding_nearest,
-                                       .help = "of optical depth to steps; stochastic: right on average, with noise",
-                                       .choices = roundings}),
         param<&VoxelParams::curve>(
             {.name = "curve",
              .low = 0,
@@ -105,6 +111,8 @@ std::vector<Param> params() {
         param<&VoxelParams::resolution>(resolution),
         param<&VoxelParams::accumulation>(accumulation_row),
     };
+    rows.insert(rows.end(), places.begin(), places.end());
+    return rows;
 }
 
 std::vector<Counter> counters() {

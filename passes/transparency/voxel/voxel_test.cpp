@@ -279,6 +279,16 @@ double blend(const Settled& settled, std::span<const Fragment> fragments) {
     return function_blend(fragments, glm::dvec3(0), function).x;
 }
 
+TEST(Voxel, HasAsManyColumnsAsFitIntoHalfAGibibyte) {
+    const VoxelParams params{.slices = 128, .splat = splat_overflow_minimum, .bits = bits_8, .resolution = 0};
+    EXPECT_EQ(voxel_divisor(params, {1920, 1080, 1}, 1), 1u);  // 265 MB
+    EXPECT_EQ(voxel_divisor(params, {1920, 1080, 1}, 3), 2u);
+    EXPECT_EQ(voxel_divisor(params, {3840, 2160, 1}, 1), 2u);
+    VoxelParams eighth = params;
+    eighth.resolution = 3;
+    EXPECT_EQ(voxel_divisor(eighth, {3840, 2160, 1}, 3), 8u);
+}
+
 TEST(Voxel, AveragesWhatSharesASliceAndSortsWhatDoesNot) {
     const Settled point{format_of(splat_overflow_minimum, bits_32)};
     EXPECT_NEAR(blend(point, std::array{layer(5.2, .5, 1), layer(5.7, .5, 0)}), .375, 1e-9);
