@@ -56,15 +56,14 @@ void add_to_word(ivec2 column, uint slice, uvec2 codes, bool both) {
     }
 }
 
+// In one word or in two; a loop and not two calls, which lavapipe would inline twice.
 void add(ivec2 column, uint slice, uvec2 codes) {
     const bool both = slice % slices_per_word + 1u < slices_per_word;
-    const bool apart = !both && codes.y > 0u;
-    // The word of the nearer slice, which may be there only for the other's sake, then the next.
-    for (uint i = 0u; i < (apart ? 2u : 1u); ++i) {
-        const uvec2 part = i == 0u ? codes : uvec2(codes.y, 0u);
+    if (!both && codes.x > 0u && codes.y > 0u) atomicAdd(counters.border_atomics, 1u);
+    for (uint i = 0u; i < 2u; ++i) {
+        const uvec2 part = both ? codes * (1u - i) : uvec2(codes[i], 0u);
         if (part.x + part.y > 0u) add_to_word(column, slice + i, part, both);
     }
-    if (apart) atomicAdd(counters.border_atomics, 1u);
 }
 
 void main() {
