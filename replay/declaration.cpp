@@ -27,7 +27,7 @@ Result<Image> add_view(Graph& graph, FrameImages& images, const Choices& choices
         for (const DebugView& candidate : choice.technique->views) {
             known.push_back(candidate.name);
             if (candidate.name != view) continue;
-            graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage));
+            graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage), choice.technique->counter_bytes);
             return candidate.add(graph, images, choice.settings);
         }
         return fail(Fault::usage, "{} has no view '{}'{}", technique, view, did_you_mean(view, known));

@@ -6,6 +6,7 @@
 
 #include "passes/registry.h"
 #include "passes/transparency/moments/model.h"
+#include "passes/transparency/voxel/column.h"
 #include "passes/transparency/wavelet/model.h"
 #include "replay/probe/probe.h"
 #include "tests/support/session.h"
@@ -116,6 +117,26 @@ TEST(CanonicalRays, TheModelOfWaveletsLeavesTheSameArea) {
             const double made = area(ray, [&](double d) { return std::exp(-haar_depth(coefficients, d * last)); });
             EXPECT_NEAR(made, table[5 + rank].area[r], tolerance) << table[5 + rank].method << ", ray "
                                                                   << "ABCD"[r];
+        }
+}
+
+TEST(CanonicalRays, AColumnOfVoxelsThatIsReadOneSliceInFrontIsWavelets) {
+    for (std::uint32_t rank = 1; rank <= 4; ++rank)
+        for (const Ray& ray : rays()) {
+            const std::uint32_t slices = 2u << rank;
+            std::vector<CellEvent> events;
+            std::vector<double> integral(slices, 0.);
+            for (const RayEvent& event : ray) {
+                events.push_back({event.d * (slices - 1), -std::log1p(-event.alpha)});
+                const SlicePlace place = slice_place(events.back().place + .5, slices, splatting_linear);
+                for (std::uint32_t k = place.slice; k < slices; ++k)
+                    integral[k] += (k == place.slice ? 1 - place.share : 1) * events.back().optical_depth;
+            }
+            const std::vector<double> coefficients = haar_coefficients(rank, storage_float, events);
+            for (int i = 0; i <= 100; ++i) {
+                const double place = i / 100. * (slices - 1);
+                EXPECT_NEAR(sampled_integral(integral, place + .5 - 1, sampling_linear), haar_depth(coefficients, place), 1e-12);
+            }
         }
 }
 

@@ -2,25 +2,14 @@
 // Alphas are fixed-point numbers of 24 bits.
 #ifndef PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_SHARED_H
 #define PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_SHARED_H
-#include "passes/shader_interop.h"
+#include "passes/transparency/hash.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
-inline uint hashed(uint value);
-inline uint hashed(uint key, uvec3 value);
 inline uint fragment_key(uint seed, uvec3 place, uint draw, uint triangle);
 inline uint random_24_bits(uint key, uint number);
 inline uint subset_size(uint key, uint alpha, uint subsamples);
 inline bool is_selected(uint key, uint subsample, uint wanted, uint left);
 #endif
-
-// PCG as a hash (Jarzynski and Olano 2020, JCGT 9(3)).
-uint hashed(uint value) {
-    const uint state = value * 747796405u + 2891336453u;
-    const uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-uint hashed(uint key, uvec3 value) { return hashed(hashed(hashed(key ^ value.x) ^ value.y) ^ value.z); }
 
 // One number per fragment of a sample (x, y, sample). Pairs of triangles share one: the halves of a quad meet without a seam,
 // and which of them a sample between them belongs to makes no difference.

@@ -1,0 +1,76 @@
+// T(z) = M^-I from the integral of the columns around a fragment, a little in front of it (transparency chapter 6.7). Filtered here
+// and not by a sampler: hardware's weights have 8 bits, which would be 1.1 % of T for each step of the integral.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/voxel/voxel.shared.h"
+
+layout(push_constant, scalar) uniform Push { VoxelPush push; };
+#include "passes/transparency/voxel/voxels.glsl"
+
+layout(early_fragment_tests) in;
+layout(constant_id = 12) const uint sampling = sampling_linear;
+layout(constant_id = 13) const uint filters = 1u;  // 0 where columns are pixels
+layout(set = 0, binding = 10) uniform usampler2DArray voxels;
+layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+
+// The columns around a pixel's center, two by two, and their weights.
+struct Corners {
+    ivec2 low, high;
+    vec4 weight;
+};
+
+Corners corners_of(vec2 pixel, uint channel) {
+    const vec2 extent = vec2(push.width, push.height);
+    const vec2 place = (floor(pixel) + 0.5) / vec2(view.extent) * extent - (filters != 0u ? 0.5 : 0.0);
+    const vec2 first = floor(place), share = place - first, rest = 1.0 - share;
+    return Corners(column_of(uvec2(max(first, 0.0)), channel), column_of(uvec2(min(first + 1.0, extent - 1.0)), channel),
+                   vec4(rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y));
+}
+
+float code_at(ivec2 column, uint slice) {
+    return float(field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)));
+}
+
+// 0 in front of the volume, the last slice's behind.
+float integral_at(Corners at, float slice) {
+    const uint k = min(uint(max(slice, 0.0)), push.slices - 1u);
+    const float near = code_at(at.low, k);
+    float sum = near;
+    if (filters != 0u)
+        sum = dot(at.weight, vec4(near, code_at(ivec2(at.high.x, at.low.y), k), code_at(ivec2(at.low.x, at.high.y), k),
+                                  code_at(at.high, k)));
+    return slice < 0.0 ? 0.0 : sum;
+}
+
+// Of the values around a place: two, or the four of a cubic B-spline.
+vec4 weights(float f) {
+    if (sampling == sampling_point) return vec4(1.0, 0.0, 0.0, 0.0);
+    if (sampling == sampling_linear) return vec4(1.0 - f, f, 0.0, 0.0);
+    const float g = 1.0 - f;
+    return vec4(g * g * g, 4.0 - 6.0 * f * f + 3.0 * f * f * f, 4.0 - 6.0 * g * g + 3.0 * g * g * g, f * f * f) / 6.0;
+}
+
+const uint values_read = 1u << sampling;
+
+float transmittance(uint channel, float at) {
+    const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
+    const float first = sampling == sampling_bicubic ? k - 1.0 : k;
+    const vec4 weight = weights(center - k);
+    const Corners corners = corners_of(gl_FragCoord.xy, channel);
+    float codes = 0.0;
+    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(corners, first + float(i));
+    return codes >= full_share * float(push.full_code) ? 0.0 : exp(-codes / push.codes_per_depth);
+}
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const float at = slice_of_depth(event.z) + push.bias;
+    vec3 through = vec3(0.0);
+    for (uint channel = 0u; channel < push.channels; ++channel) through[channel] = transmittance(channel, at);
+    if (push.channels == 1u) through = through.rrr;
+    atomicAdd(counters.function.drawn, 1u);
+    write_event(event, through);
+}

@@ -1,0 +1,98 @@
+#include "passes/transparency/voxel/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/triangles.h"
+#include "passes/transparency/function_model.h"
+#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/hash.shared.h"
+#include "passes/transparency/voxel/column.h"
+#include "passes/transparency/voxel/depth_curve.h"
+
+namespace strata::transparency {
+namespace {
+
+/// Where a draw's fragments begin among the numbers of all triangles.
+struct Origin {
+    std::uint32_t draw = 0, first_triangle = 0;
+};
+
+std::vector<Origin> origins_of(const Frame& frame) {
+    std::vector<Origin> origins;
+    std::uint32_t first = 0;
+    for (const std::uint32_t draw : transparent_draws(frame)) {
+        origins.push_back({draw, first});
+        first += triangle_count(frame, draw);
+    }
+    return origins;
+}
+
+double rounding_of(const VoxelParams& params, std::span<const Origin> origins, const Fragment& f, glm::uvec2 texel) {
+    if (params.rounding == rounding_nearest) return .5;
+    const Origin& origin = *--std::ranges::upper_bound(origins, f.submission, {}, &Origin::first_triangle);
+    return random_rounding(texel, origin.draw, f.submission - origin.first_triangle);
+}
+
+/// Slice coordinate within the volume.
+double place_of(const DepthCurve& curve, const Fragment& f) {
+    return std::min(curve.slice_of(std::max(f.depth, 0.)), curve.slices - double(end_margin));
+}
+
+}  // namespace
+
+std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint32_t channels) {
+    constexpr std::uint64_t largest = 512 << 20;
+    std::uint32_t divisor = divisor_of(params.resolution);
+    const auto bytes = [&](const Extent& low) {
+        return std::uint64_t{low.width} * low.height * channels * column_format(params).words() * sizeof(std::uint32_t);
+    };
+    while (bytes(prepass_extent(extent, divisor)) > largest) divisor *= 2;
+    return divisor;
+}
+
+double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle) {
+    // Pairs of triangles share a number: the halves of a particle meet without a seam.
+    const std::uint32_t key = hashed(hashed(0, glm::uvec3(texel, draw)) ^ triangle / 2);
+    return (key >> 8) * 0x1p-24;
+}
+
+ImageSet voxel_model(const StageInput& input, const Settings& settings) {
+    const auto params = settings.as<VoxelParams>();
+    const std::size_t channels = channel_count(params.channels, frame_features(input.frame));
+    const ColumnFormat format = column_format(params);
+    const DepthCurve curve = depth_curve(params);
+    const std::vector<Origin> origins = origins_of(input.frame);
+    const Extent extent{input.frame.view.width, input.frame.view.height};
+
+    PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels))};
+    if (prepass.divisor == 1) prepass.filter = PrepassModel::Filter::nearest;
+    prepass.project = [=, &origins](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        std::vector<double> all;
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            Column column(format);
+            for (const Fragment& f : fragments) {
+                const SlicePlace place = slice_place(place_of(curve, f), format.slices, params.splatting);
+                const double codes = format.codes(channel_depth(f, channel, channels));
+                column.add(split_code(format, place, codes, rounding_of(params, origins, f, texel)));
+            }
+            const std::vector<std::uint32_t> integral = column.integral();
+            all.insert(all.end(), integral.begin(), integral.end());
+        }
+        return all;
+    };
+    prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
+        return [=](const Fragment& f) {
+            const double at = place_of(curve, f) + sampling_bias(params.sampling) + double(params.shift);
+            glm::dvec3 through(0);
+            for (std::size_t channel = 0; channel < channels; ++channel) {
+                const auto integral = integrals.subspan(channel * format.slices, format.slices);
+                through[static_cast<int>(channel)] = format.transmittance(sampled_integral(integral, at, params.sampling));
+            }
+            return channels == 1 ? glm::dvec3(through.x) : through;
+        };
+    };
+    return function_model(input, params.accumulation, prepass);
+}
+
+}  // namespace strata::transparency

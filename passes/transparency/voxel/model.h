@@ -1,0 +1,18 @@
+// The method on whole images: columns of a prepass (column.h), filtered and read by every fragment.
+#pragma once
+
+#include "passes/graph/graph.h"
+#include "passes/technique.h"
+#include "passes/transparency/voxel/voxel.shared.h"
+
+namespace strata::transparency {
+
+/// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB.
+std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
+
+/// What stochastic rounding adds to a code, of a fragment's texel, draw and triangle: from 0 to 1.
+double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle);
+
+ImageSet voxel_model(const StageInput&, const Settings&);
+
+}  // namespace strata::transparency

@@ -1,0 +1,83 @@
+// Adds a fragment's optical depth as an integer to one or two slices of its column (transparency chapter 6.4 and 6.5). There is no
+// atomic multiplication, hence logarithms; integers add up to the same in any order.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/hash.shared.h"
+#include "passes/transparency/optical_depth.glsl"
+#include "passes/transparency/voxel/voxel.shared.h"
+
+layout(push_constant, scalar) uniform Push { VoxelPush push; };
+#include "passes/transparency/voxel/voxels.glsl"
+
+layout(early_fragment_tests) in;
+layout(constant_id = 12) const uint splatting = splatting_linear;
+layout(constant_id = 13) const uint rounding = rounding_nearest;
+layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
+layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+
+// Pairs of triangles share a number: the halves of a particle meet without a seam.
+float rounded_up_by(uvec2 texel) {
+    if (rounding == rounding_nearest) return 0.5;
+    const uint key = hashed(hashed(0u, uvec3(texel, draws[in_draw].submission)) ^ (uint(gl_PrimitiveID) / 2u));
+    return float(key >> 8u) / 16777216.0;
+}
+
+uint saturated(uint word, uint shift, uint code) { return word + (min(code, field_mask - field(word, shift)) << shift); }
+
+// Helper invocations, whose swap never happens, must not wait for it.
+void add_saturating(ivec3 at, uint slice, uvec2 codes, bool both) {
+    uint seen = imageLoad(voxels, at).r, expected = ~seen;
+    while (seen != expected && gl_SampleMaskIn[0] != 0) {
+        expected = seen;
+        uint sum = saturated(seen, shift_of(slice), codes.x);
+        if (both) sum = saturated(sum, shift_of(slice + 1u), codes.y);
+        seen = imageAtomicCompSwap(voxels, at, expected, sum);
+    }
+}
+
+void note_overflow(ivec2 column, uint before, uint slice, uint code) {
+    if (code > field_mask - field(before, shift_of(slice))) atomicMin(nearest_overflow[index_of(column)], slice);
+}
+
+// codes.x to the slice, and where both are in the word codes.y to the next.
+void add_to_word(ivec2 column, uint slice, uvec2 codes, bool both) {
+    const ivec3 at = place_of(column, slice);
+    atomicAdd(counters.atomics, 1u);
+    if (splat == splat_saturating) {
+        add_saturating(at, slice, codes, both);
+    } else {
+        const uint farther = both ? codes.y << shift_of(slice + 1u) : 0u;
+        const uint before = imageAtomicAdd(voxels, at, (codes.x << shift_of(slice)) + farther);
+        if (splat == splat_overflow_minimum) {
+            note_overflow(column, before, slice, codes.x);
+            if (both) note_overflow(column, before, slice + 1u, codes.y);
+        }
+    }
+}
+
+// In one word or in two; a loop and not two calls, which lavapipe would inline twice.
+void add(ivec2 column, uint slice, uvec2 codes) {
+    const bool both = slice % slices_per_word + 1u < slices_per_word;
+    if (!both && codes.x > 0u && codes.y > 0u) atomicAdd(counters.border_atomics, 1u);
+    for (uint i = 0u; i < 2u; ++i) {
+        const uvec2 part = both ? codes * (1u - i) : uvec2(codes[i], 0u);
+        if (part.x + part.y > 0u) add_to_word(column, slice + i, part, both);
+    }
+}
+
+void main() {
+    const Event event = transparent_event();
+    if (!event.visible) discard;
+    const uvec2 texel = uvec2(gl_FragCoord.xy);
+    const float s = slice_of_depth(event.z), r = rounded_up_by(texel);
+    const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(push.slices) - 1.0);
+    const uint slice = uint(center);
+    for (uint channel = 0u; channel < push.channels; ++channel) {
+        const float tau = channel_depth(event.t, push.channels == 1u ? luminance_channel : channel);
+        const float codes = min(tau * push.codes_per_depth, float(push.full_code));
+        const uint whole = min(uint(codes + r), push.full_code);
+        const uint farther = min(uint(codes * (center - float(slice)) + r), whole);
+        add(column_of(texel, channel), slice, uvec2(whole - farther, farther));
+    }
+}
