@@ -58,28 +58,22 @@ void draw_at(Graph& graph, const std::string& shader, const FrameImages& images,
     }
 }
 
-/// The sums under the names function_sums.glsl reads them by.
-ComputePass reading_sums(Graph& graph, std::string shader, const FrameImages& images, const FunctionSums& sums) {
+ResolutionSums by_sample(Graph& graph, const ResolutionSums& sums) {
     const auto layers = [&](const Image& image) {
         return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
     };
-    const ResolutionSums full{layers(sums.full.color), layers(sums.full.extinction), layers(sums.full.normalizer),
-                              layers(sums.full.emission), layers(sums.full.offset)};
-    ComputePass pass = graph.compute(std::move(shader));
-    pass.samples("color_sum", full.color)
-        .samples("extinction", full.extinction)
+    return {layers(sums.color), layers(sums.extinction), layers(sums.normalizer), layers(sums.emission), layers(sums.offset)};
+}
+
+/// X and N under the names function_sums.glsl reads them by.
+ComputePass& reading_weights(ComputePass& pass, const FrameImages& images, const ResolutionSums& full,
+                             const ResolutionSums& low) {
+    return pass.samples("extinction", full.extinction)
         .samples("normalizer", full.normalizer)
-        .samples("emission", full.emission)
-        .samples("offset", full.offset)
-        .samples("low_color_sum", sums.low.color)
-        .samples("low_extinction", sums.low.extinction)
-        .samples("low_normalizer", sums.low.normalizer)
-        .samples("low_emission", sums.low.emission)
-        .samples("low_offset", sums.low.offset)
+        .samples("low_extinction", low.extinction)
+        .samples("low_normalizer", low.normalizer)
         .fixes("chromatic", flag(images.features->has(Feature::chromatic)))
-        .fixes("emits", flag(emits(images)))
-        .fixes("low_resolution", flag(bool(sums.low.color)));
-    return pass;
+        .fixes("low_resolution", flag(bool(low.extinction)));
 }
 
 }  // namespace
@@ -109,9 +103,18 @@ void draw_into(Graph& graph, const std::string& shader, const FrameImages& image
 
 void resolve_sums(Graph& graph, FrameImages& images, const FunctionSums& sums) {
     const Image behind = undistorted(graph, images);
-    reading_sums(graph, "transparency/function_resolve.comp", images, sums)
-        .updates("color", images.color)
+    const ResolutionSums full = by_sample(graph, sums.full);
+    ComputePass pass = graph.compute("transparency/function_resolve.comp");
+    reading_weights(pass, images, full, sums.low)
+        .samples("color_sum", full.color)
+        .samples("emission", full.emission)
+        .samples("offset", full.offset)
+        .samples("low_color_sum", sums.low.color)
+        .samples("low_emission", sums.low.emission)
+        .samples("low_offset", sums.low.offset)
         .samples("behind", behind)
+        .updates("color", images.color)
+        .fixes("emits", flag(emits(images)))
         .fixes("distorts", flag(bool(behind)))
         .over({images.extent.width, images.extent.height, images.samples});
 }
@@ -129,7 +132,9 @@ std::vector<Counter> function_counters_with_lists() {
 
 Image normalization_view(Graph& graph, const FrameImages& images, const FunctionSums& sums) {
     Image picture = graph.create("normalization view", Shape{.extent = images.extent, .format = Format::rgba32f});
-    reading_sums(graph, "transparency/function_factor.comp", images, sums).stores("picture", picture).over(images.extent);
+    const ResolutionSums full = by_sample(graph, sums.full);
+    ComputePass pass = graph.compute("transparency/function_factor.comp");
+    reading_weights(pass, images, full, sums.low).stores("picture", picture).over(images.extent);
     return picture;
 }
 

@@ -14,8 +14,8 @@ layout(location = 2) out vec4 out_normalizer;
 layout(location = 3) out vec4 out_emission;
 layout(location = 4) out vec4 out_offset;
 
-// Where the fragment is, 0 to 1 each way.
-vec2 drawn_place() { return gl_FragCoord.xy / vec2(drawn_width, drawn_height); }
+// Where the fragment's pixel is, 0 to 1 each way: its center, whichever sample is shaded.
+vec2 drawn_place() { return (floor(gl_FragCoord.xy) + 0.5) / vec2(drawn_width, drawn_height); }
 
 // The texel of an image of another extent under the fragment's center. Integers: half-resolution centers lie between texels.
 uvec2 texel_under(uvec2 extent) {

@@ -16,13 +16,14 @@ constexpr std::uint32_t extent = 16;
 const double slant = .25;  // x of the glass's normal
 
 /// Stripes to see through what is put before them: column x has radiance x / 16.
-Frame stripes_behind(std::vector<Card> cards) {
+Frame stripes_behind(std::vector<Card> cards, std::uint32_t samples = 1) {
     for (std::uint32_t x = 0; x < extent; ++x)
         cards.push_back({.center = {(2 * (x + .5) / extent - 1) * 20, 0, 20},
                          .half = 20.f / extent,
                          .color = {glm::vec3(float(x) / extent), 1},
                          .alpha_mode = AlphaMode::opaque});
     Frame frame = frame_of_cards(cards, extent);
+    frame.view.samples = samples;
     for (Draw& draw : frame.draws)
         if (frame.materials[draw.material].alpha_mode == AlphaMode::opaque) draw.to_world[1] *= extent;
     return frame;

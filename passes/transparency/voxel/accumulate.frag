@@ -21,9 +21,9 @@ struct Corners {
     vec4 weight;
 };
 
-Corners corners_of(vec2 pixel, uint channel) {
+Corners corners_of(uint channel) {
     const vec2 extent = vec2(push.width, push.height);
-    const vec2 place = (floor(pixel) + 0.5) / vec2(view.extent) * extent - (filters != 0u ? 0.5 : 0.0);
+    const vec2 place = drawn_place() * extent - (filters != 0u ? 0.5 : 0.0);
     const vec2 first = floor(place), share = place - first, rest = 1.0 - share;
     return Corners(column_of(uvec2(max(first, 0.0)), channel), column_of(uvec2(min(first + 1.0, extent - 1.0)), channel),
                    vec4(rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y));
@@ -58,7 +58,7 @@ float transmittance(uint channel, float at) {
     const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
     const float first = sampling == sampling_bicubic ? k - 1.0 : k;
     const vec4 weight = weights(center - k);
-    const Corners corners = corners_of(gl_FragCoord.xy, channel);
+    const Corners corners = corners_of(channel);
     float codes = 0.0;
     for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(corners, first + float(i));
     return codes >= full_share * float(push.full_code) ? 0.0 : exp(-codes / push.codes_per_depth);

@@ -66,7 +66,6 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
     PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels))};
-    if (prepass.divisor == 1) prepass.filter = PrepassModel::Filter::nearest;
     prepass.project = [=, &origins](std::span<const Fragment> fragments, glm::uvec2 texel) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {

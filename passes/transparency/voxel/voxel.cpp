@@ -24,12 +24,13 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
     const Volume volume = integrated_volume(graph, images, params);
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    draw_into(graph, "transparency/voxel/accumulate", images, drawn)
-        .samples("voxels", volume.voxels)
-        .push(volume.push)
-        .fixes("field_bits", volume.field_bits)
-        .fixes("sampling", params.sampling)
-        .fixes("filters", volume.divisor == 1 ? 0u : 1u);
+    draw_into(graph, "transparency/voxel/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+        draw.samples("voxels", volume.voxels)
+            .push(volume.push)
+            .fixes("field_bits", volume.field_bits)
+            .fixes("sampling", params.sampling)
+            .fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
+    });
     return drawn;
 }
 

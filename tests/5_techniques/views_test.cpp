@@ -1,0 +1,46 @@
+// Every view of every technique is drawn, at one sample and at four.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "replay/image_io.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+class Views : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(Views, AreDrawnAndFinite) {
+    const Technique& technique = *must(find_technique(GetParam()));
+    for (const std::uint32_t samples : {1u, 4u})
+        for (const DebugView& view : technique.views) {
+            Request request = on_scenario("smoke_grenade", samples);
+            request.uses = {std::string(technique.name)};
+            request.outputs = {fmt::format("{}:{}", technique.name, view.name)};
+            const auto run = must(session_of_scenarios().run(request));
+            const ReferenceImage picture = in_double(run.images.at(request.outputs[0]));
+            ASSERT_EQ(picture.width, run.width);
+            for (const glm::dvec4& texel : picture.texels)
+                ASSERT_TRUE(std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z)) << view.name;
+        }
+}
+
+std::vector<std::string_view> with_views() {
+    std::vector<std::string_view> names;
+    for (const Technique& technique : techniques())
+        if (!technique.views.empty()) names.push_back(technique.name);
+    return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string_view>& info) {
+    std::string name(info.param);
+    name[name.find('/')] = '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, Views, testing::ValuesIn(with_views()), test_name);
+
+}  // namespace
+}  // namespace strata
