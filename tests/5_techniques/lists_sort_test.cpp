@@ -51,10 +51,13 @@ protected:
         const Buffer counted = import(graph, "counts", counts);
         Buffer within = graph.create("starts", cells * sizeof(std::uint32_t));
         Buffer of_groups = graph.create("group starts", groups * sizeof(std::uint32_t));
+        Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
+        graph.clear(counters, 0);
         graph.compute("transparency/lists_scan_cells.comp")
             .loads("Counts", counted)
             .stores("Starts", within)
             .stores("GroupStarts", of_groups)
+            .updates("Counters", counters)
             .push(band)
             .groups({groups, 1, 1});
         graph.compute("transparency/lists_scan_groups.comp").updates("GroupStarts", of_groups).push(band).groups({1, 1, 1});
