@@ -42,12 +42,13 @@ TEST(VoxelVolume, IsTheSameInEveryRun) {
 
 TEST(VoxelVolume, IntegratesAnOverflowAsIfItSaturated) {
     const auto session = scenario_session("three_cards", 1);  // of alpha .99 in one slice: 636 of 255
-    const auto packed = run_of(*session, {});
+    const std::string even = "volume=dense", fixed = "range=fixed";
+    const auto packed = run_of(*session, {even, fixed});
     EXPECT_GT(count_of(packed, "overflowed"), 0u);
     EXPECT_EQ(count_of(packed, "border atomics"), 0u);
-    EXPECT_EQ(color_of(*session, {"splat=saturating"}), packed.images.at("color").texels);
-    EXPECT_EQ(color_of(*session, {"splat=words"}), packed.images.at("color").texels);
-    EXPECT_LT(count_of(run_of(*session, {"splat=wrapping"}), "saturated"), count_of(packed, "saturated"));
+    EXPECT_EQ(color_of(*session, {even, fixed, "splat=saturating"}), packed.images.at("color").texels);
+    EXPECT_EQ(color_of(*session, {even, fixed, "splat=words"}), packed.images.at("color").texels);
+    EXPECT_LT(count_of(run_of(*session, {even, fixed, "splat=wrapping"}), "saturated"), count_of(packed, "saturated"));
 }
 
 /// Numbers that fit nothing, and settings that meet only here.
@@ -57,8 +58,10 @@ TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
         {"slices=37", "bits=16", "splatting=point", "sampling=bicubic", "shift=0.5"},
         {"slices=1023", "resolution=sixteenth", "sampling=bicubic"},
         {"slices=99", "resolution=half", "rounding=stochastic", "curve=thickness", "near_thickness=0.3"},
-        {"slices=33", "splat=saturating", "bits=16", "farthest=9"},
+        {"slices=33", "splat=saturating", "bits=16", "range=fixed", "farthest=9"},
         {"splat=words", "bits=32", "channels=mono", "resolution=quarter", "sampling=point", "splatting=point"},
+        {"volume=dense", "slices=100", "range=fixed", "resolution=half"},
+        {"volume=adaptive", "slices=40", "splatting=point", "sampling=point", "curve=linear", "linear=2"},
     };
     for (const std::vector<std::string>& sets : combinations) {
         Request request = on_scenario("glass_and_smoke", 4);
@@ -68,6 +71,52 @@ TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
     }
+}
+
+/// The transparency stage's scenarios, small: with the settings, and with those and more.
+void expect_same_color(std::uint32_t samples, const std::vector<std::string>& sets, const std::vector<std::string>& more) {
+    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
+        Request request = on_scenario(scenario, samples);
+        request.uses = {voxel}, request.sets = sets, request.outputs = {"color"};
+        const auto one = must(session_of_scenarios().run(request)).images.at("color").texels;
+        request.sets.insert(request.sets.end(), more.begin(), more.end());
+        EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, one) << scenario << sets.front();
+    }
+}
+
+// V10 of transparency chapter 6.17. What is not cleared holds whatever other images left there.
+TEST(VoxelVolume, LeavesOutOnlyWhatNobodyReads) {
+    expect_same_color(4, {"skipping=off"}, {"skipping=on"});
+    expect_same_color(1, {"skipping=off", "resolution=quarter", "sampling=bicubic", "slices=70"}, {"skipping=on"});
+    expect_same_color(1, {"skipping=off", "resolution=half", "volume=dense", "shift=2", "bits=16"}, {"skipping=on"});
+    expect_same_color(1, {"skipping=off", "splatting=point", "sampling=point", "shift=-2", "slices=1024"}, {"skipping=on"});
+}
+
+TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const char* splatting : {"splatting=linear", "splatting=point"}) {
+            Request request = on_scenario(scenario, 4);
+            request.uses = {voxel}, request.sets = {splatting, "thinnest=1e-5"};
+            EXPECT_EQ(count_of(must(session_of_scenarios().run(request)), "uncovered"), 0u) << scenario << splatting;
+        }
+}
+
+// (v) of transparency chapter 9.7: a curve that the number of slices does not bend.
+TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
+    std::size_t finer = 0;
+    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
+        Request request = on_scenario(scenario);
+        request.uses = {voxel}, request.outputs = {"color"};
+        request.sets = {"curve=linear", "linear=3", "slices=64", "thinnest=0.005"};
+        const strata::Run adaptive = must(session_of_scenarios().run(request));
+        const std::uint64_t slices = count_of(adaptive, "virtual slices");
+        if (slices > 1024 || count_of(adaptive, "slices used") == 0) continue;
+        finer += slices > 64;
+        request.sets = {"curve=linear", "linear=3", "slices=" + std::to_string(slices), "volume=dense"};
+        EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, adaptive.images.at("color").texels)
+            << scenario << " in " << slices;
+    }
+    EXPECT_GT(finer, 5u);
 }
 
 TEST(VoxelVolume, ShowsWhereItOverflowsAndFromWhereNothingIsSeen) {

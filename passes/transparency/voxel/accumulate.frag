@@ -33,15 +33,16 @@ float code_at(ivec2 column, uint slice) {
     return float(field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)));
 }
 
-// 0 in front of the volume, the last slice's behind.
-float integral_at(Corners at, float slice) {
-    const uint k = min(uint(max(slice, 0.0)), push.slices - 1u);
+// At a virtual slice: 0 in front of the volume, the last slice's behind.
+float integral_at(Corners at, int slice) {
+    const int physical = physical_slice(slice);
+    const uint k = uint(max(physical, 0));
     const float near = code_at(at.low, k);
     float sum = near;
     if (filters != 0u)
         sum = dot(at.weight, vec4(near, code_at(ivec2(at.high.x, at.low.y), k), code_at(ivec2(at.low.x, at.high.y), k),
                                   code_at(at.high, k)));
-    return slice < 0.0 ? 0.0 : sum;
+    return physical < 0 ? 0.0 : sum;
 }
 
 // Of the values around a place: two, or the four of a cubic B-spline.
@@ -60,7 +61,7 @@ float transmittance(uint channel, float at) {
     const vec4 weight = weights(center - k);
     const Corners corners = corners_of(channel);
     float codes = 0.0;
-    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(corners, first + float(i));
+    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(corners, int(first) + int(i));
     return codes >= full_share * float(push.full_code) ? 0.0 : exp(-codes / push.codes_per_depth);
 }
 

@@ -76,16 +76,20 @@ std::vector<std::uint32_t> Column::integral() const {
 
 double sampling_bias(std::uint32_t sampling) { return biases[sampling]; }
 
-double sampled_integral(std::span<const double> integral, double at, std::uint32_t sampling) {
-    const auto value = [&](double slice) {
-        return slice < 0 ? 0. : integral[std::min(static_cast<std::size_t>(slice), integral.size() - 1)];
-    };
-    if (sampling == sampling_point) return value(std::floor(at));
+double sampled_integral(const std::function<double(int)>& value, double at, std::uint32_t sampling) {
+    if (sampling == sampling_point) return value(static_cast<int>(std::floor(at)));
     const double k = std::floor(at - .5);
     const std::array<double, 4> w = weights(sampling, at - .5 - k);
     double sum = 0;
-    for (int i = 0; i < 4; ++i) sum += w[static_cast<std::size_t>(i)] * value(k - 1 + i);
+    for (int i = 0; i < 4; ++i) sum += w[static_cast<std::size_t>(i)] * value(static_cast<int>(k) - 1 + i);
     return sum;
+}
+
+double sampled_integral(std::span<const double> integral, double at, std::uint32_t sampling) {
+    const auto value = [&](int slice) {
+        return slice < 0 ? 0. : integral[std::min(static_cast<std::size_t>(slice), integral.size() - 1)];
+    };
+    return sampled_integral(value, at, sampling);
 }
 
 }  // namespace strata::transparency

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -68,7 +69,9 @@ private:
 /// splats and samples, and with linear ones; with bicubic samples of linear splats it hides .11 % of itself.
 double sampling_bias(std::uint32_t sampling);
 
-/// The integral at slice coordinate `at`, its values at slices' centers; 0 in front of the volume, the last value behind.
+/// The integral at virtual slice coordinate `at`, from its values at slices' centers.
+double sampled_integral(const std::function<double(int slice)>& value, double at, std::uint32_t sampling);
+/// Of a volume without a warp: 0 in front of it, the last value behind.
 double sampled_integral(std::span<const double> integral, double at, std::uint32_t sampling);
 
 }  // namespace strata::transparency

@@ -1,17 +1,44 @@
-// Slices of depth_curve.h in float. A shader that includes this declares `VoxelPush push` in its push constants first.
+// Slices of depth_curve.h in float, and which of them are there (depth_warp.h). A shader that includes this declares `VoxelPush
+// push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_DEPTH_CURVE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_DEPTH_CURVE_GLSL
+#extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/voxel/voxel.shared.h"
 
-// Clamped to the volume.
+layout(constant_id = 15) const uint adaptive = 0u;  // 1: there is a table
+// Entries of virtual slices, then, from most_virtual_slices on, the virtual slice of each physical one.
+layout(set = 0, binding = 12, scalar) readonly buffer DepthWarp {
+    WarpHeader warp;
+    uint warp_entries[];
+};
+
+uint virtual_slices() { return adaptive != 0u ? warp.virtual_slices : push.finest_slices; }
+
+// Of the finest slices, to those that are left after halving.
+float halved() { return adaptive != 0u ? exp2(-float(warp.halvings)) : 1.0; }
+
+// Virtual, clamped to the volume.
 float slice_of_depth(float z) {
-    const float s = log2(1.0 + max(z, 0.0) * push.per_linear) * push.slices_per_log2;
-    return min(s, float(push.slices) - end_margin);
+    const float s = log2(1.0 + max(z - push.nearest, 0.0) * push.per_linear) * push.slices_per_log2;
+    return min(s * halved(), float(virtual_slices()) - end_margin);
 }
 
-float depth_of_slice(float s) { return (exp2(s / push.slices_per_log2) - 1.0) / push.per_linear; }
+float depth_of_slice(float s) {
+    return push.nearest + (exp2(s / (push.slices_per_log2 * halved())) - 1.0) / push.per_linear;
+}
 
 // dz / ds.
-float thickness_at(float z) { return (z + 1.0 / push.per_linear) * log(2.0) / push.slices_per_log2; }
+float thickness_at(float z) {
+    return (z - push.nearest + 1.0 / push.per_linear) * log(2.0) / (push.slices_per_log2 * halved());
+}
+
+// The physical slice whose integral is that of a virtual one: its own or the last in front of it; -1 if there is none.
+int physical_slice(int slice) {
+    const int inside = min(slice, int(virtual_slices()) - 1);
+    if (inside < 0) return -1;
+    return adaptive != 0u ? int(warp_entries[inside] & warp_count_mask) - 1 : inside;
+}
+
+uint virtual_slice(uint physical) { return adaptive != 0u ? warp_entries[most_virtual_slices + physical] : physical; }
 
 #endif

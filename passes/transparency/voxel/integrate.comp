@@ -1,11 +1,13 @@
 // Turns a column into its inclusive sums, in place: a sum is at most M and fits the field its extinction had (transparency chapter
-// 6.6). One thread per column and channel, which adds up until nothing is seen any more.
+// 6.6). One thread per column and channel, a group for each tile: slices that nobody uses there are left out,
+// and what is behind saturation is filled without being read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
+#include "passes/transparency/voxel/tiles.glsl"
 #include "passes/transparency/voxel/voxels.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -24,22 +26,21 @@ uint summed_word(uint word, uint first_slice, uint overflow, inout uint sum) {
 }
 
 void main() {
-    const ivec2 column = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(column, imageSize(voxels).xy))) return;
+    const uvec2 texel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(texel, uvec2(push.width, push.height)))) return;
+    const ivec2 column = column_of(texel, gl_GlobalInvocationID.z);
     const uint overflow = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
-    const uint words = uint(imageSize(voxels).z);
-    uint sum = 0u, word = 0u;
-    for (; word < words && sum < push.full_code; ++word) {
+    uint sum = 0u, integrated = 0u;
+    for (uint word = 0u; word < push.words; ++word) {
+        if (!is_used(gl_WorkGroupID.xy, word)) continue;
         const ivec3 at = ivec3(column, word);
-        const uint extinction = imageLoad(voxels, at).r;
+        const bool full = sum == push.full_code;
+        const uint extinction = full ? 0u : imageLoad(voxels, at).r;
         imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));
-    }
-    const bool full = sum == push.full_code;
-    for (; word < words; ++word) {
-        uint ahead = sum;
-        imageStore(voxels, ivec3(column, word), uvec4(summed_word(0u, 0u, no_overflow, ahead)));
+        if (!full) integrated += slices_per_word;
     }
     atomicAdd(counters.columns, 1u);
+    if (integrated > 0u) atomicAdd(counters.integrated, integrated);
     if (overflow != no_overflow) atomicAdd(counters.overflowed, 1u);
-    if (full) atomicAdd(counters.saturated, 1u);
+    if (sum == push.full_code) atomicAdd(counters.saturated, 1u);
 }

@@ -9,6 +9,7 @@
 #include "passes/transparency/hash.shared.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/depth_warp.h"
 
 namespace strata::transparency {
 namespace {
@@ -34,9 +35,28 @@ double rounding_of(const VoxelParams& params, std::span<const Origin> origins, c
     return random_rounding(texel, origin.draw, f.submission - origin.first_triangle);
 }
 
-/// Slice coordinate within the volume.
-double place_of(const DepthCurve& curve, const Fragment& f) {
-    return std::min(curve.slice_of(std::max(f.depth, 0.)), curve.slices - double(end_margin));
+/// Depth to virtual slices, these to physical ones.
+struct Slices {
+    DepthCurve curve;
+    DepthWarp warp;
+
+    /// Slice coordinate within the volume.
+    double place_of(const Fragment& f) const {
+        const double s = curve.slice_of(std::max(f.depth, curve.nearest)) * std::exp2(-double(warp.halvings));
+        return std::min(s, warp.virtual_slices() - double(end_margin));
+    }
+    double sampled(std::span<const double> integral, double at, std::uint32_t sampling) const {
+        const auto value = [&](int slice) {
+            const int physical = warp.physical(slice);
+            return physical < 0 ? 0 : integral[static_cast<std::size_t>(physical)];
+        };
+        return sampled_integral(value, at, sampling);
+    }
+};
+
+Slices slices_of(const VoxelParams& params, const Frame& frame) {
+    const DepthCurve curve = depth_curve(params, voxel_range(params, frame));
+    return {curve, depth_warp(params, frame, curve)};
 }
 
 }  // namespace
@@ -61,7 +81,7 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
     const std::size_t channels = channel_count(params.channels, frame_features(input.frame));
     const ColumnFormat format = column_format(params);
-    const DepthCurve curve = depth_curve(params);
+    const Slices slices = slices_of(params, input.frame);
     const std::vector<Origin> origins = origins_of(input.frame);
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
@@ -71,7 +91,8 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
         for (std::size_t channel = 0; channel < channels; ++channel) {
             Column column(format);
             for (const Fragment& f : fragments) {
-                const SlicePlace place = slice_place(place_of(curve, f), format.slices, params.splatting);
+                SlicePlace place = slice_place(slices.place_of(f), slices.warp.virtual_slices(), params.splatting);
+                place.slice = static_cast<std::uint32_t>(std::max(slices.warp.physical(static_cast<int>(place.slice)), 0));
                 const double codes = format.codes(channel_depth(f, channel, channels));
                 column.add(split_code(format, place, codes, rounding_of(params, origins, f, texel)));
             }
@@ -82,11 +103,11 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     };
     prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
         return [=](const Fragment& f) {
-            const double at = place_of(curve, f) + sampling_bias(params.sampling) + double(params.shift);
+            const double at = slices.place_of(f) + sampling_bias(params.sampling) + double(params.shift);
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
                 const auto integral = integrals.subspan(channel * format.slices, format.slices);
-                through[static_cast<int>(channel)] = format.transmittance(sampled_integral(integral, at, params.sampling));
+                through[static_cast<int>(channel)] = format.transmittance(slices.sampled(integral, at, params.sampling));
             }
             return channels == 1 ? glm::dvec3(through.x) : through;
         };

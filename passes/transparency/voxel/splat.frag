@@ -66,18 +66,29 @@ void add(ivec2 column, uint slice, uvec2 codes) {
     }
 }
 
+// Whether a virtual slice, and where a share goes there the one behind it, is in the volume: coverage.glsl says so of every triangle.
+bool is_covered(int slice, float share) {
+    const int physical = physical_slice(slice);
+    return physical > physical_slice(slice - 1) && (share == 0.0 || physical_slice(slice + 1) > physical);
+}
+
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     const uvec2 texel = uvec2(gl_FragCoord.xy);
     const float s = slice_of_depth(event.z), r = rounded_up_by(texel);
-    const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(push.slices) - 1.0);
-    const uint slice = uint(center);
+    const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(virtual_slices()) - 1.0);
+    const float share = center - floor(center);
+    if (!is_covered(int(center), share)) {
+        atomicAdd(counters.uncovered, 1u);
+        return;
+    }
+    const uint slice = uint(physical_slice(int(center)));
     for (uint channel = 0u; channel < push.channels; ++channel) {
         const float tau = channel_depth(event.t, push.channels == 1u ? luminance_channel : channel);
         const float codes = min(tau * push.codes_per_depth, float(push.full_code));
         const uint whole = min(uint(codes + r), push.full_code);
-        const uint farther = min(uint(codes * (center - float(slice)) + r), whole);
+        const uint farther = min(uint(codes * share + r), whole);
         add(column_of(texel, channel), slice, uvec2(whole - farther, farther));
     }
 }

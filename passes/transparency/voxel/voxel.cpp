@@ -17,7 +17,10 @@ constexpr std::string_view bits_choices[] = {"8", "16", "32"};
 constexpr std::string_view splattings[] = {"point", "linear"};
 constexpr std::string_view samplings[] = {"point", "linear", "bicubic"};
 constexpr std::string_view roundings[] = {"nearest", "stochastic"};
-constexpr std::string_view curves[] = {"slices", "thickness"};
+constexpr std::string_view curves[] = {"slices", "thickness", "linear"};
+constexpr std::string_view volumes[] = {"dense", "adaptive"};
+constexpr std::string_view skippings[] = {"off", "on"};
+constexpr std::string_view ranges[] = {"frame", "fixed"};
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth", "sixteenth"};
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
@@ -25,11 +28,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     const Volume volume = integrated_volume(graph, images, params);
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
     draw_into(graph, "transparency/voxel/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
-        draw.samples("voxels", volume.voxels)
-            .push(volume.push)
-            .fixes("field_bits", volume.field_bits)
-            .fixes("sampling", params.sampling)
-            .fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
+        read_volume(draw, volume, params).fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
     });
     return drawn;
 }
@@ -42,6 +41,27 @@ std::vector<Param> code_params() {
                                      .fallback = 128,
                                      .help = "of the volume in depth; within one nothing hides anything",
                                      .scale = Scale::logarithmic}),
+        param<&VoxelParams::volume>({.name = "volume",
+                                     .low = 0,
+                                     .high = 1,
+                                     .fallback = volume_adaptive,
+                                     .help = "dense: slices cut all of the range of depth; adaptive: only where something is, as "
+                                             "finely as their number allows",
+                                     .choices = volumes}),
+        param<&VoxelParams::thinnest>(
+            {.name = "thinnest",
+             .low = 1e-5,
+             .high = 10,
+             .fallback = 0.001,
+             .help = "metres of the nearest slice, with volume=adaptive; of 8192 at most over the range",
+             .scale = Scale::logarithmic}),
+        param<&VoxelParams::skipping>(
+            {.name = "skipping",
+             .low = 0,
+             .high = 1,
+             .fallback = 1,
+             .help = "of slices that a tile of 8 x 8 columns does not use, when clearing and integrating",
+             .choices = skippings}),
         param<&VoxelParams::splat>(
             {.name = "splat",
              .low = 0,
@@ -91,10 +111,10 @@ std::vector<Param> params() {
         param<&VoxelParams::curve>(
             {.name = "curve",
              .low = 0,
-             .high = 1,
+             .high = 2,
              .fallback = curve_slices,
-             .help = "depth is divided evenly up to as many inches as there are slices, or so that the nearest slice is "
-                     "near_thickness thick; logarithmically beyond",
+             .help = "depth is divided evenly for as many inches as there are slices, or so that the nearest of them is "
+                     "near_thickness thick, or for `linear` metres; logarithmically beyond",
              .choices = curves}),
         param<&VoxelParams::near_thickness>({.name = "near_thickness",
                                              .low = 0.001,
@@ -102,11 +122,23 @@ std::vector<Param> params() {
                                              .fallback = 0.0508,
                                              .help = "metres, with curve=thickness",
                                              .scale = Scale::logarithmic}),
+        param<&VoxelParams::linear>({.name = "linear",
+                                     .low = 0.001,
+                                     .high = 1e5,
+                                     .fallback = 3.25,
+                                     .help = "metres, with curve=linear",
+                                     .scale = Scale::logarithmic}),
+        param<&VoxelParams::range>({.name = "range",
+                                    .low = 0,
+                                    .high = 1,
+                                    .fallback = range_frame,
+                                    .help = "of depth: that of the frame's transparent geometry, or from the eye to `farthest`",
+                                    .choices = ranges}),
         param<&VoxelParams::farthest>({.name = "farthest",
                                        .low = 1,
                                        .high = 1e5,
                                        .fallback = 800,
-                                       .help = "metres at which the last slice ends; what is beyond is in it",
+                                       .help = "metres at which the last slice ends, with range=fixed; what is beyond is in it",
                                        .scale = Scale::logarithmic}),
         param<&VoxelParams::channels>(channels_row),
         param<&VoxelParams::resolution>(resolution),
@@ -123,8 +155,16 @@ std::vector<Counter> counters() {
         counter<&VoxelCounters::atomics>({.name = "atomics", .help = "additions to the volume's words"}),
         counter<&VoxelCounters::border_atomics>(
             {.name = "border atomics", .help = "of these, second ones of a fragment whose two slices are in two words"}),
+        counter<&VoxelCounters::uncovered>(
+            {.name = "uncovered", .help = "fragments in slices that coverage does not know of: always 0"}),
         counter<&VoxelCounters::overflowed>({.name = "overflowed", .help = "columns in which a slice overflowed"}),
         counter<&VoxelCounters::saturated>({.name = "saturated", .help = "columns behind which nothing is seen"}),
+        counter<&VoxelCounters::allocated>({.name = "voxels", .help = "there is memory for"}),
+        counter<&VoxelCounters::cleared>({.name = "cleared", .help = "voxels emptied: in tiles and slices that are used"}),
+        counter<&VoxelCounters::integrated>({.name = "integrated", .help = "voxels of these read up to saturation"}),
+        counter<&VoxelCounters::slices_used>({.name = "slices used", .help = "of an adaptive volume: with something in them"}),
+        counter<&VoxelCounters::virtual_slices>(
+            {.name = "virtual slices", .help = "that cut all of the range where slices are adaptive"}),
     };
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;

@@ -29,6 +29,14 @@ const uint rounding_stochastic = 1u;
 
 const uint curve_slices = 0u;
 const uint curve_thickness = 1u;
+const uint curve_linear = 2u;
+
+// Slices cut all of the range of depth; or only what holds something, as finely as their number allows.
+const uint volume_dense = 0u;
+const uint volume_adaptive = 1u;
+
+const uint range_frame = 0u;
+const uint range_fixed = 1u;
 
 // What view.comp shows.
 const uint view_zero_depth = 0u;
@@ -36,7 +44,10 @@ const uint view_overflow = 1u;
 const uint view_thickness = 2u;
 
 struct VoxelParams {
-    uint slices;
+    uint slices;  // there is memory for
+    uint volume;
+    float thinnest;  // metres, of the nearest slice; what is adaptive is not cut finer
+    uint skipping;   // 1: clearing and integration leave empty tiles out
     uint splat;
     uint bits;
     uint splatting;
@@ -45,18 +56,24 @@ struct VoxelParams {
     uint rounding;
     uint curve;
     float near_thickness;  // metres, of the nearest slice with curve_thickness
-    float farthest;        // metres, of the last slice's end
+    float linear;          // metres, with curve_linear
+    uint range;
+    float farthest;  // metres, of the last slice's end with range_fixed
     uint channels;
     uint resolution;
     uint accumulation;
 };
 
-// Push constants of the steps.
+// Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
+// among those that are there ("physical"). Where nothing is adaptive they are the same.
 struct VoxelPush {
-    float per_linear;       // 1 / a, per metre: depth is divided evenly up to a, logarithmically beyond
-    float slices_per_log2;  // n / log2(1 + farthest / a)
-    uint slices;
-    uint width;  // columns
+    float nearest;          // metres: where the first slice begins
+    float per_linear;       // 1 / a, per metre: depth is divided evenly up to a behind that, logarithmically beyond
+    float slices_per_log2;  // n / log2(1 + range / a), of the finest virtual slices
+    uint finest_slices;     // n: a power of two where slices are adaptive, at most most_virtual_slices
+    uint slices;            // physical
+    uint words;             // of a column
+    uint width;             // columns
     uint height;
     uint channels;          // 1 or 3
     uint full_code;         // M: the code of t = 1 / M, from which on nothing is seen
@@ -64,15 +81,42 @@ struct VoxelPush {
     float bias;             // in slices
 };
 
+// What warp.comp finds out, in front of its table.
+struct WarpHeader {
+    uint halvings;        // of the finest slices until their number fits
+    uint virtual_slices;  // that are left: finest_slices >> halvings
+    uint used;            // of these, slices with something in them
+    uint reserved;
+};
+const uint most_virtual_slices = 8192u;
+// An entry of the table: the number of used slices up to and with this one, whether it is used, and first or last of a run.
+const uint warp_count_mask = 0xffffu;
+const uint warp_used = 1u << 16u;
+const uint warp_begin = 1u << 17u;
+const uint warp_end = 1u << 18u;
+
 struct VoxelCounters {
     FunctionCounters function;
     uint columns;
     uint atomics;
     uint border_atomics;
+    uint uncovered;
     uint overflowed;
     uint saturated;
+    uint allocated;
+    uint cleared;
+    uint integrated;
+    uint slices_used;
+    uint virtual_slices;
 };
 
+// Columns of a tile, each way.
+const uint tile_size = 8u;
+// Between what coverage.glsl makes of a triangle's corners and what its fragments interpolate: of depth, and of rays in z = 1.
+// Beyond `steepest`, distance over distance to the plane, a triangle's plane says nothing in float.
+const float depth_slack = 2e-6f;
+const float ray_slack = 1e-5f;
+const float steepest = 1000.0f;
 // Of columns in which no slice overflowed.
 const uint no_overflow = 0xffffffffu;
 // A filtered integral is full from here on, in M: weights that add up to 1 do so up to rounding.

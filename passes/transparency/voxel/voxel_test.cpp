@@ -62,11 +62,15 @@ TEST(VoxelDepthCurve, KeepsTheNearestSliceAsThickAsAsked) {
 }
 
 TEST(VoxelDepthCurve, TakesTheTalksInchesInMetres) {
+    constexpr DepthRange from_the_eye{0, 800};
     const VoxelParams params{.slices = 128, .curve = curve_slices, .near_thickness = .0508f, .farthest = 800};
-    EXPECT_NEAR(depth_curve(params).linear, 3.2512, 1e-12);
+    EXPECT_NEAR(depth_curve(params, from_the_eye).linear, 3.2512, 1e-12);
     VoxelParams thin = params;
     thin.curve = curve_thickness;
-    EXPECT_NEAR(depth_curve(thin).thickness_at(0), .0508, 1e-8);
+    EXPECT_NEAR(depth_curve(thin, from_the_eye).thickness_at(0), .0508, 1e-8);
+    VoxelParams linear = params;
+    linear.curve = curve_linear, linear.linear = 7;
+    EXPECT_EQ(depth_curve(linear, from_the_eye).linear, 7);
 }
 
 ColumnFormat format_of(std::uint32_t splat, std::uint32_t bits = bits_8, std::uint32_t slices = 128) {

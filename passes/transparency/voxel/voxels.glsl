@@ -17,6 +17,7 @@ ivec2 column_of(uvec2 texel, uint channel) { return ivec2(texel.x, texel.y + cha
 
 uint index_of(ivec2 column) { return uint(column.y) * push.width + uint(column.x); }
 
+// Slices are physical ones.
 ivec3 place_of(ivec2 column, uint slice) { return ivec3(column, slice / slices_per_word); }
 
 uint shift_of(uint slice) { return (slice % slices_per_word) * field_bits; }
