@@ -1,6 +1,7 @@
 // Facts about the table that leaves empty slices out (transparency chapter 6.10, 6.11; of 6.17 V6 and V9).
 #include "passes/transparency/voxel/depth_warp.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string_view>
