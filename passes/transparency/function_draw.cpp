@@ -53,7 +53,7 @@ void draw_at(Graph& graph, const std::string& shader, const FrameImages& images,
         draw.adds_to(sums.color).adds_to(sums.extinction).adds_to(sums.normalizer);
         if (sums.emission) draw.adds_to(sums.emission);
         if (sums.offset) draw.adds_to(sums.offset);
-        draw.drops_other_colors().fixes("drawn_width", images.extent.width).fixes("drawn_height", images.extent.height);
+        draw.drops_other_colors().fixes("drawn_divisor", resolution == Resolution::low ? 2u : 1u);
         chain(draw, resolution);
     }
 }
