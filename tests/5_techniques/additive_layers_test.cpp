@@ -79,7 +79,7 @@ TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
             Request request = on_scenario(scenario);
             request.uses = {std::string(additive)};
             request.sets = {"reveal=r16f", normalization};
-            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency));
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency, Against::model));
             EXPECT_LE(accuracy.model_rmse, 8e-3) << scenario << " " << normalization;
         }
 }

@@ -53,8 +53,8 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
     const Technique& technique = *must(find_technique(method.technique));
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
         for (const std::string& set : method.settings) {
-            const Accuracy accuracy =
-                must(smoke().judge({.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}}, technique.stage));
+            const Request request{.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}};
+            const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
             EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
             EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));
