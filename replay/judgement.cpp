@@ -89,6 +89,27 @@ std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, co
     return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
 }
 
+void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
+    Compared all;
+    for (const auto& [name, wanted] : run_model(stage))
+        if (const auto got = stage.result.find(name); got != stage.result.end()) compare(name, got->second, wanted, all);
+    accuracy.model_rmse = std::sqrt(all.square_sum / double(std::max<std::size_t>(1, all.texels)));
+    accuracy.model_worst = all.worst;
+    accuracy.compared = all.texels;
+    accuracy.undecided = all.undecided;
+    accuracy.trivial = all.trivial;
+    accuracy.worst = all.where;
+}
+
+void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
+    const StageInfo& of_stage = info(stage.choice.technique->stage);
+    const StageInput input{stage.frame, stage.before};
+    const ImageSet own = stage.truth ? ImageSet() : of_stage.truth(input);
+    const ImageSet& truth = stage.truth ? *stage.truth : own;
+    accuracy.method = of_stage.judge(stage.result, truth, input);
+    accuracy.flip = flip_of(of_stage, stage.result, truth);
+}
+
 }  // namespace
 
 ImageSet run_model(const JudgedStage& stage) {
@@ -106,22 +127,8 @@ Accuracy judge_stage(const JudgedStage& stage) {
         accuracy.not_supported = fmt::format("{} ({})", name(*feature), stage.features.reason(*feature));
         return accuracy;
     }
-    Compared all;
-    if (stage.against == Against::model_and_truth)
-        for (const auto& [name, wanted] : run_model(stage))
-            if (const auto got = stage.result.find(name); got != stage.result.end()) compare(name, got->second, wanted, all);
-    accuracy.model_rmse = std::sqrt(all.square_sum / double(std::max<std::size_t>(1, all.texels)));
-    accuracy.model_worst = all.worst;
-    accuracy.compared = all.texels;
-    accuracy.undecided = all.undecided;
-    accuracy.trivial = all.trivial;
-    accuracy.worst = all.where;
-
-    const StageInfo& of_stage = info(technique.stage);
-    const StageInput input{stage.frame, stage.before};
-    const ImageSet truth = stage.truth ? ImageSet() : of_stage.truth(input);
-    accuracy.method = of_stage.judge(stage.result, stage.truth ? *stage.truth : truth, input);
-    accuracy.flip = flip_of(of_stage, stage.result, stage.truth ? *stage.truth : truth);
+    if (stage.against != Against::truth) judge_by_model(stage, accuracy);
+    if (stage.against != Against::model) judge_by_truth(stage, accuracy);
     return accuracy;
 }
 

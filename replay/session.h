@@ -118,8 +118,9 @@ struct Accuracy {
     std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
 };
 
-/// What a result is compared with. The model of a frame of a million samples takes minutes: it may be left out.
-enum class Against { model_and_truth, truth };
+/// What a result is compared with. The model of a frame of a million samples takes minutes, and who asks for the model alone
+/// waits for no truth.
+enum class Against { model_and_truth, model, truth };
 
 class Session {
 public:

@@ -33,11 +33,11 @@ struct ViewRecord {
     vec3 background;  // radiance where no surface is
     float fog_density;
     vec3 fog_color;
-    vec3 sky;           // hemisphere radiance from above (world +y) ...
-    vec3 ground;        // ... and below
-    uint light_count;   // of lights, the sun first when there is one
-    uint shadow_count;  // of shadows
-    uint draw_count;
+    vec3 sky;            // hemisphere radiance from above (world +y) ...
+    vec3 ground;         // ... and below
+    uint light_count;    // of lights, the sun first when there is one
+    uint shadow_count;   // of shadows
+    uint first_emitter;  // of draws, which are emitters from here on
     uint seed;
     uint frame_index;
     float time;

@@ -17,7 +17,6 @@ layout(location = 4) sample in vec4 in_color;
 layout(location = 5) sample in vec4 in_emissive;  // of particles; w: depth offset towards the eye
 layout(location = 6) flat in uint in_draw;
 
-layout(constant_id = 0) const uint first_emitter = 0u;  // draws from here on are emitters
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
@@ -90,7 +89,7 @@ void add_fog(inout Event event) {
 }
 
 Event transparent_event() {
-    const bool particle = in_draw >= first_emitter;
+    const bool particle = in_draw >= view.first_emitter;
     const float scale = to_sample();
     const vec4 color = particle ? vec4(1.0) : in_color * scale;
     const vec4 tangent = vec4(in_tangent.xyz, sign(in_tangent.w));

@@ -13,8 +13,7 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
-        .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
-        .fixes("first_emitter", static_cast<std::uint32_t>(images.recorded->draws.size()));
+        .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u);
     return fix_textures(pass, images, Surfaces::transparent);
 }
 
@@ -46,6 +45,10 @@ std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution)
         if (goes_on) ++stretches.back().count;
     }
     return stretches;
+}
+
+Image by_sample(Graph& graph, const Image& image) {
+    return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
 }
 
 }  // namespace strata

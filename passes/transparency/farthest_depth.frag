@@ -2,14 +2,13 @@
 // number is the farthest. A texel covers its share of the image, so blocks overlap where the extents do not divide.
 #version 460
 
-layout(constant_id = 0) const uint width = 1u;  // of the prepass
-layout(constant_id = 1) const uint height = 1u;
+layout(constant_id = 0) const int divisor = 1;  // of the prepass
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 layout(location = 0) out float out_depth;
 
 void main() {
     const ivec3 fine = textureSize(depth_layers, 0);
-    const ivec2 coarse = ivec2(width, height), texel = ivec2(gl_FragCoord.xy);
+    const ivec2 coarse = (fine.xy + divisor - 1) / divisor, texel = ivec2(gl_FragCoord.xy);
     const ivec2 first = texel * fine.xy / coarse, end = ((texel + 1) * fine.xy + coarse - 1) / coarse;
     float farthest = 1.0;
     for (int s = 0; s < fine.z; ++s)

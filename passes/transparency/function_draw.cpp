@@ -53,16 +53,14 @@ void draw_at(Graph& graph, const std::string& shader, const FrameImages& images,
         draw.adds_to(sums.color).adds_to(sums.extinction).adds_to(sums.normalizer);
         if (sums.emission) draw.adds_to(sums.emission);
         if (sums.offset) draw.adds_to(sums.offset);
-        draw.drops_other_colors().fixes("drawn_width", images.extent.width).fixes("drawn_height", images.extent.height);
+        draw.drops_other_colors().fixes("drawn_divisor", resolution == Resolution::low ? 2u : 1u);
         chain(draw, resolution);
     }
 }
 
 ResolutionSums by_sample(Graph& graph, const ResolutionSums& sums) {
-    const auto layers = [&](const Image& image) {
-        return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
-    };
-    return {layers(sums.color), layers(sums.extinction), layers(sums.normalizer), layers(sums.emission), layers(sums.offset)};
+    return {by_sample(graph, sums.color), by_sample(graph, sums.extinction), by_sample(graph, sums.normalizer),
+            by_sample(graph, sums.emission), by_sample(graph, sums.offset)};
 }
 
 /// X and N under the names function_sums.glsl reads them by.

@@ -43,8 +43,7 @@ FrameImages prepass_images(Graph& graph, const FrameImages& images, std::uint32_
     graph.clear(low.depth, {});
     graph.fullscreen("transparency/farthest_depth")
         .samples("depth_layers", images.depth_layers)
-        .fixes("width", low.extent.width)
-        .fixes("height", low.extent.height)
+        .fixes("divisor", static_cast<std::int32_t>(divisor))
         .covers(low.depth_layers)
         .writes_depth(low.depth);
     return low;

@@ -138,11 +138,10 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
 
     pipelines_.make(plan, std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size()));
     auto commands = device_->begin_commands();
-    const auto layouts = imports_.layouts();
     try {
         record(commands, frame);
     } catch (...) {
-        imports_.restore(layouts);
+        imports_.forget_use();
         throw;
     }
     commands.end();

@@ -118,14 +118,12 @@ void DeviceImage::clear(const vk::raii::CommandBuffer& commands, const ClearValu
     }
 }
 
-void DeviceImage::make_zero(const OpenedDevice& device) {
+void DeviceImage::make_zero(const vk::raii::CommandBuffer& commands) {
     const PartRange whole = range_of(shape_, {});
-    device.run_once([&](const vk::raii::CommandBuffer& commands) {
-        const auto barriers = transitions(whole, vk::ImageLayout::eGeneral, Contents::discard);
-        commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
-        set_layout(whole, vk::ImageLayout::eGeneral);
-        clear(commands, {});
-    });
+    const auto barriers = transitions(whole, vk::ImageLayout::eGeneral, Contents::discard);
+    commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
+    set_layout(whole, vk::ImageLayout::eGeneral);
+    clear(commands, {});
 }
 
 }  // namespace strata

@@ -36,8 +36,8 @@ public:
 
     /// Sets every mip and layer to the value, in the layout it has.
     void clear(const vk::raii::CommandBuffer&, const ClearValue&) const;
-    /// Submits a clear to zero and leaves the image in the general layout.
-    void make_zero(const OpenedDevice&);
+    /// Clears to zero, whatever was there, and leaves the image in the general layout.
+    void make_zero(const vk::raii::CommandBuffer&);
     std::uint64_t bytes_held() const { return memory_.bytes(); }
 
     /// The layout after everything recorded so far.
@@ -47,9 +47,7 @@ public:
     /// everything and hold up everything, unless the caller narrows them.
     enum class Contents { keep, discard };
     std::vector<vk::ImageMemoryBarrier2> transitions(const PartRange&, vk::ImageLayout, Contents) const;
-    /// All layouts, to be put back when what was recorded is thrown away.
     const std::vector<vk::ImageLayout>& layouts() const { return layouts_; }
-    void restore(std::vector<vk::ImageLayout> layouts) { layouts_ = std::move(layouts); }
 
 private:
     std::size_t index(std::uint32_t mip, std::uint32_t layer) const { return std::size_t{mip} * shape_.layers + layer; }

@@ -10,11 +10,13 @@ namespace {
 
 // What travels to the device at once.
 constexpr std::size_t staging_bytes = 16 << 20;
+// The layout of every image between plans.
+constexpr auto settled = vk::ImageLayout::eTransferSrcOptimal;
 
 }  // namespace
 
 void Imports::upload(ImportId id, std::span<const std::byte> bytes) {
-    images_.erase(id.key);
+    forget_image(id);
     auto found = buffers_.find(id.key);
     if (found == buffers_.end() || found->second.bytes() < bytes.size() || found->second.bytes() > 2 * bytes.size() + 64) {
         buffers_.erase(id.key);
@@ -33,13 +35,21 @@ void Imports::upload(ImportId id, std::span<const std::byte> bytes) {
 
 void Imports::create_image(ImportId id, const Shape& shape) {
     forget(id);
-    images_.try_emplace(id.key, *device_, shape, "imported image").first->second.make_zero(*device_);
-    device_->run_once([&](const vk::raii::CommandBuffer& commands) { settle(commands); });
+    images_.try_emplace(id.key, *device_, shape, "imported image");
+    device_->run_once([&](const vk::raii::CommandBuffer& commands) {
+        image(id).make_zero(commands);
+        settle(commands);
+    });
 }
 
 void Imports::forget(ImportId id) {
-    images_.erase(id.key);
+    forget_image(id);
     buffers_.erase(id.key);
+}
+
+void Imports::forget_image(ImportId id) {
+    images_.erase(id.key);
+    used_.erase(id.key);
 }
 
 std::uint64_t Imports::bytes_held() const {
@@ -49,25 +59,31 @@ std::uint64_t Imports::bytes_held() const {
     return total;
 }
 
+DeviceImage& Imports::image(ImportId id) {
+    if (const auto lent = lent_.find(id.key); lent != lent_.end()) return *lent->second;
+    DeviceImage& image = images_.at(id.key);
+    used_.insert(id.key);
+    return image;
+}
+
 void Imports::settle(const vk::raii::CommandBuffer& commands) {
-    constexpr auto expected = vk::ImageLayout::eTransferSrcOptimal;
-    for (auto& [key, image] : images_) {
-        if (std::ranges::count(image.layouts(), expected) == std::ssize(image.layouts())) continue;
+    for (const std::uint64_t key : used_) {
+        DeviceImage& image = images_.at(key);
+        if (std::ranges::count(image.layouts(), settled) == std::ssize(image.layouts())) continue;
         const PartRange whole = range_of(image.shape(), {});
-        const auto barriers = image.transitions(whole, expected, DeviceImage::Contents::keep);
+        const auto barriers = image.transitions(whole, settled, DeviceImage::Contents::keep);
         commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
-        image.set_layout(whole, expected);
+        image.set_layout(whole, settled);
     }
+    used_.clear();
 }
 
-Imports::Layouts Imports::layouts() const {
-    Layouts all;
-    for (const auto& [key, image] : images_) all.emplace(key, image.layouts());
-    return all;
-}
-
-void Imports::restore(const Layouts& all) {
-    for (const auto& [key, layouts] : all) images_.at(key).restore(layouts);
+void Imports::forget_use() {
+    for (const std::uint64_t key : used_) {
+        DeviceImage& image = images_.at(key);
+        image.set_layout(range_of(image.shape(), {}), settled);
+    }
+    used_.clear();
 }
 
 }  // namespace strata

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
-#include <vector>
 
 #include "replay/gpu/buffer.h"
 #include "replay/gpu/image.h"
@@ -22,22 +22,24 @@ public:
     void lend(ImportId id, DeviceImage& image) { lent_.insert_or_assign(id.key, &image); }
 
     /// Throws std::out_of_range for an import nobody made.
-    DeviceImage& image(ImportId id) { return lent_.contains(id.key) ? *lent_.at(id.key) : images_.at(id.key); }
+    DeviceImage& image(ImportId);
     DeviceBuffer& buffer(ImportId id) { return buffers_.at(id.key); }
     std::uint64_t bytes_held() const;
 
-    /// Brings every image into the layout plans expect imports in, copied_from.
+    /// Brings the images that image() gave back into the layout plans expect imports in, copied_from. All others are in it: a
+    /// memo holds thousands.
     void settle(const vk::raii::CommandBuffer&);
-    /// The layouts of all images, to be put back when what was recorded is thrown away.
-    using Layouts = std::map<std::uint64_t, std::vector<vk::ImageLayout>>;
-    Layouts layouts() const;
-    void restore(const Layouts&);
+    /// What was recorded since then is thrown away: the images are as they were.
+    void forget_use();
 
 private:
+    void forget_image(ImportId);
+
     OpenedDevice* device_;
     std::map<std::uint64_t, DeviceImage> images_;
     std::map<std::uint64_t, DeviceBuffer> buffers_;
     std::map<std::uint64_t, DeviceImage*> lent_;
+    std::set<std::uint64_t> used_;  // of images_, since they were settled
 };
 
 }  // namespace strata

@@ -21,7 +21,7 @@ DeviceImage& Placeholders::image(const PlannedBinding& binding) {
     const Extent extent{1, 1, kind.dimension == ImageDimension::three ? 2u : 1u};
     const Shape shape{.extent = extent, .format = kind.format, .samples = kind.samples};
     DeviceImage& image = images_.try_emplace(kind, *device_, shape, "absent image").first->second;
-    image.make_zero(*device_);
+    device_->run_once([&](const vk::raii::CommandBuffer& commands) { image.make_zero(commands); });
     return image;
 }
 

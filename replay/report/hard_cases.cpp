@@ -106,7 +106,7 @@ struct Tried {
 };
 
 Result<void> add_frame(Session& session, const Request& request, const ImageSet& truth, Tried& tried) {
-    const auto accuracy = session.judge(request, Stage::transparency, Against::model_and_truth, &truth);
+    const auto accuracy = session.judge(request, Stage::transparency, Against::model);
     if (!accuracy) return accuracy.error();
     tried.not_supported = accuracy->not_supported;
     if (!tried.not_supported.empty()) return {};

@@ -44,9 +44,9 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
         request.uses.push_back(std::string(technique->name));
         Request reduced = request;
         reduced.extent_divisor = yardstick.model_divisor;
-        const auto accuracy = session.judge(reduced, wanted.stage);
+        const auto accuracy = session.judge(reduced, wanted.stage, Against::model);
         if (!accuracy) return accuracy.error();
-        if (accuracy->method.empty() || accuracy->model_rmse > stand_in_tolerance) continue;
+        if (!accuracy->not_supported.empty() || accuracy->model_rmse > stand_in_tolerance) continue;
         request.outputs.assign(info(wanted.stage).outputs.begin(), info(wanted.stage).outputs.end());
         const auto run = session.run(request);
         if (!run) return run.error();
@@ -67,7 +67,7 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     if (!accuracy || !accuracy->not_supported.empty()) return accuracy;
     Request reduced = variant.request;
     reduced.extent_divisor = yardstick.model_divisor;
-    const auto model = session.judge(reduced, stage);
+    const auto model = session.judge(reduced, stage, Against::model);
     if (!model) return model.error();
     accuracy->model_rmse = model->model_rmse;
     accuracy->model_worst = model->model_worst;

@@ -47,7 +47,7 @@ ViewRecord view_record(const Frame& frame) {
         .ground = frame.hemisphere.ground,
         .light_count = 0,
         .shadow_count = 0,
-        .draw_count = 0,
+        .first_emitter = static_cast<uint>(frame.draws.size()),
         .seed = static_cast<uint>(frame.seed),
         .frame_index = static_cast<uint>(frame.index),
         .time = float(frame.time),
@@ -80,7 +80,6 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
     scene.view = view_record(frame);
     scene.view.light_count = static_cast<uint>(scene.lights.size());
     scene.view.shadow_count = static_cast<uint>(scene.shadows.size());
-    scene.view.draw_count = static_cast<uint>(scene.draws.size());
 }
 
 SceneRecords scene_records(const Frame& frame) {

@@ -45,7 +45,7 @@ std::vector<Record> view_records() {
               {"ground", offsetof(V, ground)},
               {"light_count", offsetof(V, light_count)},
               {"shadow_count", offsetof(V, shadow_count)},
-              {"draw_count", offsetof(V, draw_count)},
+              {"first_emitter", offsetof(V, first_emitter)},
               {"seed", offsetof(V, seed)},
               {"frame_index", offsetof(V, frame_index)},
               {"time", offsetof(V, time)}}}};

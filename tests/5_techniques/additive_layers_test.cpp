@@ -1,5 +1,4 @@
 // transparency/weighted_additive on a device: the chapter's table of layers (3.2), and the mask of tiles.
-#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -80,15 +79,9 @@ TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
             Request request = on_scenario(scenario);
             request.uses = {std::string(additive)};
             request.sets = {"reveal=r16f", normalization};
-            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency));
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency, Against::model));
             EXPECT_LE(accuracy.model_rmse, 8e-3) << scenario << " " << normalization;
         }
-}
-
-std::uint64_t counted(const Run& run, std::string_view name) {
-    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
-    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
-    return found->value;
 }
 
 TEST(TilesWithoutFragments, AreSkippedAndNoPixelKnowsIt) {

@@ -1,6 +1,5 @@
 // Draws of two resolutions in one frame. Methods whose sums have no order draw at half resolution what is recorded so and merge
 // it; the others draw everything at full resolution.
-#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -20,12 +19,6 @@ Frame low_resolution_smoke(std::uint32_t width, std::uint32_t height, std::uint3
     frame.view.width = width, frame.view.height = height;
     for (Emitter& emitter : frame.emitters) emitter.resolution = Resolution::low;
     return frame;
-}
-
-std::uint64_t counted(const Run& run, std::string_view name) {
-    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
-    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
-    return found->value;
 }
 
 struct Merging {
@@ -60,8 +53,8 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
     const Technique& technique = *must(find_technique(method.technique));
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
         for (const std::string& set : method.settings) {
-            const Accuracy accuracy =
-                must(smoke().judge({.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}}, technique.stage));
+            const Request request{.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}};
+            const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
             EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
             EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));

@@ -122,7 +122,8 @@ TEST_P(HardFrames, AreWhatTheModelsSay) {
     for (const Technique& technique : techniques()) {
         const Frame frame = must(session_.frame(hard_));
         if (info(technique.stage).unwanted(frame_features(frame))) continue;
-        const auto judged = session_.judge({.frame = hard_, .uses = {std::string(technique.name)}}, technique.stage);
+        const Request request{.frame = hard_, .uses = {std::string(technique.name)}};
+        const auto judged = session_.judge(request, technique.stage, Against::model);
         ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
         EXPECT_LE(judged->model_rmse, technique.tolerance.rmse) << technique.name;
         EXPECT_LE(judged->model_worst, technique.tolerance.worst)

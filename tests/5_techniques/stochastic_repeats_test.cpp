@@ -51,7 +51,7 @@ TEST(StochasticModes, AreWhatTheModelSaysInEveryCombination) {
                 Request request = on_scenario("red_and_green_glass", 4);
                 request.uses = {stochastic};
                 request.sets = {mode, subset, correction, "samples=64", "seed=7"};
-                const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+                const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
                 EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << mode << " " << subset << " " << correction;
                 EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << mode << " " << subset << " " << correction;
             }

@@ -67,7 +67,7 @@ TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
         Request request = on_scenario("glass_and_smoke", 4);
         request.uses = {voxel};
         request.sets = sets;
-        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
     }
