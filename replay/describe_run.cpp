@@ -41,20 +41,21 @@ std::map<std::string, HostImage> images_of(const Declaration& d, const Execution
     return images;
 }
 
+NumberTable table_of(const DebugTable& description, const HostImage& image) {
+    NumberTable table{.columns = description.columns};
+    for (const glm::dvec4& texel : in_double(image).texels) {
+        if (std::isnan(texel.x)) continue;
+        const std::array numbers{texel.x, texel.y, texel.z, texel.w};
+        table.rows.emplace_back(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(table.columns.size()));
+    }
+    return table;
+}
+
 std::map<std::string, NumberTable> tables_of(const Declaration& d, const Execution& execution) {
     std::map<std::string, NumberTable> tables;
-    for (const auto& [name, source] : d.tables) {
-        const auto& [description, image] = source;
-        const auto found = execution.images.find(image.id);
-        if (found == execution.images.end()) continue;
-        NumberTable& table = tables[name];
-        table.columns = description->columns;
-        for (const glm::dvec4& texel : in_double(found->second).texels) {
-            if (std::isnan(texel.x)) continue;
-            const std::array numbers{texel.x, texel.y, texel.z, texel.w};
-            table.rows.emplace_back(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(table.columns.size()));
-        }
-    }
+    for (const auto& [name, source] : d.tables)
+        if (const auto found = execution.images.find(source.second.id); found != execution.images.end())
+            tables.emplace(name, table_of(*source.first, found->second));
     return tables;
 }
 

@@ -11,6 +11,7 @@ namespace strata {
 Run describe_run(const Declaration&);
 /// The outputs asked for, as far as the run got.
 std::map<std::string, HostImage> images_of(const Declaration&, const Execution&);
+NumberTable table_of(const DebugTable&, const HostImage&);
 /// The tables asked for.
 std::map<std::string, NumberTable> tables_of(const Declaration&, const Execution&);
 /// What the techniques counted in this execution, or in the steps of one scope.

@@ -147,12 +147,18 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
     for (const auto& [output, image] : d.outputs)
         if (const auto step = last_write(d.plan, image, d.plan.steps.size()))
             outputs.push_back({output, peeks.add(*step, image)});
+    std::vector<Place> tables;
+    for (const auto& [output, source] : d.tables)
+        if (const auto step = last_write(d.plan, source.second, d.plan.steps.size()))
+            tables.push_back({output, peeks.add(*step, source.second)});
     for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(places_of(d, act, peeks));
 
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();
     Run run = finished(d, *execution);
     for (const Place& place : outputs) run.images.emplace(place.name, execution->peeked[place.peek]);
+    for (const Place& place : tables)
+        run.tables.emplace(place.name, table_of(*d.tables.at(place.name).first, execution->peeked[place.peek]));
     for (std::size_t i = 0; i < of_acts.size(); ++i) {
         run.acts.push_back(describe_act(d, d.frame.acts[i]));
         for (const Place& place : of_acts[i]) run.acts.back().images.emplace(place.name, execution->peeked[place.peek]);

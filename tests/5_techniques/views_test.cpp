@@ -27,6 +27,22 @@ TEST_P(Views, AreDrawnAndFinite) {
         }
 }
 
+TEST_P(Views, AndTablesHaveRowsOfNumbers) {
+    const Technique& technique = *must(find_technique(GetParam()));
+    for (const DebugTable& table : technique.tables) {
+        Request request = on_scenario("smoke_grenade");
+        request.uses = {std::string(technique.name)};
+        request.outputs = {fmt::format("{}:{}", technique.name, table.name)};
+        const auto numbers = must(session_of_scenarios().run(request)).tables.at(request.outputs[0]);
+        EXPECT_EQ(numbers.columns.size(), table.columns.size());
+        EXPECT_FALSE(numbers.rows.empty()) << table.name;
+        for (const std::vector<double>& row : numbers.rows) {
+            ASSERT_EQ(row.size(), table.columns.size());
+            for (const double number : row) ASSERT_TRUE(std::isfinite(number)) << table.name;
+        }
+    }
+}
+
 std::vector<std::string_view> with_views() {
     std::vector<std::string_view> names;
     for (const Technique& technique : techniques())

@@ -23,9 +23,21 @@ uint first_with(ivec2 column, uvec2 tile, uint code) {
     return push.slices;
 }
 
+float nearest_overflow_of(ivec2 column) {
+    const uint slice = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
+    return float(min(slice, push.slices));
+}
+
+float used_slices(uvec2 tile) {
+    uint words = 0u;
+    for (uint word = 0u; word < push.words; ++word) words += is_used(tile, word) ? 1u : 0u;
+    return float(words * slices_per_word);
+}
+
 float shown_of(uvec2 texel) {
     const ivec2 column = column_of(texel, 0u);
-    if (shown == view_overflow) return splat == splat_overflow_minimum ? float(min(nearest_overflow[index_of(column)], push.slices)) : float(push.slices);
+    if (shown == view_overflow) return nearest_overflow_of(column);
+    if (shown == view_occupancy) return used_slices(texel / tile_size);
     const uint slice = first_with(column, texel / tile_size, shown == view_saturation_depth ? push.full_code : 1u);
     const float place = slice < push.slices ? float(virtual_slice(slice)) : float(virtual_slices());
     if (shown == view_saturation_depth) return depth_of_slice(min(place + empty_in_front, float(virtual_slices())));

@@ -181,17 +181,8 @@ double slices_to_zero(const VoxelParams& params) {
     return by_sampling[params.sampling] - double(params.shift);
 }
 
-Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t shown) {
-    Volume volume = integrated_volume(graph, images, params);
-    Image picture = graph.create("voxel view", Shape{.extent = images.extent, .format = Format::rgba32f});
-    ComputePass pass = graph.compute("transparency/voxel/view.comp");
-    bind_warp(volume, params, bind_tiles(volume, params, pass))
-        .samples("voxels", volume.voxels)
-        .stores("picture", picture)
-        .fixes("shown", shown)
-        .fixes("empty_in_front", static_cast<float>(slices_to_zero(params)))
-        .over(images.extent);
-    return picture;
+ComputePass& look_into(ComputePass& pass, Volume& volume, const VoxelParams& params) {
+    return bind_tiles(volume, params, pass).samples("voxels", volume.voxels);
 }
 
 }  // namespace strata::transparency

@@ -33,7 +33,7 @@ ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
 /// From the integral being full in a slice to all that a filtered read weighs being full, in slices (transparency chapter 6.9).
 double slices_to_zero(const VoxelParams&);
 
-/// One of view_saturation_depth, view_overflow, view_thickness.
-Image volume_view(Graph&, const FrameImages&, const VoxelParams&, std::uint32_t shown);
+/// To a step that looks at what is in columns: integral, overflows, tiles.
+ComputePass& look_into(ComputePass&, Volume&, const VoxelParams&);
 
 }  // namespace strata::transparency

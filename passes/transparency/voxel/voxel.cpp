@@ -7,6 +7,7 @@
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/ratios.h"
+#include "passes/transparency/voxel/views.h"
 #include "passes/transparency/voxel/volume.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
@@ -209,20 +210,26 @@ Image picture(Graph& graph, FrameImages& images, const Settings& settings) {
 }
 
 template <Image (*view)(Graph&, const FrameImages&, const VoxelParams&)>
-Image zero_picture(Graph& graph, FrameImages& images, const Settings& settings) {
+Image voxel_picture(Graph& graph, FrameImages& images, const Settings& settings) {
     return view(graph, images, settings.as<VoxelParams>());
 }
 
 std::vector<DebugView> views() {
     return {
         {"zero depth", "depth from which nothing is seen in the whole tile; 0 where something always is", "m", 0, 50,
-         zero_picture<zero_depth_view>},
+         voxel_picture<zero_depth_view>},
         {"culled",
          "red: fragments per pixel that culling keeps from being shaded; green: samples of whose opaque surface or background "
          "nothing is seen",
-         "fragments", 0, 50, zero_picture<culled_view>},
+         "fragments", 0, 50, voxel_picture<culled_view>},
         {"saturation depth", "depth from which nothing is seen in the column, in every filtered read", "m", 0, 50,
          picture<view_saturation_depth>},
+        {"occupancy", "slices that the tile of 8 x 8 columns uses: what is cleared and integrated", "slices", 0, 128,
+         picture<view_occupancy>},
+        {"warp",
+         "across: depth in virtual slices; upwards: physical slices up to there; light where one is used, a run begins at a "
+         "green line and ends at a red one",
+         "", 0, 1, voxel_picture<warp_view>},
         {"overflow", "the nearest slice that overflowed, or all slices if none did", "slices", 0, 128, picture<view_overflow>},
         {"thickness", "of the nearest slice that holds something", "m", 0, 1, picture<view_thickness>},
         normalization_row<sums>(),
@@ -236,9 +243,7 @@ Technique voxel() {
         .stage = Stage::transparency,
         .name = "transparency/voxel",
         .title = "Voxel-based",
-        .source =
-            "Drobot, Adaptive Voxel-Based Order-Independent Transparency, SIGGRAPH Advances in Real-Time Rendering; without its "
-            "adaptive part",
+        .source = "Drobot, Adaptive Voxel-Based Order-Independent Transparency, SIGGRAPH Advances in Real-Time Rendering",
         .summary =
             "Adds optical depth to slices of a low-resolution volume by integer atomics and sums them up along the view: order "
             "independent, bit by bit; within a slice nothing hides anything, and layers below 8 bits are lost.",
@@ -249,6 +254,7 @@ Technique voxel() {
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),
+        .tables = voxel_tables(),
         .known_failures = {{"H1b", 0.449, "the cards are .28 m apart, a slice there is .45 m thick"},
                            {"H1c", 0.667, "the cards share a slice"},
                            {"H2", 0.458, "cards in the slice of the first one dim it, those behind do so less"},

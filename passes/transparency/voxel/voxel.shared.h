@@ -52,6 +52,7 @@ const uint prepared_before_opaque = 1u;
 const uint view_saturation_depth = 0u;
 const uint view_overflow = 1u;
 const uint view_thickness = 2u;
+const uint view_occupancy = 3u;
 
 struct VoxelParams {
     uint slices;  // there is memory for
@@ -122,6 +123,13 @@ struct VoxelCounters {
     uint virtual_slices;
     uint zero_tiles;
     uint unseen;
+};
+
+// What slice_counts.comp counts over all columns.
+struct SliceCounts {
+    uint tiles;
+    uint overflowed;
+    uint saturated;
 };
 
 // Columns of a tile, each way.
