@@ -145,6 +145,18 @@ struct KnownFailure {
     std::string_view because;
 };
 
+/// How many times as long one way takes as another, as a source states it: `strata bench` measures it. A way is settings of the
+/// technique ("slices=64 bits=16"; none: its defaults), or another technique of its stage by name, with its settings.
+struct TimeRatio {
+    std::string_view name;
+    std::string_view of, against;              ///< the ways; the ratio is the time of the one by that of the other
+    std::vector<std::string_view> steps = {};  ///< parts of the names of the steps that count; none: all of the technique's
+    std::optional<double> published = {};
+    std::string_view source = {};  ///< of what is published: times, machine, extent
+    std::string_view scenario = "particle_storm";
+    std::vector<std::string_view> counters = {};  ///< that explain it, of either way
+};
+
 struct Technique {
     Stage stage;
     std::string_view name;  ///< "transparency/weighted": its folder below passes/
@@ -161,6 +173,7 @@ struct Technique {
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
     std::vector<KnownFailure> known_failures = {};
+    std::vector<TimeRatio> ratios = {};
     /// Exact up to rounding: may stand in for the stage's truth where that is too slow, once its own error is known.
     bool stands_in_for_truth = false;
     /// The common way to do the stage: reports give the others' times as multiples of its time.

@@ -76,8 +76,10 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
         return sums;
     };
     run.frame_ms = spread_of(sums_of([](std::size_t) { return true; }));
-    for (std::size_t i = 0; i < run.steps.size(); ++i)
-        run.steps[i].ms = spread_of(sums_of([&](std::size_t step) { return step == i; }));
+    for (std::size_t i = 0; i < run.steps.size(); ++i) {
+        run.steps[i].ms_by_repeat = sums_of([&](std::size_t step) { return step == i; });
+        run.steps[i].ms = spread_of(run.steps[i].ms_by_repeat);
+    }
     for (const auto& [stage, choice] : run.choices) {
         // A scope is named "place: stage/technique", so a technique's acts count for it wherever they stand.
         const std::string technique = ": " + choice.substr(0, choice.find(' '));

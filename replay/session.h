@@ -44,8 +44,9 @@ struct Request {
 };
 
 struct StepRecord {
-    std::string scope, name;   ///< "transparency: transparency/weighted", the shader
-    std::optional<Spread> ms;  ///< with timing
+    std::string scope, name;                ///< "transparency: transparency/weighted", the shader
+    std::optional<Spread> ms;               ///< with timing
+    std::vector<double> ms_by_repeat = {};  ///< what ms is the spread of, in turn
 };
 
 /// What a run held, in bytes.

@@ -45,6 +45,17 @@ std::string label(std::string_view technique, std::string_view settings) {
 
 std::string below_stage(std::string_view label) { return std::string(label.substr(label.find('/') + 1)); }
 
+Result<Variant> variant_of(const Technique& technique, std::string_view way, const Request& base) {
+    const std::string_view first = way.substr(0, way.find(' '));
+    const bool is_own = first.empty() || first.find('=') != first.npos;
+    const auto found =
+        is_own ? Result<const Technique*>(&technique) : find_technique(fmt::format("{}/{}", name(technique.stage), first));
+    if (!found) return found.error();
+    Variant defaults{*found, base, ""};
+    defaults.request.uses.push_back(std::string((*found)->name));
+    return at_point(defaults, is_own ? way : way.substr(first.size()));
+}
+
 Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     const auto techniques = techniques_of(wanted.stage);
     for (const Sweep& sweep : wanted.sweeps)

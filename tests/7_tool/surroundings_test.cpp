@@ -23,6 +23,7 @@ constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
     {"replay sound.strata --outputs color -o", "out"},
     {"report sound.strata --repeats 1 --sweep pool=2 -o", "report.txt"},
+    {"bench voxel sound.strata --repeats 1 --only wrap -o", "bench.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
     {"probe sound.strata --at 8,4 --methods sorted_lists --depths 512 -o", "probed"},
     {"export sound.strata --deep --transmittance mean -o", "deep.exr"},
@@ -77,7 +78,7 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
     write_sound_capture();
     const std::string none = "export VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
     for (const char* verb : {"replay sound.strata", "graph sound.strata", "report sound.strata --sweep pool=2",
-                             "accept sound.strata", "probe sound.strata --at 8,4"}) {
+                             "accept sound.strata", "probe sound.strata --at 8,4", "bench voxel"}) {
         const Finished failed = strata_after(none, verb);
         EXPECT_EQ(failed.code, 4) << verb << failed.err;
         EXPECT_THAT(failed.err, HasSubstr("Vulkan")) << verb;

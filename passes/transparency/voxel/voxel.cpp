@@ -6,6 +6,7 @@
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/ratios.h"
 #include "passes/transparency/voxel/volume.h"
 
 namespace strata::transparency {
@@ -213,6 +214,7 @@ Technique voxel() {
                            {"H8", 0.545, "the layers share a slice, so all 30 count in full and half floats end"},
                            {"H9", 0.0417, "what is beyond `farthest` shares the last slice"},
                            {"H13", 0.231, "slices at 150 m are 6.6 m thick"}},
+        .ratios = voxel_ratios(),
         .add = add_function<sums>,
         .model = voxel_model,
         .tolerance = {.rmse = 5e-4,

@@ -1,0 +1,60 @@
+// Measured ratios as JSON, for CI and scripts.
+#include <nlohmann/json.hpp>
+
+#include "replay/bench/bench.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const Spread& spread) {
+    return {
+        {"median", spread.median}, {"mad", spread.mad}, {"low", spread.low}, {"high", spread.high}, {"repeats", spread.repeats}};
+}
+
+ordered_json json_of(const TimedWay& way) {
+    ordered_json json{
+        {"technique", way.technique}, {"settings", way.settings}, {"ms", json_of(way.ms)}, {"counters", ordered_json::object()}};
+    for (const CounterRecord& counter : way.counters) json["counters"][counter.name] = counter.value;
+    return json;
+}
+
+ordered_json json_of(const MeasuredRatio& row) {
+    const TimeRatio& stated = *row.claim.ratio;
+    ordered_json json{{"technique", row.claim.technique->name},
+                      {"name", stated.name},
+                      {"scene", row.claim.scene},
+                      {"frame", row.claim.base.frame},
+                      {"steps", stated.steps}};
+    if (stated.published) json["published"] = {{"ratio", *stated.published}, {"source", stated.source}};
+    if (!row.not_measured.empty()) {
+        json["not_measured"] = row.not_measured;
+        return json;
+    }
+    json["extent"] = {row.width, row.height};
+    json["samples"] = row.samples;
+    json["ratio"] = json_of(row.ratio);
+    json["of"] = json_of(row.of);
+    json["against"] = json_of(row.against);
+    return json;
+}
+
+}  // namespace
+
+std::string as_json(const Bench& bench) {
+    ordered_json json{{"schema", "strata.bench"},
+                      {"schema_version", 1},
+                      {"device",
+                       {{"name", bench.device.name},
+                        {"driver", bench.device.driver},
+                        {"driver_version", bench.device.driver_version},
+                        {"cpu", bench.device.cpu},
+                        {"software", bench.device.software}}},
+                      {"repeats", bench.repeats},
+                      {"rows", ordered_json::array()}};
+    for (const MeasuredRatio& row : bench.rows) json["rows"].push_back(json_of(row));
+    return json.dump(2) + "\n";
+}
+
+}  // namespace strata

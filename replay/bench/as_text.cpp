@@ -1,0 +1,74 @@
+// Measured ratios for a terminal: a table of them, then what either way is, took and counted.
+#include "replay/bench/bench.h"
+#include "replay/counted.h"
+#include "replay/report/table.h"
+#include "replay/report/variants.h"
+
+namespace strata {
+namespace {
+
+Table table_of(const Bench& bench) {
+    Table table{.heads = {"measured", "published", "ms", "against ms"}, .rows = {}};
+    for (const MeasuredRatio& row : bench.rows) {
+        Table::Row line{"", std::string(row.claim.ratio->name), {}};
+        const auto& published = row.claim.ratio->published;
+        if (row.not_measured.empty())
+            line.cells = {fmt::format("{:.2f} +-{:.2f}", row.ratio.median, row.ratio.mad),
+                          published ? fmt::format("{:.2f}", *published) : "", short_number(row.of.ms.median),
+                          short_number(row.against.ms.median)};
+        else line.cells = {"not measured: " + row.not_measured};
+        table.rows.push_back(std::move(line));
+    }
+    return table;
+}
+
+std::string joined(std::span<const std::string> texts) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+    return all;
+}
+
+/// A line of a terminal's width, continued below itself.
+std::string wrapped(const std::string& indent, std::string_view text) {
+    constexpr std::size_t columns = 120;
+    std::string lines;
+    while (!text.empty()) {
+        const std::size_t room = columns - indent.size();
+        const std::size_t space = text.size() <= room ? text.size() : text.rfind(' ', room);
+        const std::size_t end = space == text.npos ? room : space;
+        lines += indent + std::string(text.substr(0, end)) + "\n";
+        text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', end)));
+    }
+    return lines;
+}
+
+std::string way_text(const TimedWay& way) {
+    std::vector<std::string> parts{fmt::format("{} +-{} ms", short_number(way.ms.median), short_number(way.ms.mad))};
+    for (const CounterRecord& counter : way.counters) parts.push_back(fmt::format("{} {}", counter.name, counter.value));
+    return fmt::format("{}: {}", label(way.technique, way.settings), joined(parts));
+}
+
+std::string details_of(const MeasuredRatio& row) {
+    const TimeRatio& stated = *row.claim.ratio;
+    std::string text = wrapped("", fmt::format("{}: {}", row.claim.technique->name, stated.name));
+    if (!row.not_measured.empty()) return text + wrapped("    ", "not measured: " + row.not_measured);
+    text += wrapped("    ", way_text(row.of)) + wrapped("    ", "against " + way_text(row.against));
+    const std::vector<std::string> steps(stated.steps.begin(), stated.steps.end());
+    text += wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel", steps.empty() ? "the whole stage" : joined(steps),
+                                        row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
+    if (stated.published) text += wrapped("    ", fmt::format("published: {:.2f}, {}", *stated.published, stated.source));
+    return text;
+}
+
+}  // namespace
+
+std::string as_text(const Bench& bench) {
+    std::string text = fmt::format("device {} ({}), {} of each way, in turn within one run\n", bench.device.name,
+                                   bench.device.driver, counted(bench.repeats, "timed run"));
+    if (bench.device.software) text += "a CPU renders here: times rank ways on this driver only, they model no GPU\n";
+    text += fmt::format("\n{}", as_text(table_of(bench)));
+    for (const MeasuredRatio& row : bench.rows) text += fmt::format("\n{}", details_of(row));
+    return text;
+}
+
+}  // namespace strata

@@ -1,0 +1,49 @@
+// Ratios of times that techniques state (Technique::ratios), measured: both ways in turn within one run, and what either counts.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "passes/technique.h"
+#include "replay/report/report.h"
+#include "replay/session.h"
+
+namespace strata {
+
+/// A ratio, and what it is measured on.
+struct Claim {
+    const Technique* technique = nullptr;
+    const TimeRatio* ratio = nullptr;
+    Request base;       ///< frame, other stages' choices
+    std::string scene;  ///< for people: the scenario's or the capture's name
+};
+
+/// One of the two ways.
+struct TimedWay {
+    std::string technique, settings;
+    Spread ms;                            ///< of the steps that count
+    std::vector<CounterRecord> counters;  ///< those that the ratio names and the technique has
+};
+
+struct MeasuredRatio {
+    Claim claim;
+    std::uint32_t width = 0, height = 0, samples = 1;
+    TimedWay of, against;
+    Spread ratio;              ///< turn by turn
+    std::string not_measured;  ///< why; then there are no times
+};
+
+struct Bench {
+    DeviceInfo device;
+    std::size_t repeats = 0;
+    std::vector<MeasuredRatio> rows;  ///< as the claims
+};
+
+/// Claims of the same two ways are measured in the same run. Fails where none can be measured.
+Result<Bench> measure_ratios(Session&, std::span<const Claim>, std::size_t repeats, const Progress& = {});
+
+std::string as_text(const Bench&);
+std::string as_json(const Bench&);
+
+}  // namespace strata

@@ -1,0 +1,132 @@
+// strata bench: the ratios of times that a technique states, measured on this device.
+#include "replay/bench/bench.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "capture_format/nearest_name.h"
+#include "capture_format/whole_file.h"
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+// Of scenarios, where no extent is asked for: a CPU takes seconds per ratio, a GPU's clock has something to measure.
+constexpr std::pair<std::uint32_t, std::uint32_t> extent_on_a_cpu{320, 180}, extent_on_a_gpu{1920, 1080};
+
+struct Options {
+    std::string word, only, size;
+    OpenOptions open;
+    ChoiceOptions choices;
+    std::size_t frame = 0, repeats = 7;
+    bool json = false;
+    std::filesystem::path output;
+};
+
+std::string_view short_name(const Technique& technique) { return technique.name.substr(technique.name.find('/') + 1); }
+
+/// Ratios of the technique of that name, with or without its stage. `only` is in their names.
+Result<std::vector<Claim>> claims_of(const std::string& word, const std::string& only) {
+    std::vector<Claim> claims;
+    std::vector<std::string_view> known, stating, names;
+    bool found = false;
+    for (const Technique& technique : techniques()) {
+        known.insert(known.end(), {technique.name, short_name(technique)});
+        if (!technique.ratios.empty()) stating.push_back(technique.name);
+        if (technique.name != word && short_name(technique) != word) continue;
+        found = true;
+        for (const TimeRatio& ratio : technique.ratios) {
+            names.push_back(ratio.name);
+            if (ratio.name.find(only) != ratio.name.npos) claims.push_back({.technique = &technique, .ratio = &ratio});
+        }
+    }
+    if (!found) return fail(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
+    if (names.empty()) return fail(Fault::usage, "{} states no ratios of times; these do: {}", word, fmt::join(stating, ", "));
+    if (claims.empty()) return fail(Fault::usage, "no ratio of {} has '{}' in its name: {}", word, only, fmt::join(names, "; "));
+    return claims;
+}
+
+/// A frame of every scenario that the ratios are measured on; the claims get their places.
+Result<std::vector<Frame>> frames_of(std::span<Claim> claims, std::pair<std::uint32_t, std::uint32_t> extent) {
+    std::vector<Frame> frames;
+    std::vector<std::string_view> built;
+    for (Claim& claim : claims) {
+        const auto place = std::ranges::find(built, claim.ratio->scenario);
+        claim.scene = claim.ratio->scenario;
+        claim.base.frame = static_cast<std::size_t>(place - built.begin());
+        if (place != built.end()) continue;
+        const auto scenario = find_scenario(claim.ratio->scenario);
+        if (!scenario) return scenario.error();
+        built.push_back(claim.ratio->scenario);
+        frames.push_back((*scenario)->build(0, {.width = extent.first, .height = extent.second}));
+    }
+    return frames;
+}
+
+Result<std::unique_ptr<Session>> open_scenarios(const Options& options, std::span<Claim> claims) {
+    const auto asked = options.size.empty() ? Result(extent_on_a_cpu) : extent_of(options.size);
+    if (!asked) return asked.error();
+    auto frames = frames_of(claims, *asked);
+    if (!frames) return frames.error();
+    auto session = Session::open(*std::move(frames), options.open.device);
+    if (!session || !options.size.empty() || (*session)->device().software) return session;
+    frames = frames_of(claims, extent_on_a_gpu);
+    return frames ? Session::open(*std::move(frames), options.open.device) : frames.error();
+}
+
+Result<std::unique_ptr<Session>> open_capture(const Options& options, std::span<Claim> claims) {
+    for (Claim& claim : claims) {
+        claim.scene = options.open.capture.filename().string();
+        claim.base.frame = options.frame;
+    }
+    return open(options.open);
+}
+
+/// One line that rewrites itself, on a terminal only.
+void show_progress(std::string_view what, double done) {
+    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
+}
+
+Result<void> bench(const Options& options) {
+    auto claims = claims_of(options.word, options.only);
+    if (!claims) return claims.error();
+    const auto base = request_of(options.choices);
+    if (!base) return base.error();
+    for (Claim& claim : *claims) claim.base = *base;
+    const auto session = options.open.capture.empty() ? open_scenarios(options, *claims) : open_capture(options, *claims);
+    if (!session) return session.error();
+    const auto measured = measure_ratios(**session, *claims, options.repeats, show_progress);
+    if (!measured) return measured.error();
+    fmt::print("{}", options.json ? as_json(*measured) : as_text(*measured));
+    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*measured));
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_bench(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("technique", options->word, "a technique, with or without its stage")->required();
+    CLI::Option* capture =
+        app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario");
+    add_options(app, options->open.device);
+    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
+    add_options(app, options->choices);
+    app.add_option("--only", options->only, "ratios that have this in their name");
+    app.add_option("--frame", options->frame, "which frame of the capture, default 0")->needs(capture);
+    app.add_option("--size", options->size, "WIDTHxHEIGHT of the scenarios, default 320x180 where a CPU renders, else 1920x1080")
+        ->excludes(capture);
+    app.add_option("--repeats", options->repeats, "timed runs of each way after a warm-up, default 7")
+        ->check(CLI::Range(1, 1000));
+    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_option("-o,--output", options->output, "write the JSON to a file, too");
+    return [options] { return bench(*options); };
+}
+
+}  // namespace strata

@@ -1,0 +1,138 @@
+// strata bench: what it measures, what it says of it, and what it refuses.
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "replay/bench/bench.h"
+#include "replay/report/variants.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string short_name(const Technique& technique) { return below_stage(technique.name); }
+
+/// A ratio of a technique that states some, to type: `bench NAME --only 'NAME OF RATIO'`.
+std::string command_of_one() {
+    for (const Technique& technique : techniques())
+        if (!technique.ratios.empty())
+            return fmt::format("bench {} --only '{}' --repeats 2", short_name(technique), technique.ratios.front().name);
+    return "";
+}
+
+TEST(BenchVerb, MeasuresEveryRatioThatATechniqueStates) {
+    for (const Technique& technique : techniques()) {
+        if (technique.ratios.empty()) continue;
+        const Finished made = strata(fmt::format("bench {} --size 48x27 --repeats 2 --json --validation", technique.name));
+        ASSERT_EQ(made.code, 0) << made.err;
+        const json bench = json::parse(made.out);
+        EXPECT_EQ(bench["schema"], "strata.bench");
+        EXPECT_EQ(bench["schema_version"], 1);
+        EXPECT_EQ(bench["repeats"], 2);
+        EXPECT_FALSE(bench["device"]["name"].get<std::string>().empty());
+        ASSERT_EQ(bench["rows"].size(), technique.ratios.size());
+        for (std::size_t i = 0; i < technique.ratios.size(); ++i) {
+            const json& row = bench["rows"][i];
+            const TimeRatio& stated = technique.ratios[i];
+            ASSERT_FALSE(row.contains("not_measured")) << row;
+            EXPECT_EQ(row["technique"], technique.name);
+            EXPECT_EQ(row["name"], stated.name);
+            EXPECT_EQ(row["scene"], stated.scenario);
+            EXPECT_EQ(row["extent"], json({48, 27}));
+            EXPECT_EQ(row["ratio"]["repeats"], 2);
+            EXPECT_GT(row["ratio"]["low"], 0);
+            for (const char* way : {"of", "against"}) EXPECT_GT(row[way]["ms"]["median"], 0) << row;
+            EXPECT_NE(row["of"], row["against"]);
+            EXPECT_EQ(row.contains("published"), stated.published.has_value());
+        }
+    }
+}
+
+TEST(BenchVerb, EveryPublishedRatioHasASourceAndEveryCounterIsOneOfEitherWays) {
+    for (const Technique& technique : techniques())
+        for (const TimeRatio& ratio : technique.ratios) {
+            EXPECT_TRUE(!ratio.published || !ratio.source.empty()) << ratio.name;
+            EXPECT_TRUE(find_scenario(ratio.scenario)) << ratio.name;
+            const auto of = variant_of(technique, ratio.of, {}), against = variant_of(technique, ratio.against, {});
+            ASSERT_TRUE(of && against) << ratio.name;
+            for (const std::string_view counter : ratio.counters) {
+                const auto has = [&](const Variant& way) {
+                    return std::ranges::count(way.technique->counters, counter, &Counter::name) > 0;
+                };
+                EXPECT_TRUE(has(*of) || has(*against)) << ratio.name << " has no counter " << counter;
+            }
+        }
+}
+
+TEST(BenchVerb, TakesACaptureAndWritesTheJsonBesideTheTable) {
+    ASSERT_EQ(strata("record one_pane -o pane.strata").code, 0);
+    const Finished made = strata(command_of_one() + " -o ratios.json" + " pane.strata");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(made.out, AllOf(HasSubstr("measured"), HasSubstr("published"), HasSubstr("of pane.strata, 64 x 36, 1 sample"),
+                                HasSubstr("2 timed runs of each way")));
+    std::ifstream file(folder() / "ratios.json");
+    const json bench = json::parse(file);
+    ASSERT_EQ(bench["rows"].size(), 1u);
+    EXPECT_EQ(bench["rows"][0]["scene"], "pane.strata");
+    EXPECT_EQ(bench["rows"][0]["samples"], 1);
+    EXPECT_EQ(json::parse(strata(command_of_one() + " pane.strata --samples 4 --json").out)["rows"][0]["samples"], 4);
+}
+
+TEST(BenchVerb, WrongRequestsEndWithASentence) {
+    ASSERT_EQ(strata("record opaque_only -o opaque.strata").code, 0);
+    std::string stating, silent;
+    for (const Technique& technique : techniques()) (technique.ratios.empty() ? silent : stating) = short_name(technique);
+    const std::string misspelled = stating.substr(0, stating.size() - 1);
+    const std::tuple<std::string, int, std::string> wrongs[] = {
+        {misspelled, 2, "did you mean " + stating},
+        {silent, 2, silent + " states no ratios of times; these do: "},
+        {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name: "},
+        {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
+        {stating + " --repeats 0", 2, "--repeats"},
+        {stating + " --frame 1", 2, "capture"},
+        {stating + " --size 48x27 --set colour=1", 2, "no parameter"},
+        {stating + " nowhere.strata", 3, "nowhere.strata"},
+        {stating + " opaque.strata --frame 1", 2, "frame 1"},
+        {stating + " opaque.strata", 2, "the frame does not need transparency: "},
+    };
+    for (const auto& [wrong, code, sentence] : wrongs) {
+        const Finished failed = strata("bench " + wrong);
+        EXPECT_EQ(failed.code, code) << wrong;
+        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
+        EXPECT_EQ(failed.out, "") << wrong;
+    }
+}
+
+TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {
+    const std::string words = "one way of many words against another of as many, which does not end before the line does, and on";
+    const std::string source(300, 'x');
+    const TimeRatio ratio{.name = words, .steps = {"a step"}, .published = 1.5, .source = source};
+    const Technique technique{.stage = Stage::transparency, .name = "transparency/some_technique"};
+    const Claim claim{.technique = &technique, .ratio = &ratio, .scene = words};
+    TimedWay way{"transparency/some_technique", words, Spread{.median = 1.25, .mad = .25}, {}};
+    for (int i = 0; i < 20; ++i) way.counters.push_back({way.technique, "some counter", 123456});
+    Bench bench{.device = {.name = "a device", .driver = "its driver"}, .repeats = 7};
+    bench.rows.push_back({.claim = claim, .width = 320, .height = 180, .of = way, .against = way, .ratio = {.median = 2.5}});
+    bench.rows.push_back({.claim = claim, .not_measured = "the frame does not need it"});
+    const std::string text = as_text(bench);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+    EXPECT_THAT(text, AllOf(HasSubstr("2.50 +-0.00"), HasSubstr("1.50"), HasSubstr("some counter 123456"),
+                            HasSubstr("not measured: the frame does not need it"), HasSubstr("a step of one way")));
+    const json made = json::parse(as_json(bench));
+    EXPECT_EQ(made["rows"][0]["published"]["source"], source);
+    EXPECT_EQ(made["rows"][1]["not_measured"], "the frame does not need it");
+    EXPECT_FALSE(made["rows"][1].contains("ratio"));
+}
+
+}  // namespace
+}  // namespace strata
