@@ -1,8 +1,8 @@
 // Offsets composited over each other as alpha blending composites radiance: dst = d + t dst.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/distortion.glsl"
 #include "passes/transparency/event.glsl"
+#include "passes/transparency/luminance.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0, index = 0) out vec4 out_added;
@@ -12,5 +12,5 @@ void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     out_added = vec4(event.d, 0.0, 0.0);
-    out_through = vec4(dimming(event.t));
+    out_through = vec4(luminance(event.t));
 }

@@ -18,11 +18,11 @@ void distort_background(Graph& graph, FrameImages& images) {
         graph.create("distortion", Shape{.extent = images.extent, .format = Format::rgba32f, .samples = images.samples});
     graph.clear(offsets, {});
     draw_events(graph, "transparency/distort_offsets", images.back_to_front, images).composites(offsets);
-    const Image by_sample = spread(graph, offsets, "distortion by sample");
+    const Image layers = by_sample(graph, offsets);
     graph.compute("transparency/distort_background.comp")
         .updates("color", images.color)
         .samples("behind", behind)
-        .samples("offsets", by_sample)
+        .samples("offsets", layers)
         .over({images.extent.width, images.extent.height, images.samples});
 }
 

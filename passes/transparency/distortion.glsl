@@ -1,10 +1,8 @@
-// What is behind transparent layers as they bend it (transparency chapter 6.13): seen sum d T(z) away.
+// What is behind transparent layers as they bend it (transparency chapter 6.13): seen sum d T(z) away, of T the
+// luminance.
 #ifndef PASSES_TRANSPARENCY_DISTORTION_GLSL
 #define PASSES_TRANSPARENCY_DISTORTION_GLSL
 #include "passes/transparency/bilinear.glsl"
-
-// An offset is dimmed by the luminance of what is in front.
-float dimming(vec3 through) { return dot(through, vec3(0.2126, 0.7152, 0.0722)); }
 
 // offset: in uv of the image.
 vec3 seen_behind(sampler2DArray behind, ivec3 at, vec2 offset) {

@@ -5,8 +5,6 @@
 
 namespace strata::transparency {
 
-double dimming(glm::dvec3 through) { return glm::dot(through, glm::dvec3(.2126, .7152, .0722)); }
-
 BlendedSample seen_behind(const ReferenceImage& behind, glm::uvec3 at, glm::dvec2 offset) {
     const glm::uvec2 extent(behind.width, behind.height);
     BlendedSample seen;
@@ -21,7 +19,7 @@ ReferenceImage background(const StageInput& input) {
     const ReferenceImage& behind = input.before.at("color");
     if (!frame_features(input.frame).has(Feature::distortion)) return behind;
     const SampleBlend add_offsets = [](std::span<const Fragment> fragments, glm::dvec3 offset) {
-        for (const Fragment& f : fragments) offset = glm::dvec3(f.distortion, 0) + dimming(f.transmittance) * offset;
+        for (const Fragment& f : fragments) offset = glm::dvec3(f.distortion, 0) + luminance(f.transmittance) * offset;
         return offset;
     };
     const ReferenceImage none(behind.width, behind.height, behind.layers);

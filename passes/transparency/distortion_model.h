@@ -6,9 +6,6 @@
 
 namespace strata::transparency {
 
-/// By how much an offset is dimmed by what is in front of it: the luminance that is let through.
-double dimming(glm::dvec3 through);
-
 /// What is behind a sample (x, y, sample), `offset` away in uv: bilinear, edges held.
 BlendedSample seen_behind(const ReferenceImage& behind, glm::uvec3 at, glm::dvec2 offset);
 

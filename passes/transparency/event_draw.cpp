@@ -48,4 +48,8 @@ std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution)
     return stretches;
 }
 
+Image by_sample(Graph& graph, const Image& image) {
+    return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
+}
+
 }  // namespace strata

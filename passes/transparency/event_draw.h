@@ -18,4 +18,7 @@ DrawPass draw_events_untested(Graph&, std::string shader, const DrawList& list, 
 /// The transparent draws of one resolution: stretches of images.transparent, most often all of it or nothing.
 std::vector<DrawList> drawn_at(const FrameImages&, Resolution);
 
+/// The image read by sample, named for it; no image of none.
+Image by_sample(Graph&, const Image&);
+
 }  // namespace strata

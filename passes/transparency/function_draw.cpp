@@ -59,10 +59,8 @@ void draw_at(Graph& graph, const std::string& shader, const FrameImages& images,
 }
 
 ResolutionSums by_sample(Graph& graph, const ResolutionSums& sums) {
-    const auto layers = [&](const Image& image) {
-        return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
-    };
-    return {layers(sums.color), layers(sums.extinction), layers(sums.normalizer), layers(sums.emission), layers(sums.offset)};
+    return {by_sample(graph, sums.color), by_sample(graph, sums.extinction), by_sample(graph, sums.normalizer),
+            by_sample(graph, sums.emission), by_sample(graph, sums.offset)};
 }
 
 /// X and N under the names function_sums.glsl reads them by.

@@ -47,7 +47,7 @@ Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmitt
         const glm::dvec3 through = transmittance(fragment);
         for (int axis = 0; axis < 2; ++axis)
             sums.offset[axis] =
-                blended(sums.offset[axis], fragment.distortion[axis] * dimming(through), accumulation, half_float);
+                blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), accumulation, half_float);
         for (int c = 0; c < 3; ++c) {
             // Grey extinction and weights are one half float each, whatever the color's format.
             const SmallFloat color = color_format(accumulation, c), weight = chromatic ? color : half_float;
@@ -152,7 +152,7 @@ ImageSet modelled(const StageInput& input, std::uint32_t accumulation, const Loo
         const BlendedSample seen = bent ? seen_behind(before, at, sums.offset) : BlendedSample{behind};
         return {resolved(sums, seen.radiance), undecided || read.undecided || seen.undecided};
     };
-    return {{"color", blended(before, low.empty() ? input.frame : only(input.frame, Resolution::full), input.before, blend)}};
+    return {{"color", blended(before, only(input.frame, Resolution::full), input.before, blend)}};
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ double optical_depth_in_double(double t) {
 
 double channel_depth(const Fragment& f, std::size_t channel, std::size_t channels) {
     const glm::dvec3 t = f.transmittance;
-    return optical_depth_in_double(channels == 3 ? t[static_cast<int>(channel)] : .2126 * t.x + .7152 * t.y + .0722 * t.z);
+    return optical_depth_in_double(channels == 3 ? t[static_cast<int>(channel)] : luminance(t));
 }
 
 glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const Transmittance& transmittance,

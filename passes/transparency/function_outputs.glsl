@@ -2,8 +2,8 @@
 // after event.glsl, finds T(z) its own way and calls write_event() once.
 #ifndef PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
 #define PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
-#include "passes/transparency/distortion.glsl"
 #include "passes/transparency/function.shared.h"
+#include "passes/transparency/luminance.glsl"
 #include "passes/transparency/optical_depth.glsl"
 
 layout(constant_id = 5) const uint drawn_width = 1u;  // of the targets: the frame's, or half of it
@@ -29,7 +29,7 @@ void write_event(Event event, vec3 through) {
     out_extinction = vec4(optical_depth(event.t), 0.0);
     out_normalizer = vec4((1.0 - event.t) * through, 0.0);
     out_emission = vec4(min(event.e, largest_radiance) * through, 0.0);
-    out_offset = vec4(event.d * dimming(through), 0.0, 0.0);
+    out_offset = vec4(event.d * luminance(through), 0.0, 0.0);
 }
 
 #endif

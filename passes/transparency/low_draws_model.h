@@ -55,8 +55,6 @@ public:
         return read;
     }
 
-    bool empty() const { return texels_.empty(); }
-
 private:
     const Texel& texel(const Tap& tap) const { return texels_[tap.y * extent_.x + tap.x]; }
 

@@ -2,6 +2,7 @@
 #ifndef PASSES_TRANSPARENCY_OPTICAL_DEPTH_GLSL
 #define PASSES_TRANSPARENCY_OPTICAL_DEPTH_GLSL
 #include "passes/transparency/function.shared.h"
+#include "passes/transparency/luminance.glsl"
 
 float optical_depth(float t) {
     const float a = 1.0 - t;
@@ -17,7 +18,7 @@ vec3 opacity(vec3 x) { return vec3(opacity(x.r), opacity(x.g), opacity(x.b)); }
 // Of one channel of transmittance; 3: one number for a colored event, that of the luminance it lets through (chapter 0.3).
 const uint luminance_channel = 3u;
 float channel_depth(vec3 t, uint channel) {
-    return optical_depth(channel < luminance_channel ? t[channel] : dot(t, vec3(0.2126, 0.7152, 0.0722)));
+    return optical_depth(channel < luminance_channel ? t[channel] : luminance(t));
 }
 
 #endif

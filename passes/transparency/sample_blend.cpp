@@ -61,6 +61,8 @@ ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, 
     return color;
 }
 
+double luminance(glm::dvec3 color) { return glm::dot(color, glm::dvec3(.2126, .7152, .0722)); }
+
 double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
 
 glm::dvec3 transmittance_before(std::span<const Fragment> fragments, double depth) {

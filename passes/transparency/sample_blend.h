@@ -33,6 +33,9 @@ ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& befor
 /// Blends object after object in painter's order, as alpha blending does: fragments of an object in the order of submission.
 ReferenceImage blended_by_object(ReferenceImage color, const StageInput&, const SampleBlend&);
 
+/// Of linear light of the primaries of BT.709, or of what is let through of it.
+double luminance(glm::dvec3);
+
 /// Scalar coverage of a fragment that may be colored: alpha (1 - mean k) = mean (1 - t) (McGuire and Mara 2016).
 double coverage(const Fragment&);
 

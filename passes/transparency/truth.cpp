@@ -17,7 +17,7 @@ glm::dvec2 exact_distortion(std::span<const Fragment> fragments) {
     glm::dvec2 offset(0);
     glm::dvec3 through(1);
     for (const Fragment& fragment : transparency::nearest_first(fragments)) {
-        offset += transparency::dimming(through) * fragment.distortion;
+        offset += transparency::luminance(through) * fragment.distortion;
         through *= fragment.transmittance;
     }
     return offset;

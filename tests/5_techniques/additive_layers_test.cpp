@@ -1,5 +1,4 @@
 // transparency/weighted_additive on a device: the chapter's table of layers (3.2), and the mask of tiles.
-#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -83,12 +82,6 @@ TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
             const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency));
             EXPECT_LE(accuracy.model_rmse, 8e-3) << scenario << " " << normalization;
         }
-}
-
-std::uint64_t counted(const Run& run, std::string_view name) {
-    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
-    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
-    return found->value;
 }
 
 TEST(TilesWithoutFragments, AreSkippedAndNoPixelKnowsIt) {

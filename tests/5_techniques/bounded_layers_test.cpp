@@ -32,12 +32,6 @@ Run run_on(Frame frame, std::string technique, std::vector<std::string> sets, st
     return must(session->run({.uses = {std::move(technique)}, .sets = std::move(sets), .outputs = {std::move(output)}}));
 }
 
-std::uint64_t counted(const Run& run, std::string_view name) {
-    for (const CounterRecord& counter : run.counters)
-        if (counter.technique.starts_with("transparency") && counter.name == name) return counter.value;
-    throw std::runtime_error(fmt::format("no counter {}", name));
-}
-
 TEST(ABufferOnDevice, CountsMoreFragmentsThanItsEightBitsHold) {
     // Wrapped at 256, the count would let fragments 257 to 265 into the first nine slots.
     const auto run = run_on(stack_of_cards(300, .01f), "transparency/a_buffer", {});

@@ -1,6 +1,5 @@
 // Draws of two resolutions in one frame. Methods whose sums have no order draw at half resolution what is recorded so and merge
 // it; the others draw everything at full resolution.
-#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -20,12 +19,6 @@ Frame low_resolution_smoke(std::uint32_t width, std::uint32_t height, std::uint3
     frame.view.width = width, frame.view.height = height;
     for (Emitter& emitter : frame.emitters) emitter.resolution = Resolution::low;
     return frame;
-}
-
-std::uint64_t counted(const Run& run, std::string_view name) {
-    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
-    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
-    return found->value;
 }
 
 struct Merging {

@@ -17,12 +17,6 @@ Run run_with_pool(Session& session, std::string_view pool) {
     return must(session.run(request));
 }
 
-std::uint64_t counted(const Run& run, std::string_view name) {
-    const auto found = std::ranges::find(run.counters, name, &CounterRecord::name);
-    if (found == run.counters.end()) throw std::runtime_error(fmt::format("no counter {}", name));
-    return found->value;
-}
-
 std::size_t steps_called(const Run& run, std::string_view name) {
     return static_cast<std::size_t>(std::ranges::count(run.steps, name, &StepRecord::name));
 }

@@ -38,4 +38,10 @@ Request on_scenario(std::string_view name, std::uint32_t samples) {
     return {.frame = index, .extent_divisor = divisor, .samples = samples};
 }
 
+std::uint64_t counted(const Run& run, std::string_view name) {
+    for (const CounterRecord& counter : run.counters)
+        if (counter.technique.starts_with("transparency/") && counter.name == name) return counter.value;
+    throw std::runtime_error(fmt::format("no counter {}", name));
+}
+
 }  // namespace strata

@@ -21,6 +21,9 @@ std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32
 Session& session_of_scenarios();
 Request on_scenario(std::string_view scenario, std::uint32_t samples = 1);
 
+/// What the transparency technique of a run counted under the name.
+std::uint64_t counted(const Run&, std::string_view name);
+
 /// The value, or a failed test and an abort of it.
 template <typename T>
 T must(Result<T> result) {

@@ -74,8 +74,8 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
         .updates("Counts", layers.counts)
         .push(push);
 
-    const Image sum = spread(graph, merged.sum, "a_buffer merged sum by sample");
-    const Image through = spread(graph, merged.through, "a_buffer merged transmittance by sample");
+    const Image sum = by_sample(graph, merged.sum);
+    const Image through = by_sample(graph, merged.through);
     graph.compute("transparency/a_buffer/resolve.comp")
         .updates("color", images.color)
         .samples("colors", layers.colors)

@@ -47,8 +47,8 @@ Image peel(Graph& graph, const FrameImages& images, std::uint32_t pass, Targets&
 
 void composite(Graph& graph, const FrameImages& images, std::uint32_t pass, const Targets& targets, const Image& depth,
                Front& front, Buffer& draw_counts) {
-    const Image color = spread(graph, targets.color, "depth_peeling color by sample");
-    const Image through = spread(graph, targets.through, "depth_peeling transmittance by sample");
+    const Image color = by_sample(graph, targets.color);
+    const Image through = by_sample(graph, targets.through);
     graph.compute("transparency/depth_peeling/composite.comp")
         .updates("front", front.color)
         .updates("through", front.through)

@@ -54,8 +54,8 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
     Tail tail = create_tail(graph, images, params.tail);
     keep(graph, images, params, slots, tail);
 
-    const Image color = tail.color ? spread(graph, tail.color, "k_buffer tail by sample") : Image{};
-    const Image count = tail.count ? spread(graph, tail.count, "k_buffer tail count by sample") : Image{};
+    const Image color = by_sample(graph, tail.color);
+    const Image count = by_sample(graph, tail.count);
     graph.compute("transparency/k_buffer/resolve.comp")
         .updates("color", images.color)
         .loads("Slots", slots)

@@ -22,7 +22,7 @@ ImageSet sorted_lists_model(const StageInput& input, const Settings&) {
             right = fragment->distortion.x + fragment->transmittance * right;
             down = fragment->distortion.y + fragment->transmittance * down;
         }
-        const glm::dvec2 offset(dimming(right), dimming(down));
+        const glm::dvec2 offset(luminance(right), luminance(down));
         if (offset == glm::dvec2(0)) return {sorted_blend(fragments, behind)};
         const BlendedSample seen = seen_behind(before, at, offset);
         return {sorted_blend(fragments, seen.radiance), seen.undecided};

@@ -5,6 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/distortion.glsl"
 #include "passes/transparency/lists.shared.h"
+#include "passes/transparency/luminance.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/list_events.glsl"
@@ -27,7 +28,7 @@ void main() {
     for (uint i = 0u; i < count; ++i) {
         const uint node = keys[start + i].event;
         sum += through * (events[node].p + events[node].e);
-        if (distorts != 0u) offset += dimming(through) * offsets[node];
+        if (distorts != 0u) offset += luminance(through) * offsets[node];
         through *= events[node].t;
     }
     const vec4 here = imageLoad(color, texel);

@@ -67,9 +67,9 @@ void draw(Graph& graph, const FrameImages& images, Targets& targets, const Stoch
 }
 
 void resolve(Graph& graph, FrameImages& images, const Targets& targets, const StochasticBand& band) {
-    const Image sum = spread(graph, targets.sum, "stochastic sum by sample");
-    const Image emitted = spread(graph, targets.emitted, "stochastic emitted by sample");
-    const Image reveal = spread(graph, targets.reveal, "stochastic reveal by sample");
+    const Image sum = by_sample(graph, targets.sum);
+    const Image emitted = by_sample(graph, targets.emitted);
+    const Image reveal = by_sample(graph, targets.reveal);
     graph.compute("transparency/stochastic/resolve.comp")
         .updates("color", images.color)
         .loads("Depths", targets.depths)

@@ -48,8 +48,8 @@ void add(Graph& graph, FrameImages& images, const Settings& settings) {
     Targets low;
     if (has_low) low = accumulate(graph, prepass_images(graph, images, 2), params, Resolution::low, "weighted low ");
 
-    const Image sum_layers = spread(graph, full.sum, "weighted sum by sample");
-    const Image reveal_layers = spread(graph, full.reveal, "weighted reveal by sample");
+    const Image sum_layers = by_sample(graph, full.sum);
+    const Image reveal_layers = by_sample(graph, full.reveal);
     graph.compute("transparency/weighted/resolve.comp")
         .samples("sum", sum_layers)
         .samples("reveal", reveal_layers)

@@ -2,6 +2,7 @@
 #ifndef PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #define PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #include "passes/transparency/event.glsl"
+#include "passes/transparency/luminance.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
 layout(constant_id = 3) const uint low_resolution = 0u;  // 1: two pixels of the frame per pixel drawn, each way
@@ -34,7 +35,7 @@ void mark_tiles() {
 float coverage_of(Event event) { return clamp(dot(1.0 - event.t, vec3(1.0 / 3.0)), 0.0, 1.0); }
 
 // Emission as the exposed picture shows it.
-float relative_emission(Event event) { return dot(event.e, vec3(0.2126, 0.7152, 0.0722)) * view.exposure; }
+float relative_emission(Event event) { return luminance(event.e) * view.exposure; }
 
 float weight_of(Event event) {
     const float emission = clamp(relative_emission(event), 0.0, 1.0);

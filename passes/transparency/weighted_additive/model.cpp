@@ -17,9 +17,7 @@ double saturated(double value) { return std::clamp(value, 0., 1.); }
 glm::dvec3 bounded(const glm::dvec3& v) { return glm::clamp(v, -largest_half, largest_half); }
 double mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
 double covered(const Fragment& f) { return saturated(coverage(f)); }
-double relative_emission(const Fragment& f, double exposure) {
-    return glm::dot(f.emission, glm::dvec3(.2126, .7152, .0722)) * exposure;
-}
+double relative_emission(const Fragment& f, double exposure) { return luminance(f.emission) * exposure; }
 
 double stored(double value, const WeightedAdditiveParams& params) {
     return params.reveal == reveal_r8 ? std::round(saturated(value) * 255) / 255 : value;

@@ -54,10 +54,8 @@ void accumulate(Graph& graph, const FrameImages& images, Targets& targets, Buffe
 }
 
 Targets by_sample(Graph& graph, const Targets& targets) {
-    const auto layers = [&](const Image& image) {
-        return image ? spread(graph, image, graph.record(image).name + " by sample") : image;
-    };
-    return {layers(targets.sum), layers(targets.reveal), layers(targets.additiveness), layers(targets.emitted)};
+    return {by_sample(graph, targets.sum), by_sample(graph, targets.reveal), by_sample(graph, targets.additiveness),
+            by_sample(graph, targets.emitted)};
 }
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
