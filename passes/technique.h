@@ -126,6 +126,18 @@ struct DebugView {
     Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
+struct TableColumn {
+    std::string_view name, unit;
+};
+
+/// Numbers of a technique's inside, for JSON and curves. `add` makes them as an rgba32f image one texel wide: a row of the table
+/// per texel, a column per channel. A row that begins with NaN is none.
+struct DebugTable {
+    std::string_view name, help;
+    std::vector<TableColumn> columns;  ///< 1 to 4
+    Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
+};
+
 /// The method on one pixel (or sample): its fragments in submission order over what is behind. Linear radiance.
 using PixelModel = glm::dvec3 (*)(std::span<const Fragment>, glm::dvec3 behind, const Settings&);
 /// The method on whole images: returns the stage's outputs.
@@ -169,6 +181,7 @@ struct Technique {
     std::vector<Counter> counters = {};
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct
     std::vector<DebugView> views = {};
+    std::vector<DebugTable> tables = {};
     Capabilities needs = {};
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};

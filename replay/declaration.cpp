@@ -17,20 +17,29 @@ FrameImages start(const Sources& sources, Graph& graph) {
     return images;
 }
 
-/// The view "stage/technique:view", where its technique is the chosen one.
-Result<Image> add_view(Graph& graph, FrameImages& images, const Choices& choices, std::string_view output) {
+/// Declares the view or table "stage/technique:name", where its technique is the chosen one, and keeps it.
+Result<void> add_inside(Declaration& d, const std::string& output) {
     const std::size_t colon = output.find(':');
-    const std::string_view technique = output.substr(0, colon), view = output.substr(colon + 1);
-    for (const auto& [stage, choice] : choices) {
+    const std::string_view technique = std::string_view(output).substr(0, colon);
+    const std::string_view wanted = std::string_view(output).substr(colon + 1);
+    for (const auto& [stage, choice] : d.choices) {
         if (choice.technique->name != technique) continue;
         std::vector<std::string_view> known;
-        for (const DebugView& candidate : choice.technique->views) {
+        const auto is_wanted = [&](const auto& candidate) {
             known.push_back(candidate.name);
-            if (candidate.name != view) continue;
-            graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage), choice.technique->counter_bytes);
-            return candidate.add(graph, images, choice.settings);
-        }
-        return fail(Fault::usage, "{} has no view '{}'{}", technique, view, did_you_mean(view, known));
+            return candidate.name == wanted;
+        };
+        const auto make = [&](const auto& candidate) {
+            d.graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage), choice.technique->counter_bytes);
+            const Image image = candidate.add(d.graph, d.images, choice.settings);
+            d.graph.keep(image);
+            return image;
+        };
+        for (const DebugView& view : choice.technique->views)
+            if (is_wanted(view)) return d.outputs[output] = make(view), Result<void>();
+        for (const DebugTable& table : choice.technique->tables)
+            if (is_wanted(table)) return d.tables[output] = {&table, make(table)}, Result<void>();
+        return fail(Fault::usage, "{} has no view '{}'{}", technique, wanted, did_you_mean(wanted, known));
     }
     return fail(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
 }
@@ -38,18 +47,15 @@ Result<Image> add_view(Graph& graph, FrameImages& images, const Choices& choices
 /// Fills Declaration::outputs and keeps them.
 Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
     for (const std::string& output : wanted) {
-        Image image;
         if (output.find(':') != std::string::npos) {
-            const auto view = add_view(d.graph, d.images, d.choices, output);
-            if (!view) return view.error();
-            image = *view;
-        } else {
-            const FrameImageRow* row = find_frame_image(output);
-            std::vector<std::string_view> known;
-            for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
-            if (!row) return fail(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
-            image = d.images.*row->member;
+            if (const auto added = add_inside(d, output); !added) return added;
+            continue;
         }
+        const FrameImageRow* row = find_frame_image(output);
+        std::vector<std::string_view> known;
+        for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
+        if (!row) return fail(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
+        const Image image = d.images.*row->member;
         if (!image) continue;  // its stage was left out
         if (d.graph.shape(image).samples > 1)
             return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,

@@ -23,6 +23,8 @@ struct Declaration {
     DeclaredFrame frame;
     Choices choices;
     std::map<std::string, Image> outputs;  ///< by the names asked for
+    /// The same of tables.
+    std::map<std::string, std::pair<const DebugTable*, Image>> tables;
     std::vector<CounterSource> counters;
     std::vector<CounterRecord> kept_counters;  ///< of acts that came from the memo
     std::map<std::uint32_t, std::vector<CounterRecord>>

@@ -1,6 +1,8 @@
 #include "replay/describe_run.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 
@@ -37,6 +39,23 @@ std::map<std::string, HostImage> images_of(const Declaration& d, const Execution
         if (const auto found = execution.images.find(image.id); found != execution.images.end())
             images.emplace(name, found->second);
     return images;
+}
+
+std::map<std::string, NumberTable> tables_of(const Declaration& d, const Execution& execution) {
+    std::map<std::string, NumberTable> tables;
+    for (const auto& [name, source] : d.tables) {
+        const auto& [description, image] = source;
+        const auto found = execution.images.find(image.id);
+        if (found == execution.images.end()) continue;
+        NumberTable& table = tables[name];
+        table.columns = description->columns;
+        for (const glm::dvec4& texel : in_double(found->second).texels) {
+            if (std::isnan(texel.x)) continue;
+            const std::array numbers{texel.x, texel.y, texel.z, texel.w};
+            table.rows.emplace_back(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(table.columns.size()));
+        }
+    }
+    return tables;
 }
 
 std::string choice_line(const Choice& choice) {

@@ -11,6 +11,8 @@ namespace strata {
 Run describe_run(const Declaration&);
 /// The outputs asked for, as far as the run got.
 std::map<std::string, HostImage> images_of(const Declaration&, const Execution&);
+/// The tables asked for.
+std::map<std::string, NumberTable> tables_of(const Declaration&, const Execution&);
 /// What the techniques counted in this execution, or in the steps of one scope.
 std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, std::optional<std::uint32_t> scope = {});
 /// A technique that acts at several stages counts in each: equal counters are added up.

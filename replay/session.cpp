@@ -67,7 +67,6 @@ Result<Run> DeviceSession::run(const Request& request) {
     Run run = finished(d, *execution);
     if (options.until) memo_.drop_unfilled();
     else remember(d, *execution);
-    run.images = images_of(d, *execution);
     return run;
 }
 
@@ -169,6 +168,8 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
     run.counters = read_counters(d, execution);
     run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
     run.counters = summed(std::move(run.counters));
+    run.images = images_of(d, execution);
+    run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;
     run.pipelines_created = execution.pipelines_created;
     run.host_ms = times_;

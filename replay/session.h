@@ -34,7 +34,7 @@ struct Request {
     std::size_t frame = 0;                           ///< index in the capture
     std::vector<std::string> uses, sets;             ///< as on the command line, see choose()
     std::vector<Feature> force;                      ///< features switched on though the frame lacks them
-    std::vector<std::string> outputs = {"display"};  ///< names of frame_images.h, or "stage/technique:view" debug views
+    std::vector<std::string> outputs = {"display"};  ///< names of frame_images.h, or "stage/technique:view" debug views and tables
     std::string until;                               ///< last step to run: part of its name; empty: all
     std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
     std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
@@ -71,6 +71,12 @@ struct ActImages {
     std::map<std::string, HostImage> images;
 };
 
+/// What a DebugTable held.
+struct NumberTable {
+    std::vector<TableColumn> columns;
+    std::vector<std::vector<double>> rows;
+};
+
 /// What one run gave.
 struct Run {
     std::vector<StepRecord> steps;
@@ -78,6 +84,7 @@ struct Run {
     std::vector<CulledStep> culled;
     std::vector<CounterRecord> counters;
     std::map<std::string, HostImage> images;     ///< by the names asked for; names the frame does not have are absent
+    std::map<std::string, NumberTable> tables;   ///< the debug tables among the names asked for
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique

@@ -55,13 +55,14 @@ std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& ste
 }
 
 /// What an execution with the memo gave, for a run that describes the whole frame.
-void add_results(Run& whole, Run executed, std::map<std::string, HostImage> images) {
+void add_results(Run& whole, Run executed) {
     executed.memory.over_time = std::move(whole.memory.over_time);
     whole.memory = std::move(executed.memory);
     whole.counters = std::move(executed.counters);
     whole.notes = std::move(executed.notes);
     whole.host_ms = executed.host_ms;
-    whole.images = std::move(images);
+    whole.images = std::move(executed.images);
+    whole.tables = std::move(executed.tables);
 }
 
 }  // namespace
@@ -72,7 +73,6 @@ Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request
     auto execution = execute(*declared, {.timestamps = Timestamps::on});
     if (!execution) return execution.error();
     TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
-    timed.run.images = images_of(*declared, *execution);
     return timed;
 }
 
@@ -104,7 +104,7 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 const ScopeNames name(*declared, i);
                 add_executed(*declared, *execution, name, acts);
                 costs = costs_of(runs[i].steps, name, acts);
-                if (repeat == 0) add_results(runs[i], finished(*declared, *execution), images_of(*declared, *execution));
+                if (repeat == 0) add_results(runs[i], finished(*declared, *execution));
             }
             if (!costs) {
                 auto alone = time_alone(requests[i]);

@@ -40,6 +40,8 @@ void print(const Technique& technique, const Options& options) {
     for (const std::string_view point : technique.points) fmt::print("      reported also at {}\n", point);
     for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
     for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
+    for (const DebugTable& table : technique.tables)
+        fmt::print("      table {}:{:<11} {}\n", technique.name, table.name, table.help);
     for (const Feature feature : technique.cannot) fmt::print("      cannot do {}\n", name(feature));
 }
 

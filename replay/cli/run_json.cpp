@@ -59,6 +59,12 @@ ordered_json json_of(const ExpectationVerdict& verdict) {
     return json;
 }
 
+ordered_json json_of(const NumberTable& table) {
+    ordered_json json{{"columns", ordered_json::array()}, {"rows", table.rows}};
+    for (const TableColumn& column : table.columns) json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
+    return json;
+}
+
 ordered_json json_of(const RunMemory& memory) {
     ordered_json json{{"plan_bytes", memory.plan},
                       {"scene_bytes", memory.scene},
@@ -115,6 +121,7 @@ ordered_json json_of(const Metadata& provenance, const Run& run, const Expectati
     for (const SkippedStage& skipped : run.skipped)
         json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
     for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
+    for (const auto& [name, table] : run.tables) json["tables"][name] = json_of(table);
     for (const std::string& note : run.notes) json["notes"].push_back(note);
     json["image_bytes"] = run.image_bytes;
     json["buffer_bytes"] = run.buffer_bytes;
