@@ -15,14 +15,30 @@ Image target(Graph& graph, const FrameImages& frame, std::string_view name, Form
     return image;
 }
 
+Image empty_depth(Graph& graph, const FrameImages& frame) {
+    Image depth = graph.create("depth", {.extent = frame.extent, .format = Format::d32f, .samples = frame.samples});
+    graph.clear(depth, {});
+    return depth;
+}
+
+/// Takes what was in depth before the draws out of it again.
+void leave_surfaces(Graph& graph, FrameImages& frame) {
+    const Image drawn = spread(graph, frame.depth, "depth drawn into, by sample");
+    frame.depth = empty_depth(graph, frame);
+    graph.fullscreen("gbuffer/surface_depth")
+        .samples("drawn_depth", drawn)
+        .samples("emission", frame.emission)
+        .writes_depth(frame.depth);
+}
+
 }  // namespace
 
 void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     Image gbuffer0 = target(graph, frame, "gbuffer0", Format::rgba16f);
     Image gbuffer1 = target(graph, frame, "gbuffer1", Format::rgba8_unorm);
     Image emission = target(graph, frame, "emission", Format::rgba16f);
-    frame.depth = graph.create("depth", {.extent = frame.extent, .format = Format::d32f, .samples = frame.samples});
-    graph.clear(frame.depth, {});
+    const bool begins_empty = !frame.depth;
+    if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
         DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
         fix_textures(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
@@ -30,6 +46,7 @@ void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
     frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");
     frame.emission = spread(graph, emission, "emission");
+    if (!begins_empty) leave_surfaces(graph, frame);
     frame.depth_layers = spread(graph, frame.depth, "depth_layers");
     frame.gbuffer_layout = index_in_stage(**find_technique(technique));
     add_surfaces(graph, frame);

@@ -8,7 +8,8 @@
 namespace strata::gbuffer {
 
 /// Draws frame.opaque with "<technique>/fill" into gbuffer0 (rgba16f), gbuffer1 (rgba8) and emission (rgba16f), with depth
-/// writes; spreads samples into layers, tells readers the layout and declares the decoded surfaces.
+/// writes, into frame.depth where an earlier stage has drawn into it what hides them, and leaves their own depth there; spreads
+/// samples into layers, tells readers the layout and declares the decoded surfaces.
 void add_fill(Graph&, FrameImages&, std::string_view technique);
 
 }  // namespace strata::gbuffer

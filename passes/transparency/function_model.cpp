@@ -40,17 +40,25 @@ struct Sums {
     }
 };
 
-Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, std::uint32_t accumulation,
-             bool chromatic) {
+/// How fragments are summed.
+struct Summing {
+    std::uint32_t accumulation = accumulation_single;
+    bool chromatic = false;
+    PrepassModel::Unseen unseen = PrepassModel::Unseen::counts;
+};
+
+Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, const Summing& how) {
+    const std::uint32_t accumulation = how.accumulation;
     Sums sums;
     for (const Fragment& fragment : fragments) {
         const glm::dvec3 through = transmittance(fragment);
+        if (how.unseen == PrepassModel::Unseen::adds_nothing && through == glm::dvec3(0)) continue;
         for (int axis = 0; axis < 2; ++axis)
             sums.offset[axis] =
                 blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), accumulation, half_float);
         for (int c = 0; c < 3; ++c) {
             // Grey extinction and weights are one half float each, whatever the color's format.
-            const SmallFloat color = color_format(accumulation, c), weight = chromatic ? color : half_float;
+            const SmallFloat color = color_format(accumulation, c), weight = how.chromatic ? color : half_float;
             const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, accumulation, format); };
             add(sums.color[c], std::min(fragment.color[c], double(largest_radiance)) * through[c], color);
             add(sums.extinction[c], optical_depth_in_double(fragment.transmittance[c]), weight);
@@ -84,8 +92,9 @@ Projected project(const StageInput& input, const PrepassModel& model) {
     low.view.width = extent.width;
     low.view.height = extent.height;
     low.view.samples = 1;
+    const ImageSet& before = model.tested == PrepassModel::Tested::against_opaque ? input.before : ImageSet{};
     const FragmentLists lists =
-        transparent_fragments(low, farthest_depth(opaque_depth(input.before, input.before.at("color")), extent));
+        transparent_fragments(low, farthest_depth(opaque_depth(before, input.before.at("color")), extent));
     Projected projected{low.view.width, low.view.height, {}, {}};
     for (std::uint32_t y = 0; y < low.view.height; ++y)
         for (std::uint32_t x = 0; x < low.view.width; ++x) {
@@ -132,12 +141,11 @@ struct Found {
 /// For fragments drawn to a pixel (x, y, sample) of an image of `extent`: the frame's, or half of it.
 using Lookup = std::function<Found(std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent)>;
 
-ImageSet modelled(const StageInput& input, std::uint32_t accumulation, const Lookup& lookup) {
-    const bool chromatic = is_chromatic(input.frame);
+ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& lookup) {
     const auto summed = [&](std::span<const Fragment> fragments, glm::uvec3 at, glm::uvec2 extent) -> LowSums<Sums>::Texel {
         if (fragments.empty()) return {};
         const Found found = lookup(fragments, at, extent);
-        return {sums_of(fragments, found.transmittance, accumulation, chromatic), found.undecided};
+        return {sums_of(fragments, found.transmittance, how), found.undecided};
     };
     const ReferenceImage& before = input.before.at("color");
     const glm::uvec2 extent(before.width, before.height), half = (extent + 1u) / 2u;
@@ -168,17 +176,18 @@ double channel_depth(const Fragment& f, std::size_t channel, std::size_t channel
 
 glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const Transmittance& transmittance,
                           std::uint32_t accumulation) {
-    return resolved(sums_of(fragments, transmittance, accumulation, false), behind);
+    return resolved(sums_of(fragments, transmittance, {.accumulation = accumulation}), behind);
 }
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
+    const Summing how{accumulation, is_chromatic(input.frame)};
     if (!frame_features(input.frame).has(Feature::low_resolution))
-        return modelled(input, accumulation,
+        return modelled(input, how,
                         [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
     // T is that of all fragments, of whichever resolution, of the sample under the center.
     const ReferenceImage& before = input.before.at("color");
     const FragmentLists all = transparent_fragments(input.frame, opaque_depth(input.before, before));
-    return modelled(input, accumulation, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         const glm::uvec2 pixel = texel_under(glm::uvec2(at), extent, {before.width, before.height});
         return Found{function(all.at(pixel.x, pixel.y, at.z)), all.undecided(pixel.x, pixel.y, at.z)};
     });
@@ -188,7 +197,8 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     const Projected projected = project(input, model);
     // What a T(z) looks up lives as long as the pixel does.
     Read read;
-    return modelled(input, accumulation, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+    const Summing how{accumulation, is_chromatic(input.frame), model.unseen};
+    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         read = read_at(projected, model, extent, glm::uvec2(at));
         return Found{model.function(read.numbers, read.texel), read.undecided};
     });

@@ -33,6 +33,10 @@ ImageSet function_model(const StageInput&, std::uint32_t accumulation, const Fun
 struct PrepassModel {
     std::uint32_t divisor = 1;
     enum class Filter { linear, nearest } filter = Filter::linear;
+    /// Whether opaque surfaces hide fragments from the prepass.
+    enum class Tested { against_opaque, against_nothing } tested = Tested::against_opaque;
+    /// What an event with T = 0 in all channels does to the sum of optical depths; to the other sums it adds nothing anyway.
+    enum class Unseen { counts, adds_nothing } unseen = Unseen::counts;
     /// What the prepass keeps of a texel's fragments.
     std::function<std::vector<double>(std::span<const Fragment>, glm::uvec2 texel)> project;
     /// T of a sample from the (filtered) numbers of its place; `texel` is the nearest.

@@ -72,6 +72,10 @@ void main() {
     vec3 through = vec3(0.0);
     for (uint channel = 0u; channel < push.channels; ++channel) through[channel] = transmittance(channel, at);
     if (push.channels == 1u) through = through.rrr;
+    if (through == vec3(0.0)) {  // adds nothing, optical depth included: whether it is culled makes no difference
+        atomicAdd(counters.unseen, 1u);
+        discard;
+    }
     atomicAdd(counters.function.drawn, 1u);
     write_event(event, through);
 }

@@ -12,7 +12,10 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
+layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray zero_slices;  // the first full one of each column
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+
+uint zero_slice = no_overflow;
 
 // Of the fields of a word, after what is in front of them.
 uint summed_word(uint word, uint first_slice, uint overflow, inout uint sum) {
@@ -20,6 +23,7 @@ uint summed_word(uint word, uint first_slice, uint overflow, inout uint sum) {
     for (uint i = 0u; i < slices_per_word; ++i) {
         const uint left = push.full_code - sum;
         sum += first_slice + i >= overflow ? left : min(field(word, i * field_bits), left);
+        if (sum == push.full_code) zero_slice = min(zero_slice, first_slice + i);
         sums |= sum << (i * field_bits);
     }
     return sums;
@@ -39,6 +43,7 @@ void main() {
         imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));
         if (!full) integrated += slices_per_word;
     }
+    imageStore(zero_slices, ivec3(column, 0), uvec4(zero_slice));
     atomicAdd(counters.columns, 1u);
     if (integrated > 0u) atomicAdd(counters.integrated, integrated);
     if (overflow != no_overflow) atomicAdd(counters.overflowed, 1u);

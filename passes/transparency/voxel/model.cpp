@@ -10,6 +10,7 @@
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
+#include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
 namespace {
@@ -85,7 +86,9 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const std::vector<Origin> origins = origins_of(input.frame);
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
-    PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels))};
+    PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels)),
+                         .unseen = PrepassModel::Unseen::adds_nothing};
+    if (!made_after_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
     prepass.project = [=, &origins](std::span<const Fragment> fragments, glm::uvec2 texel) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {

@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 10) uniform usampler2DArray voxels;
-layout(constant_id = 12) const uint shown = view_zero_depth;
+layout(constant_id = 12) const uint shown = view_saturation_depth;
 layout(constant_id = 13) const float empty_in_front = 0.0;  // slices between the end of light and where T is 0
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
 
@@ -26,9 +26,9 @@ uint first_with(ivec2 column, uvec2 tile, uint code) {
 float shown_of(uvec2 texel) {
     const ivec2 column = column_of(texel, 0u);
     if (shown == view_overflow) return splat == splat_overflow_minimum ? float(min(nearest_overflow[index_of(column)], push.slices)) : float(push.slices);
-    const uint slice = first_with(column, texel / tile_size, shown == view_zero_depth ? push.full_code : 1u);
+    const uint slice = first_with(column, texel / tile_size, shown == view_saturation_depth ? push.full_code : 1u);
     const float place = slice < push.slices ? float(virtual_slice(slice)) : float(virtual_slices());
-    if (shown == view_zero_depth) return depth_of_slice(min(place + empty_in_front, float(virtual_slices())));
+    if (shown == view_saturation_depth) return depth_of_slice(min(place + empty_in_front, float(virtual_slices())));
     return slice < push.slices ? thickness_at(depth_of_slice(place + 0.5)) : 0.0;
 }
 

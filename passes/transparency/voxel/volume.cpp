@@ -94,44 +94,73 @@ void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& para
         .fixes("sampling", params.sampling);
 }
 
-Volume create_volume(Graph& graph, const VoxelParams& params, const Extent& low, const DepthCurve& curve,
-                     std::uint32_t channels) {
-    const ColumnFormat format = column_format(params);
-    const Extent columns{low.width, low.height * channels};
+constexpr const char* voxels_name = "voxels";
+constexpr const char* warp_name = "depth warp";
+
+/// All but images and buffers.
+Volume described(const FrameImages& images, const VoxelParams& params) {
+    const std::uint32_t channels = channel_count(params.channels, *images.features);
+    const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
+    const DepthCurve curve = depth_curve(params, voxel_range(params, *images.recorded));
+    return {.divisor = divisor,
+            .field_bits = column_format(params).field_bits,
+            .push = push_of(params, curve, prepass_extent(images.extent, divisor), channels)};
+}
+
+void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
+    const VoxelPush& push = volume.push;
+    const Extent columns{push.width, push.height * push.channels};
     const auto tiles_along = [](std::uint32_t length) { return std::uint64_t{(length + tile_size - 1) / tile_size}; };
     const std::uint64_t noted = params.splat == splat_overflow_minimum ? std::uint64_t{columns.width} * columns.height : 1;
-    const std::uint64_t marks = tiles_along(low.width) * tiles_along(low.height) * ((format.words() + 31) / 32);
+    const std::uint64_t marks = tiles_along(push.width) * tiles_along(push.height) * ((push.words + 31) / 32);
     constexpr std::uint64_t header = sizeof(WarpHeader) / sizeof(std::uint32_t), entries = most_virtual_slices;
     const std::uint64_t warp = params.volume == volume_adaptive ? header + entries + params.slices : header + 1;
-    return {.voxels = graph.create("voxels", Shape{.extent = columns, .format = Format::r32ui, .layers = format.words()}),
-            .overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t)),
-            .warp = zeros(graph, "depth warp", warp),
-            .tiles = zeros(graph, "voxel tiles", params.skipping ? marks : 1),
-            .field_bits = format.field_bits,
-            .push = push_of(params, curve, low, channels)};
+    volume.voxels = graph.create(voxels_name, Shape{.extent = columns, .format = Format::r32ui, .layers = push.words});
+    volume.overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t));
+    volume.warp = zeros(graph, warp_name, warp);
+    volume.tiles = zeros(graph, "voxel tiles", params.skipping ? marks : 1);
+    volume.zero_slices = graph.create("zero slices", Shape{.extent = columns, .format = Format::r32ui});
+}
+
+DrawPass splat(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
+    const std::string shader = "transparency/voxel/splat";
+    if (images.depth) {
+        const FrameImages low = prepass_images(graph, images, divisor);
+        return draw_events(graph, shader, low.transparent, low);
+    }
+    FrameImages low = images;
+    low.extent = prepass_extent(images.extent, divisor);
+    low.samples = 1;
+    return draw_events_untested(graph, shader, low.transparent, low).within(low.extent);
 }
 
 }  // namespace
 
+Volume earlier_volume(const Graph& graph, const FrameImages& images, const VoxelParams& params) {
+    Volume volume = described(images, params);
+    volume.voxels = graph.find_image(voxels_name);
+    volume.warp = graph.find_buffer(warp_name);
+    return volume;
+}
+
 Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelParams& params) {
-    const std::uint32_t channels = channel_count(params.channels, *images.features);
-    const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
-    const FrameImages low = prepass_images(graph, images, divisor);
-    const DepthCurve curve = depth_curve(params, voxel_range(params, *images.recorded));
-    Volume volume = create_volume(graph, params, low.extent, curve, channels);
-    volume.divisor = divisor;
-    const Extent columns{low.extent.width, low.extent.height, channels};
+    Volume volume = described(images, params);
+    create_parts(graph, params, volume);
+    const Extent columns{volume.push.width, volume.push.height, volume.push.channels};
 
     if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);
     if (params.skipping) find_tiles(graph, images, params, volume);
     ComputePass clear = graph.compute("transparency/voxel/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);
-    bind_warp(volume, params, bind_columns(volume, params, draw_events(graph, "transparency/voxel/splat", low.transparent, low)))
+    bind_warp(volume, params, bind_columns(volume, params, splat(graph, images, volume.divisor)))
         .updates("voxels", volume.voxels)
         .fixes("splatting", params.splatting)
         .fixes("rounding", params.rounding);
     ComputePass integrate = graph.compute("transparency/voxel/integrate.comp");
-    bind_tiles(volume, params, integrate).updates("voxels", volume.voxels).over(columns);
+    bind_tiles(volume, params, integrate)
+        .updates("voxels", volume.voxels)
+        .stores("zero_slices", volume.zero_slices)
+        .over(columns);
     return volume;
 }
 
@@ -143,9 +172,16 @@ DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& p
         .fixes("sampling", params.sampling);
 }
 
+ComputePass& read_slices(ComputePass& pass, const Volume& volume, const VoxelParams& params) {
+    return bind_warp(volume, params, pass).push(volume.push);
+}
+
+double slices_to_zero(const VoxelParams& params) {
+    constexpr double by_sampling[] = {1, 2.5, 4};
+    return by_sampling[params.sampling] - double(params.shift);
+}
+
 Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t shown) {
-    // From the integral being full in one slice to all that a read weighs being full (transparency chapter 6.9).
-    constexpr float empty_in_front[] = {1, 2.5, 4};
     Volume volume = integrated_volume(graph, images, params);
     Image picture = graph.create("voxel view", Shape{.extent = images.extent, .format = Format::rgba32f});
     ComputePass pass = graph.compute("transparency/voxel/view.comp");
@@ -153,7 +189,7 @@ Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& pa
         .samples("voxels", volume.voxels)
         .stores("picture", picture)
         .fixes("shown", shown)
-        .fixes("empty_in_front", empty_in_front[params.sampling] - params.shift)
+        .fixes("empty_in_front", static_cast<float>(slices_to_zero(params)))
         .over(images.extent);
     return picture;
 }

@@ -10,21 +10,30 @@
 namespace strata::transparency {
 
 struct Volume {
-    Image voxels;     ///< r32ui: layer = word of a column; channels one below the other
-    Buffer overflow;  ///< a word per column; one word where nothing notes overflows
-    Buffer warp;      ///< WarpHeader and its table; a header of zeros where nothing is adaptive
-    Buffer tiles;     ///< a bit per tile and word of its columns; one word where nothing is skipped
+    Image voxels;       ///< r32ui: layer = word of a column; channels one below the other
+    Buffer overflow;    ///< a word per column; one word where nothing notes overflows
+    Buffer warp;        ///< WarpHeader and its table; a header of zeros where nothing is adaptive
+    Buffer tiles;       ///< a bit per tile and word of its columns; one word where nothing is skipped
+    Image zero_slices;  ///< r32ui, of each column: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;
     VoxelPush push;
 };
 
-/// Holds inclusive sums instead of extinction, where a tile uses a slice; anything elsewhere.
+/// Holds inclusive sums instead of extinction, where a tile uses a slice; anything elsewhere. Where the frame has no opaque depth
+/// yet, of all that is transparent.
 Volume integrated_volume(Graph&, const FrameImages&, const VoxelParams&);
 
-/// To a step that reads the integral at fragments' depths.
-DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&);
+/// The one integrated_volume() made at an earlier stage of the frame, to be read.
+Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 
-/// One of view_zero_depth, view_overflow, view_thickness.
+/// To a step that reads the integral at fragments' depths, and to one that knows slices' depths.
+DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&);
+ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
+
+/// From the integral being full in a slice to all that a filtered read weighs being full, in slices (transparency chapter 6.9).
+double slices_to_zero(const VoxelParams&);
+
+/// One of view_saturation_depth, view_overflow, view_thickness.
 Image volume_view(Graph&, const FrameImages&, const VoxelParams&, std::uint32_t shown);
 
 }  // namespace strata::transparency

@@ -8,6 +8,7 @@
 #include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/ratios.h"
 #include "passes/transparency/voxel/volume.h"
+#include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
 namespace {
@@ -23,15 +24,27 @@ constexpr std::string_view volumes[] = {"dense", "adaptive"};
 constexpr std::string_view skippings[] = {"off", "on"};
 constexpr std::string_view ranges[] = {"frame", "fixed"};
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth", "sixteenth"};
+constexpr std::string_view preparations[] = {"after_opaque", "before_opaque"};
+constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_screen"};
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
-    const Volume volume = integrated_volume(graph, images, params);
+    const bool earlier = !made_after_opaque(params, *images.features);
+    const Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
+    FrameImages drawn_before = images;
+    drawn_before.depth = earlier ? earlier_culled_depth(graph) : culled_depth(graph, images, volume, params);
     FunctionSums drawn = create_sums(graph, images, params.accumulation);
-    draw_into(graph, "transparency/voxel/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+    draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn, [&](DrawPass& draw, Resolution resolution) {
         read_volume(draw, volume, params).fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
     });
     return drawn;
+}
+
+/// Before the opaque draws: from which depth on nothing is seen of them, either.
+void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = settings.as<VoxelParams>();
+    if (made_after_opaque(params, *images.features)) return;
+    images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
 }
 
 std::vector<Param> code_params() {
@@ -144,6 +157,23 @@ std::vector<Param> params() {
         param<&VoxelParams::channels>(channels_row),
         param<&VoxelParams::resolution>(resolution),
         param<&VoxelParams::accumulation>(accumulation_row),
+        param<&VoxelParams::culling>(
+            {.name = "culling",
+             .low = 0,
+             .high = 3,
+             .fallback = culling_quads_16,
+             .help = "of fragments of which nothing is seen: the depth test is against quads of 16 or 32 pixels, or a depth "
+                     "written in every pixel; the picture is the same to the last bit",
+             .choices = cullings}),
+        param<&VoxelParams::prepared>(
+            {.name = "prepared",
+             .low = 0,
+             .high = 1,
+             .fallback = prepared_after_opaque,
+             .help =
+                 "when the volume is made; before opaque draws they are culled, too, unless soft particles or distortion need "
+                 "what is behind",
+             .choices = preparations}),
     };
     rows.insert(rows.end(), places.begin(), places.end());
     return rows;
@@ -166,6 +196,8 @@ std::vector<Counter> counters() {
         counter<&VoxelCounters::slices_used>({.name = "slices used", .help = "of an adaptive volume: with something in them"}),
         counter<&VoxelCounters::virtual_slices>(
             {.name = "virtual slices", .help = "that cut all of the range where slices are adaptive"}),
+        counter<&VoxelCounters::zero_tiles>({.name = "zero tiles", .help = "tiles of pixels behind which nothing is seen"}),
+        counter<&VoxelCounters::unseen>({.name = "unseen", .help = "fragments shaded of which nothing is seen"}),
     };
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;
@@ -176,9 +208,21 @@ Image picture(Graph& graph, FrameImages& images, const Settings& settings) {
     return volume_view(graph, images, settings.as<VoxelParams>(), shown);
 }
 
+template <Image (*view)(Graph&, const FrameImages&, const VoxelParams&)>
+Image zero_picture(Graph& graph, FrameImages& images, const Settings& settings) {
+    return view(graph, images, settings.as<VoxelParams>());
+}
+
 std::vector<DebugView> views() {
     return {
-        {"zero depth", "depth from which nothing is seen, in every filtered read", "m", 0, 50, picture<view_zero_depth>},
+        {"zero depth", "depth from which nothing is seen in the whole tile; 0 where something always is", "m", 0, 50,
+         zero_picture<zero_depth_view>},
+        {"culled",
+         "red: fragments per pixel that culling keeps from being shaded; green: samples of whose opaque surface or background "
+         "nothing is seen",
+         "fragments", 0, 50, zero_picture<culled_view>},
+        {"saturation depth", "depth from which nothing is seen in the column, in every filtered read", "m", 0, 50,
+         picture<view_saturation_depth>},
         {"overflow", "the nearest slice that overflowed, or all slices if none did", "slices", 0, 128, picture<view_overflow>},
         {"thickness", "of the nearest slice that holds something", "m", 0, 1, picture<view_thickness>},
         normalization_row<sums>(),
@@ -216,6 +260,7 @@ Technique voxel() {
                            {"H13", 0.231, "slices at 150 m are 6.6 m thick"}},
         .ratios = voxel_ratios(),
         .add = add_function<sums>,
+        .also = {{.at = Stage::extinction, .add = prepare}},
         .model = voxel_model,
         .tolerance = {.rmse = 5e-4,
                       .worst = 1e-2,

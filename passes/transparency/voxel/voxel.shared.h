@@ -38,8 +38,18 @@ const uint volume_adaptive = 1u;
 const uint range_frame = 0u;
 const uint range_fixed = 1u;
 
+// What keeps fragments of which nothing is seen from being shaded: quads of so many pixels, or a depth written in every pixel.
+const uint culling_off = 0u;
+const uint culling_quads_16 = 1u;
+const uint culling_quads_32 = 2u;
+const uint culling_full_screen = 3u;
+
+// When the volume is made.
+const uint prepared_after_opaque = 0u;
+const uint prepared_before_opaque = 1u;
+
 // What view.comp shows.
-const uint view_zero_depth = 0u;
+const uint view_saturation_depth = 0u;
 const uint view_overflow = 1u;
 const uint view_thickness = 2u;
 
@@ -62,6 +72,8 @@ struct VoxelParams {
     uint channels;
     uint resolution;
     uint accumulation;
+    uint culling;
+    uint prepared;
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
@@ -108,6 +120,8 @@ struct VoxelCounters {
     uint integrated;
     uint slices_used;
     uint virtual_slices;
+    uint zero_tiles;
+    uint unseen;
 };
 
 // Columns of a tile, each way.
@@ -117,7 +131,7 @@ const uint tile_size = 8u;
 const float depth_slack = 2e-6f;
 const float ray_slack = 1e-5f;
 const float steepest = 1000.0f;
-// Of columns in which no slice overflowed.
+// Of columns in which no slice overflowed, or none is full.
 const uint no_overflow = 0xffffffffu;
 // A filtered integral is full from here on, in M: weights that add up to 1 do so up to rounding.
 const float full_share = 0.99999f;

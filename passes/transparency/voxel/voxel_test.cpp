@@ -1,7 +1,8 @@
-// Facts about voxel transparency (transparency chapter 6: 6.2 to 6.7, and of 6.17 V1 to V5, V7 and V8).
+// Facts about voxel transparency (transparency chapter 6: 6.2 to 6.7, and of 6.17 V1 to V5, V7, V8 and V11).
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/volume.h"
 #include "tests/support/layers.h"
 
 #include <algorithm>
@@ -261,6 +262,26 @@ TEST(VoxelSampling, ReadsNothingInFrontOfTheVolume) {
     const std::vector<double> integral = step_at(0, splatting_linear);
     for (const std::uint32_t sampling : {sampling_point, sampling_linear, sampling_bicubic})
         EXPECT_EQ(sampled_integral(integral, sampling_bias(sampling), sampling), 0);
+}
+
+TEST(VoxelSampling, ReadsNothingButFullSlicesFromTheChaptersDistanceOn) {
+    std::mt19937 random(5);
+    for (const std::uint32_t sampling : {sampling_point, sampling_linear, sampling_bicubic})
+        for (int trial = 0; trial < 200; ++trial) {
+            const ColumnFormat format = format_of(splat_overflow_minimum, bits_8, 32);
+            Column column(format);
+            for (int i = 0; i < 12; ++i)
+                column.add(static_cast<std::uint32_t>(4 + random() % 16), static_cast<std::uint32_t>(40 + random() % 80));
+            const std::vector<std::uint32_t> codes = column.integral();
+            const auto full = double(std::ranges::find(codes, 255u) - codes.begin());
+            const auto through = [&](double s) {
+                const std::vector<double> integral(codes.begin(), codes.end());
+                return format.transmittance(sampled_integral(integral, s + sampling_bias(sampling), sampling));
+            };
+            const double zero = full + slices_to_zero({.sampling = sampling});
+            EXPECT_GT(through(zero - .5), 0);
+            for (double s = zero; s < 32; s += .01) ASSERT_EQ(through(s), 0) << sampling;
+        }
 }
 
 struct Settled {

@@ -1,0 +1,199 @@
+// Fragments that nobody sees are not shaded, and the picture is the same to the last bit.
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "passes/transparency/function_model.h"
+#include "passes/transparency/voxel/column.h"
+#include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/volume.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using namespace transparency;
+
+const std::string voxel = "transparency/voxel";
+constexpr const char* cullings[] = {"culling=quads_16", "culling=quads_32", "culling=full_screen"};
+
+Run run_of(Request request, std::vector<std::string> sets, const char* culling) {
+    request.uses = {voxel};
+    request.sets = std::move(sets);
+    request.sets.emplace_back(culling);
+    request.outputs = {"color"};
+    return must(session_of_scenarios().run(request));
+}
+
+std::uint64_t count_of(const Run& run, std::string_view counter) {
+    return std::ranges::find(run.counters, counter, &CounterRecord::name)->value;
+}
+
+std::size_t differing_pixels(const HostImage& a, const HostImage& b) {
+    constexpr std::size_t pixel = 16;  // of rgba32f
+    std::size_t differing = 0;
+    for (std::size_t at = 0; at < a.texels.size(); at += pixel)
+        differing += !std::equal(a.texels.begin() + at, a.texels.begin() + at + pixel, b.texels.begin() + at);
+    return differing;
+}
+
+/// Fragments that culling keeps from being shaded.
+std::uint64_t expect_equal(const Request& request, const std::vector<std::string>& sets, std::span<const char* const> ways) {
+    const Run all = run_of(request, sets, "culling=off");
+    std::uint64_t least = count_of(all, "unseen");
+    for (const char* way : ways) {
+        const Run culled = run_of(request, sets, way);
+        EXPECT_EQ(differing_pixels(culled.images.at("color"), all.images.at("color")), 0u)
+            << way << " " << testing::PrintToString(sets);
+        EXPECT_EQ(count_of(culled, "drawn"), count_of(all, "drawn")) << way;
+        least = std::min(least, count_of(all, "unseen") - count_of(culled, "unseen"));
+    }
+    return least;
+}
+
+TEST(VoxelCulling, ChangesNoPixelOfAnyScenario) {
+    const std::string_view samplings[] = {"point", "linear", "bicubic"}, resolutions[] = {"full", "quarter"};
+    std::size_t turn = 0;
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const std::string_view resolution : resolutions)
+            for (const std::uint32_t samples : {1u, 4u}) {
+                const std::string_view sampling = samplings[turn++ % 3];
+                SCOPED_TRACE(scenario);
+                expect_equal(
+                    on_scenario(scenario, samples),
+                    {fmt::format("sampling={}", sampling), fmt::format("splatting={}", sampling == "point" ? "point" : "linear"),
+                     fmt::format("resolution={}", resolution)},
+                    cullings);
+            }
+}
+
+TEST(VoxelCulling, LeavesAFifthOfSmokeUnshaded) {
+    Request request = on_scenario("smoke_grenade");
+    const auto shaded = [&](const char* culling) {
+        const auto run = run_of(request, {}, culling);
+        return double(count_of(run, "drawn") + count_of(run, "unseen"));
+    };
+    fmt::print("off {} 16 {} 32 {} full {}\n", shaded("culling=off"), shaded("culling=quads_16"), shaded("culling=quads_32"),
+               shaded("culling=full_screen"));
+    for (const char* name : {"particle_storm", "explosion", "two_hundred_layers", "glass_and_smoke"}) {
+        request = on_scenario(name);
+        fmt::print("{} off {} 16 {} 32 {}\n", name, shaded("culling=off"), shaded("culling=quads_16"),
+                   shaded("culling=quads_32"));
+    }
+}
+
+TEST(VoxelCulling, ChangesNoPixelAlongACameraPath) {
+    std::uint64_t unshaded = 0;
+    for (int frame = 0; frame < 64; ++frame) {
+        Request request = on_scenario("smoke_grenade");
+        request.extent_divisor *= 2;
+        request.eye = {.dolly = .02 * frame, .pan = .004 * frame};
+        SCOPED_TRACE(frame);
+        unshaded += expect_equal(request, {}, std::array{"culling=quads_16"});
+    }
+    EXPECT_GT(unshaded, 0u);
+}
+
+/// The grenade's smoke with edges where it meets what is opaque: soft ones need what is behind.
+std::unique_ptr<Session> hard_smoke(std::uint32_t samples) {
+    Frame frame = scenario_frames("smoke_grenade", samples).front();
+    frame.view.width = 160, frame.view.height = 90;
+    for (Emitter& emitter : frame.emitters) emitter.soft_depth_fade = 0;
+    return must(Session::open({frame}, {.validation = true}));
+}
+
+Request prepared(const char* when, std::vector<std::string> sets = {}) {
+    sets.emplace_back(when);
+    return {.uses = {voxel}, .sets = std::move(sets), .outputs = {"color", "depth_layers"}};
+}
+
+TEST(VoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThrough) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const auto session = hard_smoke(samples);
+        const ReferenceImage after = in_double(must(session->run(prepared("prepared=after_opaque"))).images.at("color"));
+        const ReferenceImage before = in_double(must(session->run(prepared("prepared=before_opaque"))).images.at("color"));
+        double brightest = 0, largest = 0;
+        for (std::size_t i = 0; i < after.texels.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                brightest = std::max(brightest, after.texels[i][c]);
+                largest = std::max(largest, std::abs(after.texels[i][c] - before.texels[i][c]));
+            }
+        EXPECT_LE(largest / brightest, 1. / 255) << samples;
+    }
+}
+
+TEST(VoxelPreparedBeforeOpaque, IsWhatTheModelSays) {
+    const Technique& technique = *must(find_technique(voxel));
+    for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
+        const Accuracy accuracy = must(hard_smoke(4)->judge(prepared("prepared=before_opaque", {resolution}), technique.stage));
+        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << resolution;
+        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << resolution;
+    }
+}
+
+TEST(VoxelPreparedBeforeOpaque, ShadesFewerOpaqueFragmentsAndLeavesTheirDepth) {
+    const auto session = hard_smoke(1);
+    const std::array requests{prepared("prepared=after_opaque"), prepared("prepared=before_opaque")};
+    const auto runs = must(session->time(requests, 1));
+    EXPECT_LT(runs[1].stage_invocations.at("gbuffer"), runs[0].stage_invocations.at("gbuffer"));
+    const ReferenceImage after = in_double(runs[0].images.at("depth_layers")),
+                         before = in_double(runs[1].images.at("depth_layers"));
+    std::size_t hidden = 0;
+    for (std::size_t i = 0; i < after.texels.size(); ++i) {
+        if (before.texels[i].x == after.texels[i].x) continue;
+        EXPECT_EQ(before.texels[i].x, 0);
+        ++hidden;
+    }
+    EXPECT_GT(hidden, 0u);
+}
+
+TEST(VoxelPreparedBeforeOpaque, WaitsForOpaqueDepthWhereParticlesAreSoft) {
+    Request request = on_scenario("smoke_grenade");
+    const auto after = run_of(request, {}, "culling=quads_16");
+    const auto before = run_of(request, {"prepared=before_opaque"}, "culling=quads_16");
+    EXPECT_EQ(before.images.at("color").texels, after.images.at("color").texels);
+}
+
+/// Pixels of which culling from so many slices behind the full one would take something away that is seen.
+std::size_t pixels_losing_something(const FragmentLists& lists, const Frame& frame, const VoxelParams& params, double slices) {
+    const View& view = frame.view;
+    const ColumnFormat format = column_format(params);
+    const DepthCurve curve = depth_curve(params, voxel_range(params, frame));
+    std::size_t losing = 0;
+    for (std::uint32_t pixel = 0; pixel < view.width * view.height; ++pixel) {
+        const std::span<const Fragment> fragments = lists.at(pixel % view.width, pixel / view.width);
+        Column column(format);
+        for (const Fragment& f : fragments)
+            column.add(split_code(format, slice_place(curve.slice_of(f.depth), format.slices, params.splatting),
+                                  format.codes(channel_depth(f, 0, 1)), .5));
+        const std::vector<std::uint32_t> codes = column.integral();
+        const std::vector<double> integral(codes.begin(), codes.end());
+        const auto full = std::ranges::find(codes, format.full_code) - codes.begin();
+        losing += std::ranges::any_of(fragments, [&](const Fragment& f) {
+            const double s = curve.slice_of(f.depth), at = s + sampling_bias(params.sampling);
+            return s >= double(full) + slices && format.transmittance(sampled_integral(integral, at, params.sampling)) > 0;
+        });
+    }
+    return losing;
+}
+
+TEST(VoxelCulling, FromTheFullSliceItselfWouldTakeAwayWhatIsSeen) {
+    const Request request = on_scenario("smoke_grenade");
+    const FragmentLists& lists = *must(session_of_scenarios().transparent_fragments(request));
+    Frame frame = must(session_of_scenarios().frame(request.frame));
+    frame.view.width /= request.extent_divisor, frame.view.height /= request.extent_divisor;
+    const Settings settings(must(find_technique(voxel))->params);
+    for (const std::uint32_t sampling : {sampling_point, sampling_linear, sampling_bicubic}) {
+        VoxelParams params = settings.as<VoxelParams>();
+        params.volume = volume_dense;
+        params.sampling = sampling;
+        params.splatting = sampling == sampling_point ? splatting_point : splatting_linear;
+        EXPECT_GT(pixels_losing_something(lists, frame, params, 0), 0u) << sampling;
+        EXPECT_EQ(pixels_losing_something(lists, frame, params, slices_to_zero(params)), 0u) << sampling;
+    }
+}
+
+}  // namespace
+}  // namespace strata
