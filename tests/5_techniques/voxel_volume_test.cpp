@@ -62,6 +62,11 @@ TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
         {"splat=words", "bits=32", "channels=mono", "resolution=quarter", "sampling=point", "splatting=point"},
         {"volume=dense", "slices=100", "range=fixed", "resolution=half"},
         {"volume=adaptive", "slices=40", "splatting=point", "sampling=point", "curve=linear", "linear=2"},
+        {"bits=10", "slices=50", "rounding=stochastic"},
+        {"packing=rgb10"},
+        {"packing=rgb10", "bits=16", "splat=saturating", "resolution=quarter", "slices=67"},
+        {"packing=rgb10", "bits=10", "splat=wrapping", "sampling=bicubic", "rounding=stochastic"},
+        {"packing=rgb10", "bits=32", "skipping=off", "volume=dense", "splatting=point", "sampling=point"},
     };
     for (const std::vector<std::string>& sets : combinations) {
         Request request = on_scenario("glass_and_smoke", 4);
@@ -90,6 +95,7 @@ TEST(VoxelVolume, LeavesOutOnlyWhatNobodyReads) {
     expect_same_color(1, {"skipping=off", "resolution=quarter", "sampling=bicubic", "slices=70"}, {"skipping=on"});
     expect_same_color(1, {"skipping=off", "resolution=half", "volume=dense", "shift=2", "bits=16"}, {"skipping=on"});
     expect_same_color(1, {"skipping=off", "splatting=point", "sampling=point", "shift=-2", "slices=1024"}, {"skipping=on"});
+    expect_same_color(1, {"skipping=off", "packing=rgb10", "channels=rgb", "resolution=half", "slices=77"}, {"skipping=on"});
 }
 
 TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
@@ -117,6 +123,28 @@ TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
             << scenario << " in " << slices;
     }
     EXPECT_GE(finer, 5u);
+}
+
+const char* const colored_scenarios[] = {"glass_and_smoke", "red_and_green_glass"};
+
+TEST(VoxelVolume, AddsThreeChannelsAtOnceWhereTheyShareAWord) {
+    for (const char* scenario : colored_scenarios) {
+        const auto session = scenario_session(scenario, 1);
+        const std::vector<std::string> point = {"splatting=point", "sampling=point"};
+        const auto planes = run_of(*session, point);
+        const auto packed = run_of(*session, {point[0], point[1], "packing=rgb10"});
+        EXPECT_GT(count_of(packed, "atomics"), 0u) << scenario;
+        EXPECT_EQ(count_of(planes, "columns"), 3 * count_of(packed, "columns")) << scenario;
+        EXPECT_LE(2 * count_of(packed, "atomics"), count_of(planes, "atomics")) << scenario;
+    }
+}
+
+TEST(VoxelVolume, IsThatOfThreePlanesWhereNothingOverflows) {
+    for (const char* scenario : colored_scenarios) {
+        const auto session = scenario_session(scenario, 4);
+        for (const char* splat : {"splat=overflow_minimum", "splat=saturating"})
+            EXPECT_EQ(color_of(*session, {splat, "packing=rgb10"}), color_of(*session, {splat})) << scenario << splat;
+    }
 }
 
 TEST(VoxelVolume, ShowsWhereItOverflowsAndFromWhereNothingIsSeen) {

@@ -21,11 +21,11 @@ struct Corners {
     vec4 weight;
 };
 
-Corners corners_of(uint channel) {
+Corners corners() {
     const vec2 extent = vec2(push.width, push.height);
     const vec2 place = drawn_place() * extent - (filters != 0u ? 0.5 : 0.0);
     const vec2 first = floor(place), share = place - first, rest = 1.0 - share;
-    return Corners(column_of(uvec2(max(first, 0.0)), channel), column_of(uvec2(min(first + 1.0, extent - 1.0)), channel),
+    return Corners(ivec2(max(first, 0.0)), ivec2(min(first + 1.0, extent - 1.0)),
                    vec4(rest.x * rest.y, share.x * rest.y, rest.x * share.y, share.x * share.y));
 }
 
@@ -33,16 +33,23 @@ float code_at(ivec2 column, uint slice) {
     return float(field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)));
 }
 
+// Of the channels that there are, or of one for all of them.
+vec3 codes_at(ivec2 texel, uint slice) {
+    if (packs_colors != 0u) return vec3(color_fields(texelFetch(voxels, ivec3(texel, slice), 0).r));
+    const float first = code_at(texel, slice);
+    if (push.channels == 1u) return vec3(first);
+    return vec3(first, code_at(column_of(uvec2(texel), 1u), slice), code_at(column_of(uvec2(texel), 2u), slice));
+}
+
 // At a virtual slice: 0 in front of the volume, the last slice's behind.
-float integral_at(Corners at, int slice) {
+vec3 integral_at(Corners at, int slice) {
     const int physical = physical_slice(slice);
     const uint k = uint(max(physical, 0));
-    const float near = code_at(at.low, k);
-    float sum = near;
+    vec3 sum = codes_at(at.low, k);
     if (filters != 0u)
-        sum = dot(at.weight, vec4(near, code_at(ivec2(at.high.x, at.low.y), k), code_at(ivec2(at.low.x, at.high.y), k),
-                                  code_at(at.high, k)));
-    return physical < 0 ? 0.0 : sum;
+        sum = at.weight.x * sum + at.weight.y * codes_at(ivec2(at.high.x, at.low.y), k) +
+              at.weight.z * codes_at(ivec2(at.low.x, at.high.y), k) + at.weight.w * codes_at(at.high, k);
+    return physical < 0 ? vec3(0.0) : sum;
 }
 
 // Of the values around a place: two, or the four of a cubic B-spline.
@@ -55,23 +62,26 @@ vec4 weights(float f) {
 
 const uint values_read = 1u << sampling;
 
-float transmittance(uint channel, float at) {
+float transmittance(float codes) {
+    const float per_depth = packs_colors != 0u ? push.color_codes_per_depth : push.codes_per_depth;
+    return codes >= full_share * float(full_integral()) ? 0.0 : exp(-codes / per_depth);
+}
+
+vec3 transmittance_at(float at) {
     const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
     const float first = sampling == sampling_bicubic ? k - 1.0 : k;
     const vec4 weight = weights(center - k);
-    const Corners corners = corners_of(channel);
-    float codes = 0.0;
-    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(corners, int(first) + int(i));
-    return codes >= full_share * float(push.full_code) ? 0.0 : exp(-codes / push.codes_per_depth);
+    const Corners around = corners();
+    vec3 codes = vec3(0.0);
+    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(around, int(first) + int(i));
+    const float red = transmittance(codes.r);
+    return push.channels == 1u ? vec3(red) : vec3(red, transmittance(codes.g), transmittance(codes.b));
 }
 
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
-    const float at = slice_of_depth(event.z) + push.bias;
-    vec3 through = vec3(0.0);
-    for (uint channel = 0u; channel < push.channels; ++channel) through[channel] = transmittance(channel, at);
-    if (push.channels == 1u) through = through.rrr;
+    const vec3 through = transmittance_at(slice_of_depth(event.z) + push.bias);
     if (through == vec3(0.0)) {  // adds nothing, optical depth included: whether it is culled makes no difference
         atomicAdd(counters.unseen, 1u);
         discard;

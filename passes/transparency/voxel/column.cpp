@@ -27,7 +27,7 @@ double ColumnFormat::transmittance(double codes) const {
 }
 
 ColumnFormat column_format(const VoxelParams& params) {
-    constexpr std::uint32_t field_bits[] = {8, 16, 32}, full_codes[] = {255, 65535, (1u << 20) - 1};
+    constexpr std::uint32_t field_bits[] = {8, 10, 16, 32}, full_codes[] = {255, 1023, 65535, (1u << 20) - 1};
     return {.slices = params.slices,
             .splat = params.splat,
             .field_bits = params.splat == splat_words ? 32 : field_bits[params.bits],

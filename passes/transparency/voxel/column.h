@@ -26,8 +26,8 @@ struct ColumnFormat {
     /// Of an integral in codes: from M on, nothing.
     double transmittance(double codes) const;
 };
-/// 8 and 16 bits fill a field up to 255 and 65535. 32 bits are a slice's whole word, where M = 2^20 - 1 leaves room for 4096
-/// full additions and is exact in a float.
+/// 8, 10 and 16 bits fill a field up to 255, 1023 and 65535. 32 bits are a slice's whole word, where M = 2^20 - 1 leaves room for
+/// 4096 full additions and is exact in a float.
 ColumnFormat column_format(const VoxelParams&);
 
 /// Which slices a place belongs to: 1 - share to `slice` and share to the one behind.
@@ -49,6 +49,7 @@ class Column {
 public:
     explicit Column(ColumnFormat format) : format_(format), words_(format.words(), 0) {}
 
+    const ColumnFormat& format() const { return format_; }
     void add(std::uint32_t slice, std::uint32_t code);
     void add(SplitCode);
 

@@ -7,6 +7,7 @@
 #include "passes/transparency/function_model.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/hash.shared.h"
+#include "passes/transparency/voxel/color_column.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
@@ -30,9 +31,13 @@ std::vector<Origin> origins_of(const Frame& frame) {
     return origins;
 }
 
+const Origin& origin_of(std::span<const Origin> origins, const Fragment& f) {
+    return *--std::ranges::upper_bound(origins, f.submission, {}, &Origin::first_triangle);
+}
+
 double rounding_of(const VoxelParams& params, std::span<const Origin> origins, const Fragment& f, glm::uvec2 texel) {
     if (params.rounding == rounding_nearest) return .5;
-    const Origin& origin = *--std::ranges::upper_bound(origins, f.submission, {}, &Origin::first_triangle);
+    const Origin& origin = origin_of(origins, f);
     return random_rounding(texel, origin.draw, f.submission - origin.first_triangle);
 }
 
@@ -60,13 +65,71 @@ Slices slices_of(const VoxelParams& params, const Frame& frame) {
     return {curve, depth_warp(params, frame, curve)};
 }
 
+/// Fills columns from the fragments of a texel.
+struct Splatter {
+    const Frame* frame;
+    VoxelParams params;
+    std::size_t channels;
+    Slices slices;
+    std::vector<Origin> origins;
+
+    SplitCode split(const ColumnFormat& format, const Fragment& f, glm::uvec2 texel, std::size_t channel) const {
+        SlicePlace place = slice_place(slices.place_of(f), slices.warp.virtual_slices(), params.splatting);
+        place.slice = static_cast<std::uint32_t>(std::max(slices.warp.physical(static_cast<int>(place.slice)), 0));
+        const double codes = format.codes(channel_depth(f, channel, channels));
+        return split_code(format, place, codes, rounding_of(params, origins, f, texel));
+    }
+
+    /// Of the slices of a channel, then of those of the next.
+    std::vector<double> planes(std::span<const Fragment> fragments, glm::uvec2 texel) const {
+        std::vector<double> all;
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            Column column(column_format(params));
+            for (const Fragment& f : fragments) column.add(split(column_format(params), f, texel, channel));
+            const std::vector<std::uint32_t> integral = column.integral();
+            all.insert(all.end(), integral.begin(), integral.end());
+        }
+        return all;
+    }
+
+    /// The same, of what is grey and of words of three channels.
+    std::vector<double> packed(std::span<const Fragment> fragments, glm::uvec2 texel) const {
+        Column grey(column_format(params));
+        ColorColumn colors(color_format(params));
+        for (const Fragment& f : fragments) {
+            if (source_of(*frame, origin_of(origins, f).draw) == source_grey) {
+                grey.add(split(column_format(params), f, texel, 0));
+                continue;
+            }
+            glm::uvec3 nearer, farther;
+            SplitCode code;
+            for (int c = 0; c < 3; ++c) {
+                code = split(color_format(params), f, texel, static_cast<std::size_t>(c));
+                nearer[c] = code.nearer, farther[c] = code.farther;
+            }
+            colors.add(code.slice, nearer);
+            if (farther != glm::uvec3(0)) colors.add(code.slice + 1, farther);
+        }
+        std::vector<double> all;
+        const std::vector<glm::uvec3> integral = colors.integral(grey);
+        for (int c = 0; c < 3; ++c)
+            for (const glm::uvec3& sums : integral) all.push_back(sums[c]);
+        return all;
+    }
+};
+
 }  // namespace
+
+std::uint32_t voxel_words(const VoxelParams& params, std::uint32_t channels) {
+    const std::uint32_t words = column_format(params).words();
+    return packs_colors(params, channels) ? params.slices + words : channels * words;
+}
 
 std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint32_t channels) {
     constexpr std::uint64_t largest = 512 << 20;
     std::uint32_t divisor = divisor_of(params.resolution);
     const auto bytes = [&](const Extent& low) {
-        return std::uint64_t{low.width} * low.height * channels * column_format(params).words() * sizeof(std::uint32_t);
+        return std::uint64_t{low.width} * low.height * voxel_words(params, channels) * sizeof(std::uint32_t);
     };
     while (bytes(prepass_extent(extent, divisor)) > largest) divisor *= 2;
     return divisor;
@@ -80,29 +143,17 @@ double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t trian
 
 ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
-    const std::size_t channels = channel_count(params.channels, frame_features(input.frame));
-    const ColumnFormat format = column_format(params);
+    const std::uint32_t channels = channel_count(params.channels, frame_features(input.frame));
+    const bool packs = packs_colors(params, channels);
+    const ColumnFormat format = packs ? color_format(params) : column_format(params);
     const Slices slices = slices_of(params, input.frame);
-    const std::vector<Origin> origins = origins_of(input.frame);
+    const Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame)};
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
-    PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels)),
-                         .unseen = PrepassModel::Unseen::adds_nothing};
+    PrepassModel prepass{.divisor = voxel_divisor(params, extent, channels), .unseen = PrepassModel::Unseen::adds_nothing};
     if (!made_after_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
-    prepass.project = [=, &origins](std::span<const Fragment> fragments, glm::uvec2 texel) {
-        std::vector<double> all;
-        for (std::size_t channel = 0; channel < channels; ++channel) {
-            Column column(format);
-            for (const Fragment& f : fragments) {
-                SlicePlace place = slice_place(slices.place_of(f), slices.warp.virtual_slices(), params.splatting);
-                place.slice = static_cast<std::uint32_t>(std::max(slices.warp.physical(static_cast<int>(place.slice)), 0));
-                const double codes = format.codes(channel_depth(f, channel, channels));
-                column.add(split_code(format, place, codes, rounding_of(params, origins, f, texel)));
-            }
-            const std::vector<std::uint32_t> integral = column.integral();
-            all.insert(all.end(), integral.begin(), integral.end());
-        }
-        return all;
+    prepass.project = [=, &splatter](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        return packs ? splatter.packed(fragments, texel) : splatter.planes(fragments, texel);
     };
     prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
         return [=](const Fragment& f) {

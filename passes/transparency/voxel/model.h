@@ -7,6 +7,8 @@
 
 namespace strata::transparency {
 
+/// Of a texel of the prepass, of all channels.
+std::uint32_t voxel_words(const VoxelParams&, std::uint32_t channels);
 /// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB.
 std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
 

@@ -17,21 +17,22 @@ void count_tile(uvec2 tile) {
         if (is_used(tile, slice / slices_per_word)) atomicAdd(counts[slice].tiles, 1u);
 }
 
-void count_full(ivec2 column, uvec2 tile) {
+void count_full(uvec2 texel, uint channel) {
     for (uint slice = 0u; slice < push.slices; ++slice) {
-        if (!is_used(tile, slice / slices_per_word)) continue;
-        if (field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)) != push.full_code) continue;
+        if (!is_used(texel / tile_size, slice / slices_per_word)) continue;
+        const uint word = texelFetch(voxels, integral_place(texel, channel, slice), 0).r;
+        if (integral_code(word, channel, slice) != full_integral()) continue;
         atomicAdd(counts[slice].saturated, 1u);
         return;
     }
 }
 
 void main() {
-    const uvec2 texel = gl_GlobalInvocationID.xy, tile = gl_WorkGroupID.xy;
+    const uvec2 texel = gl_GlobalInvocationID.xy;
+    const uint channel = gl_GlobalInvocationID.z;
     if (any(greaterThanEqual(texel, uvec2(push.width, push.height)))) return;
-    const ivec2 column = column_of(texel, gl_GlobalInvocationID.z);
-    if (gl_LocalInvocationIndex == 0u && gl_GlobalInvocationID.z == 0u) count_tile(tile);
-    const uint overflow = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
+    if (gl_LocalInvocationIndex == 0u && channel == 0u) count_tile(gl_WorkGroupID.xy);
+    const uint overflow = overflow_of(texel, channel);
     if (overflow != no_overflow) atomicAdd(counts[overflow].overflowed, 1u);
-    count_full(column, tile);
+    count_full(texel, channel);
 }

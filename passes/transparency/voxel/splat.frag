@@ -8,6 +8,7 @@
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
+#include "passes/transparency/voxel/sources.glsl"
 #include "passes/transparency/voxel/voxels.glsl"
 
 layout(early_fragment_tests) in;
@@ -66,6 +67,48 @@ void add(ivec2 column, uint slice, uvec2 codes) {
     }
 }
 
+// What fits above each field of a word of three channels.
+uint saturated_color(uint word, uvec3 codes) { return word + color_word(min(codes, color_full_code - color_fields(word))); }
+
+void add_color_saturating(ivec3 at, uvec3 codes) {
+    uint seen = imageLoad(voxels, at).r, expected = ~seen;
+    while (seen != expected && gl_SampleMaskIn[0] != 0) {
+        expected = seen;
+        seen = imageAtomicCompSwap(voxels, at, expected, saturated_color(expected, codes));
+    }
+}
+
+// All three channels at once.
+void add_color_to_word(ivec2 column, uint slice, uvec3 codes) {
+    const ivec3 at = ivec3(column, slice);
+    atomicAdd(counters.atomics, 1u);
+    if (splat == splat_saturating) {
+        add_color_saturating(at, codes);
+        return;
+    }
+    const uvec3 sums = color_fields(imageAtomicAdd(voxels, at, color_word(codes))) + codes;
+    for (uint channel = 0u; channel < 3u && splat == splat_overflow_minimum; ++channel)
+        if (sums[channel] > color_full_code)
+            atomicMin(nearest_overflow[index_of(ivec2(column.x, column.y + (1u + channel) * push.height))], slice);
+}
+
+// Integers for a slice and the one behind it. They add up to the code that is not split: rounding both would lose more.
+uvec2 split_code(float codes, uint full_code, float share, float r) {
+    const float most = min(codes, float(full_code));
+    const uint whole = min(uint(most + r), full_code), farther = min(uint(most * share + r), whole);
+    return uvec2(whole - farther, farther);
+}
+
+// A word each for the slice and the one behind it.
+void add_color(ivec2 column, uint slice, uvec2 codes[3]) {
+    const uvec3 nearer = uvec3(codes[0].x, codes[1].x, codes[2].x), farther = uvec3(codes[0].y, codes[1].y, codes[2].y);
+    if (nearer != uvec3(0u) && farther != uvec3(0u)) atomicAdd(counters.border_atomics, 1u);
+    for (uint i = 0u; i < 2u; ++i) {
+        const uvec3 part = i == 0u ? nearer : farther;
+        if (part != uvec3(0u)) add_color_to_word(column, slice + i, part);
+    }
+}
+
 // Whether a virtual slice, and where a share goes there the one behind it, is in the volume: coverage.glsl says so of every triangle.
 bool is_covered(int slice, float share) {
     const int physical = physical_slice(slice);
@@ -84,11 +127,14 @@ void main() {
         return;
     }
     const uint slice = uint(physical_slice(int(center)));
-    for (uint channel = 0u; channel < push.channels; ++channel) {
+    const bool colored = packs_colors != 0u && source_of(in_draw) == source_color;
+    const uint channels = packs_colors != 0u && !colored ? 1u : push.channels, full_code = colored ? color_full_code : push.full_code;
+    const float per_depth = colored ? push.color_codes_per_depth : push.codes_per_depth;
+    uvec2 codes[3];
+    for (uint channel = 0u; channel < channels; ++channel) {
         const float tau = channel_depth(event.t, push.channels == 1u ? luminance_channel : channel);
-        const float codes = min(tau * push.codes_per_depth, float(push.full_code));
-        const uint whole = min(uint(codes + r), push.full_code);
-        const uint farther = min(uint(codes * share + r), whole);
-        add(column_of(texel, channel), slice, uvec2(whole - farther, farther));
+        codes[channel] = split_code(tau * per_depth, full_code, share, r);
+        if (!colored) add(column_of(texel, channel), slice, codes[channel]);
     }
+    if (colored) add_color(ivec2(texel), slice, codes);
 }

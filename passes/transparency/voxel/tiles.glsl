@@ -1,20 +1,23 @@
-// Which words of a tile of columns are splatted to or read: a bit each. A shader that includes this declares `VoxelPush push` in its
-// push constants first.
+// Which words of a tile of columns are splatted to or read: a bit each, by each source where there are two. A shader that includes
+// this declares `VoxelPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_TILES_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_TILES_GLSL
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/voxel/voxel.shared.h"
+#include "passes/transparency/voxel/packing.glsl"
 
 layout(constant_id = 16) const uint skips = 1u;  // 0: nothing is known of tiles, so all of their words are used
 layout(set = 0, binding = 13, scalar) buffer Tiles { uint tile_bits[]; };
 
-uint first_bits_of(uvec2 tile) {
-    const uint across = (push.width + tile_size - 1u) / tile_size;
-    return (tile.y * across + tile.x) * ((push.words + 31u) / 32u);
+uint first_bits_of(uvec2 tile, uint source) {
+    const uvec2 tiles = (uvec2(push.width, push.height) + tile_size - 1u) / tile_size;
+    return ((source * tiles.y + tile.y) * tiles.x + tile.x) * ((push.words + 31u) / 32u);
 }
 
+bool is_used(uvec2 tile, uint word, uint source) {
+    return skips == 0u || (tile_bits[first_bits_of(tile, source) + word / 32u] >> word % 32u & 1u) != 0u;
+}
 bool is_used(uvec2 tile, uint word) {
-    return skips == 0u || (tile_bits[first_bits_of(tile) + word / 32u] >> word % 32u & 1u) != 0u;
+    return is_used(tile, word, source_grey) || packs_colors != 0u && is_used(tile, word, source_color);
 }
 
 #endif

@@ -14,18 +14,13 @@ layout(constant_id = 12) const uint shown = view_saturation_depth;
 layout(constant_id = 13) const float empty_in_front = 0.0;  // slices between the end of light and where T is 0
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
 
-// The nearest slice whose integral is at least so much; all of them if none is.
-uint first_with(ivec2 column, uvec2 tile, uint code) {
+// The nearest slice whose integral of the first channel is at least so much; all of them if none is.
+uint first_with(uvec2 texel, uint code) {
     for (uint slice = 0u; slice < push.slices; ++slice) {
-        if (!is_used(tile, slice / slices_per_word)) continue;
-        if (field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)) >= code) return slice;
+        if (!is_used(texel / tile_size, slice / slices_per_word)) continue;
+        if (integral_code(texelFetch(voxels, integral_place(texel, 0u, slice), 0).r, 0u, slice) >= code) return slice;
     }
     return push.slices;
-}
-
-float nearest_overflow_of(ivec2 column) {
-    const uint slice = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
-    return float(min(slice, push.slices));
 }
 
 float used_slices(uvec2 tile) {
@@ -35,10 +30,9 @@ float used_slices(uvec2 tile) {
 }
 
 float shown_of(uvec2 texel) {
-    const ivec2 column = column_of(texel, 0u);
-    if (shown == view_overflow) return nearest_overflow_of(column);
+    if (shown == view_overflow) return float(min(overflow_of(texel, 0u), push.slices));
     if (shown == view_occupancy) return used_slices(texel / tile_size);
-    const uint slice = first_with(column, texel / tile_size, shown == view_saturation_depth ? push.full_code : 1u);
+    const uint slice = first_with(texel, shown == view_saturation_depth ? full_integral() : 1u);
     const float place = slice < push.slices ? float(virtual_slice(slice)) : float(virtual_slices());
     if (shown == view_saturation_depth) return depth_of_slice(min(place + empty_in_front, float(virtual_slices())));
     return slice < push.slices ? thickness_at(depth_of_slice(place + 0.5)) : 0.0;

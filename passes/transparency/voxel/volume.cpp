@@ -6,6 +6,7 @@
 #include "passes/reference/triangles.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_prepass.h"
+#include "passes/transparency/voxel/color_column.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/model.h"
@@ -27,7 +28,9 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
             .channels = channels,
             .full_code = format.full_code,
             .codes_per_depth = static_cast<float>(format.codes_per_depth()),
-            .bias = static_cast<float>(sampling_bias(params.sampling)) + params.shift};
+            .bias = static_cast<float>(sampling_bias(params.sampling)) + params.shift,
+            .color_codes_per_depth = static_cast<float>(color_format(params).codes_per_depth()),
+            .color_scale = color_scale(format)};
 }
 
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
@@ -50,6 +53,7 @@ Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
     return pass.updates("Overflow", volume.overflow)
         .fixes("splat", params.splat)
         .fixes("field_bits", volume.field_bits)
+        .fixes("packs_colors", flag(volume.packs))
         .push(volume.push);
 }
 
@@ -90,6 +94,7 @@ void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& para
         .push(volume.push)
         .updates("Tiles", volume.tiles)
         .fixes("field_bits", volume.field_bits)
+        .fixes("packs_colors", flag(volume.packs))
         .fixes("splatting", params.splatting)
         .fixes("sampling", params.sampling);
 }
@@ -104,22 +109,27 @@ Volume described(const FrameImages& images, const VoxelParams& params) {
     const DepthCurve curve = depth_curve(params, voxel_range(params, *images.recorded));
     return {.divisor = divisor,
             .field_bits = column_format(params).field_bits,
+            .packs = packs_colors(params, channels),
             .push = push_of(params, curve, prepass_extent(images.extent, divisor), channels)};
 }
 
 void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     const VoxelPush& push = volume.push;
-    const Extent columns{push.width, push.height * push.channels};
+    const std::uint32_t planes = volume.packs ? 1 : push.channels, sources = volume.packs ? 2 : 1;
+    const std::uint64_t texels = std::uint64_t{push.width} * push.height;
     const auto tiles_along = [](std::uint32_t length) { return std::uint64_t{(length + tile_size - 1) / tile_size}; };
-    const std::uint64_t noted = params.splat == splat_overflow_minimum ? std::uint64_t{columns.width} * columns.height : 1;
-    const std::uint64_t marks = tiles_along(push.width) * tiles_along(push.height) * ((push.words + 31) / 32);
+    const std::uint64_t noted = params.splat == splat_overflow_minimum ? texels * (volume.packs ? 4 : planes) : 1;
+    const std::uint64_t marks = sources * tiles_along(push.width) * tiles_along(push.height) * ((push.words + 31) / 32);
     constexpr std::uint64_t header = sizeof(WarpHeader) / sizeof(std::uint32_t), entries = most_virtual_slices;
     const std::uint64_t warp = params.volume == volume_adaptive ? header + entries + params.slices : header + 1;
-    volume.voxels = graph.create(voxels_name, Shape{.extent = columns, .format = Format::r32ui, .layers = push.words});
+    const auto words_of = [&](std::uint32_t channels, std::uint32_t layers) {
+        return Shape{.extent = {push.width, push.height * channels}, .format = Format::r32ui, .layers = layers};
+    };
+    volume.voxels = graph.create(voxels_name, words_of(planes, voxel_words(params, push.channels) / planes));
     volume.overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t));
     volume.warp = zeros(graph, warp_name, warp);
     volume.tiles = zeros(graph, "voxel tiles", params.skipping ? marks : 1);
-    volume.zero_slices = graph.create("zero slices", Shape{.extent = columns, .format = Format::r32ui});
+    volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
 
 DrawPass splat(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
@@ -146,7 +156,7 @@ Volume earlier_volume(const Graph& graph, const FrameImages& images, const Voxel
 Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelParams& params) {
     Volume volume = described(images, params);
     create_parts(graph, params, volume);
-    const Extent columns{volume.push.width, volume.push.height, volume.push.channels};
+    const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);
     if (params.skipping) find_tiles(graph, images, params, volume);
@@ -156,7 +166,8 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
         .updates("voxels", volume.voxels)
         .fixes("splatting", params.splatting)
         .fixes("rounding", params.rounding);
-    ComputePass integrate = graph.compute("transparency/voxel/integrate.comp");
+    ComputePass integrate =
+        graph.compute(volume.packs ? "transparency/voxel/integrate_colors.comp" : "transparency/voxel/integrate.comp");
     bind_tiles(volume, params, integrate)
         .updates("voxels", volume.voxels)
         .stores("zero_slices", volume.zero_slices)
@@ -169,6 +180,7 @@ DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& p
         .samples("voxels", volume.voxels)
         .push(volume.push)
         .fixes("field_bits", volume.field_bits)
+        .fixes("packs_colors", flag(volume.packs))
         .fixes("sampling", params.sampling);
 }
 

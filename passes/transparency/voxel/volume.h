@@ -10,12 +10,14 @@
 namespace strata::transparency {
 
 struct Volume {
-    Image voxels;       ///< r32ui: layer = word of a column; channels one below the other
-    Buffer overflow;    ///< a word per column; one word where nothing notes overflows
-    Buffer warp;        ///< WarpHeader and its table; a header of zeros where nothing is adaptive
-    Buffer tiles;       ///< a bit per tile and word of its columns; one word where nothing is skipped
-    Image zero_slices;  ///< r32ui, of each column: the first slice that is full, by its physical number, or no_overflow
+    Image voxels;     ///< r32ui: layer = word of a column; channels one below the other, or see voxels.glsl
+    Buffer overflow;  ///< a word per column, four where colors are packed; one word where nothing notes overflows
+    Buffer warp;      ///< WarpHeader and its table; a header of zeros where nothing is adaptive
+    Buffer tiles;     ///< a bit per tile, source and word of its columns; one word where nothing is skipped
+    Image
+        zero_slices;  ///< r32ui, of each column and channel: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;
+    bool packs = false;  ///< colors, three to a word
     VoxelPush push;
 };
 

@@ -16,7 +16,8 @@ namespace {
 
 // In the order of the constants in voxel.shared.h.
 constexpr std::string_view splats[] = {"words", "wrapping", "saturating", "overflow_minimum"};
-constexpr std::string_view bits_choices[] = {"8", "16", "32"};
+constexpr std::string_view bits_choices[] = {"8", "10", "16", "32"};
+constexpr std::string_view packings[] = {"planes", "rgb10"};
 constexpr std::string_view splattings[] = {"point", "linear"};
 constexpr std::string_view samplings[] = {"point", "linear", "bicubic"};
 constexpr std::string_view roundings[] = {"nearest", "stochastic"};
@@ -87,10 +88,18 @@ std::vector<Param> code_params() {
              .choices = splats}),
         param<&VoxelParams::bits>({.name = "bits",
                                    .low = 0,
-                                   .high = 2,
+                                   .high = 3,
                                    .fallback = bits_8,
-                                   .help = "of a slice: steps of optical depth of .0217, .00017 or .000013",
+                                   .help = "of a slice: steps of optical depth of .0217, .0068, .00017 or .000013",
                                    .choices = bits_choices}),
+        param<&VoxelParams::packing>(
+            {.name = "packing",
+             .low = 0,
+             .high = 1,
+             .fallback = packing_planes,
+             .help = "of three channels: planes, a volume for each; rgb10, 8 bits of each in a word per slice, added to at once, "
+                     "and a volume for what is grey",
+             .choices = packings}),
         param<&VoxelParams::rounding>({.name = "rounding",
                                        .low = 0,
                                        .high = 1,
@@ -248,9 +257,9 @@ Technique voxel() {
             "Adds optical depth to slices of a low-resolution volume by integer atomics and sums them up along the view: order "
             "independent, bit by bit; within a slice nothing hides anything, and layers below 8 bits are lost.",
         .params = params(),
-        .points = {"slices=64", "slices=256", "slices=512", "splatting=point sampling=point", "sampling=bicubic", "bits=16",
-                   "bits=16 slices=512", "curve=thickness", "rounding=stochastic", "resolution=half", "resolution=quarter",
-                   "resolution=eighth"},
+        .points = {"slices=64", "slices=256", "slices=512", "splatting=point sampling=point", "sampling=bicubic", "bits=10",
+                   "bits=16", "bits=16 slices=512", "packing=rgb10", "packing=rgb10 bits=16", "curve=thickness",
+                   "rounding=stochastic", "resolution=half", "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),

@@ -14,8 +14,13 @@ const uint splat_saturating = 2u;
 const uint splat_overflow_minimum = 3u;
 
 const uint bits_8 = 0u;
-const uint bits_16 = 1u;
-const uint bits_32 = 2u;
+const uint bits_10 = 1u;
+const uint bits_16 = 2u;
+const uint bits_32 = 3u;
+
+// Of three channels: a volume each; or all of a slice in one word, of what has a color, and a volume for what is grey.
+const uint packing_planes = 0u;
+const uint packing_rgb10 = 1u;
 
 const uint splatting_point = 0u;
 const uint splatting_linear = 1u;
@@ -61,6 +66,7 @@ struct VoxelParams {
     uint skipping;   // 1: clearing and integration leave empty tiles out
     uint splat;
     uint bits;
+    uint packing;
     uint splatting;
     uint sampling;
     float shift;  // in slices, added to the sampling's bias
@@ -88,10 +94,12 @@ struct VoxelPush {
     uint words;             // of a column
     uint width;             // columns
     uint height;
-    uint channels;          // 1 or 3
-    uint full_code;         // M: the code of t = 1 / M, from which on nothing is seen
-    float codes_per_depth;  // M / ln M
-    float bias;             // in slices
+    uint channels;                // 1 or 3
+    uint full_code;               // M: the code of t = 1 / M, from which on nothing is seen
+    float codes_per_depth;        // M / ln M
+    float bias;                   // in slices
+    float color_codes_per_depth;  // of words of three channels
+    uint color_scale;             // codes to those of words of three channels, in color_scale_one
 };
 
 // What warp.comp finds out, in front of its table.
@@ -139,6 +147,15 @@ const uint tile_size = 8u;
 const float depth_slack = 2e-6f;
 const float ray_slack = 1e-5f;
 const float steepest = 1000.0f;
+// Fields of words of three channels, red lowest: codes of 8 bits, and two more that hold four of the largest before one of them
+// is carried into the next channel.
+const uint color_bits = 10u;
+const uint color_full_code = 255u;
+const uint color_scale_one = 1u << 22u;
+// Sources that tiles tell apart where colors are packed, and planes of notes of overflow: that of grey, then one for each
+// channel.
+const uint source_grey = 0u;
+const uint source_color = 1u;
 // Of columns in which no slice overflowed, or none is full.
 const uint no_overflow = 0xffffffffu;
 // A filtered integral is full from here on, in M: weights that add up to 1 do so up to rounding.

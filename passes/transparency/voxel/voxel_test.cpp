@@ -105,7 +105,10 @@ TEST(VoxelCode, IsTheChaptersOfEightBits) {
 TEST(VoxelCode, OfMoreBitsKeepsThinLayers) {
     EXPECT_EQ(code_of(.01, bits_16), 59u);  // .01005034 of 11.09 in 65535 steps
     EXPECT_EQ(code_of(.01, bits_32), 760u);
-    for (const std::uint32_t bits : {bits_8, bits_16, bits_32}) {
+    EXPECT_EQ(code_of(.01, bits_10), 1u);  // and nothing below .0034
+    EXPECT_EQ(code_of(.5, bits_10), 102u);
+    EXPECT_EQ(code_of(1, bits_10), 1023u);
+    for (const std::uint32_t bits : {bits_8, bits_10, bits_16, bits_32}) {
         const ColumnFormat format = format_of(splat_words, bits);
         EXPECT_NEAR(format.transmittance(format.codes(depth_of_alpha(.5))), .5, 1e-12);
         EXPECT_EQ(format.field_bits, 32u);
@@ -199,6 +202,19 @@ TEST(VoxelColumn, IsTheSameInEveryOrder) {
 TEST(VoxelColumn, WithoutTheMinimumIsWrongBehindAnOverflow) {
     const std::array additions{Addition{2, 192}, Addition{2, 128}};
     EXPECT_EQ(filled(format_of(splat_wrapping, bits_8, 4), additions).integral(), (std::vector<std::uint32_t>{0, 0, 64, 65}));
+}
+
+TEST(VoxelColumn, HoldsThreeSlicesOfTenBitsInAWord) {
+    const ColumnFormat format = format_of(splat_overflow_minimum, bits_10, 8);
+    EXPECT_EQ(format.slices_per_word(), 3u);
+    EXPECT_EQ(format.words(), 3u);
+    Column column(format);
+    column.add(2, 1023), column.add(3, 5), column.add(7, 9);
+    EXPECT_EQ(column.overflow(), no_overflow);
+    column.add(2, 1);  // the carry leaves the word's 30 bits and is seen by nobody
+    EXPECT_EQ(column.overflow(), 2u);
+    EXPECT_EQ(column.field(3), 5u);
+    EXPECT_EQ(column.integral(), (std::vector<std::uint32_t>{0, 0, 1023, 1023, 1023, 1023, 1023, 1023}));
 }
 
 /// Inclusive sums of one event of 1 at s, not rounded.
@@ -309,6 +325,12 @@ TEST(Voxel, HasAsManyColumnsAsFitIntoHalfAGibibyte) {
     EXPECT_EQ(voxel_divisor(params, {1920, 1080, 1}, 1), 1u);  // 265 MB
     EXPECT_EQ(voxel_divisor(params, {1920, 1080, 1}, 3), 2u);
     EXPECT_EQ(voxel_divisor(params, {3840, 2160, 1}, 1), 2u);
+    VoxelParams packed = params;
+    packed.packing = packing_rgb10;
+    EXPECT_EQ(4 * voxel_words(params, 3), 384u);         // bytes of a texel
+    EXPECT_EQ(4 * voxel_words(packed, 3), 128u + 512u);  // the chapter's are 128 + 512 + 512, with an integral of its own
+    EXPECT_EQ(voxel_words(packed, 1), voxel_words(params, 1));
+    EXPECT_EQ(voxel_divisor(packed, {1920, 1080, 1}, 3), 2u);
     VoxelParams eighth = params;
     eighth.resolution = 3;
     EXPECT_EQ(voxel_divisor(eighth, {3840, 2160, 1}, 3), 8u);
