@@ -257,9 +257,10 @@ Technique voxel() {
             "Adds optical depth to slices of a low-resolution volume by integer atomics and sums them up along the view: order "
             "independent, bit by bit; within a slice nothing hides anything, and layers below 8 bits are lost.",
         .params = params(),
-        .points = {"slices=64", "slices=256", "slices=512", "splatting=point sampling=point", "sampling=bicubic", "bits=10",
-                   "bits=16", "bits=16 slices=512", "packing=rgb10", "packing=rgb10 bits=16", "curve=thickness",
-                   "rounding=stochastic", "resolution=half", "resolution=quarter", "resolution=eighth"},
+        .points = {"slices=64", "slices=256", "slices=512", "volume=dense", "volume=dense range=fixed", "splat=saturating",
+                   "splat=words bits=32", "splatting=point sampling=point", "sampling=bicubic", "bits=10", "bits=16",
+                   "bits=16 slices=512", "packing=rgb10", "packing=rgb10 bits=16", "curve=thickness", "rounding=stochastic",
+                   "resolution=half", "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),
