@@ -99,7 +99,7 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
         {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
         {stating + " --repeats 0", 2, "--repeats"},
         {stating + " --frame 1", 2, "capture"},
-        {stating + " --size 48x27 --set colour=1", 2, "no parameter"},
+        {stating + " --size 48x27 --set colour=1", 2, "has a parameter"},
         {stating + " nowhere.strata", 3, "nowhere.strata"},
         {stating + " opaque.strata --frame 1", 2, "frame 1"},
         {stating + " opaque.strata", 2, "the frame does not need transparency: "},
