@@ -31,16 +31,17 @@ struct EyeMove {
 
 /// What to replay and what to bring back.
 struct Request {
-    std::size_t frame = 0;                           ///< index in the capture
-    std::vector<std::string> uses, sets;             ///< as on the command line, see choose()
-    std::vector<Feature> force;                      ///< features switched on though the frame lacks them
-    std::vector<std::string> outputs = {"display"};  ///< names of frame_images.h, or "stage/technique:view" debug views and tables
-    std::string until;                               ///< last step to run: part of its name; empty: all
-    std::uint32_t extent_divisor = 1;                ///< replays at extent / divisor, for quick truths
-    std::uint32_t samples = 0;                       ///< overrides the recorded samples when not 0
-    EyeMove eye = {};                                ///< against the recorded one
-    Acts acts = Acts::left;                          ///< not with `until`
-    bool once = false;                               ///< nothing is kept for later runs that share stages with this one
+    std::size_t frame = 0;                ///< index in the capture
+    std::vector<std::string> uses, sets;  ///< as on the command line, see choose()
+    std::vector<Feature> force;           ///< features switched on though the frame lacks them
+    std::vector<std::string> outputs = {
+        "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
+    std::string until;                 ///< last step to run: part of its name; empty: all
+    std::uint32_t extent_divisor = 1;  ///< replays at extent / divisor, for quick truths
+    std::uint32_t samples = 0;         ///< overrides the recorded samples when not 0
+    EyeMove eye = {};                  ///< against the recorded one
+    Acts acts = Acts::left;            ///< not with `until`
+    bool once = false;                 ///< nothing is kept for later runs that share stages with this one
 };
 
 struct StepRecord {

@@ -208,7 +208,9 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
-    app.add_option("--outputs", options->outputs, "images to write: frame images or stage/technique:view; tables of numbers go into the .json")->delimiter(',');
+    app.add_option("--outputs", options->outputs,
+                   "images to write: frame images or stage/technique:view; tables of numbers go into the .json")
+        ->delimiter(',');
     auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this");
     app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when an image of any act differs")
         ->check(CLI::Range(1, 100000))
