@@ -200,7 +200,7 @@ std::vector<Counter> counters() {
             {.name = "uncovered", .help = "fragments in slices that coverage does not know of: always 0"}),
         counter<&VoxelCounters::overflowed>({.name = "overflowed", .help = "columns in which a slice overflowed"}),
         counter<&VoxelCounters::saturated>({.name = "saturated", .help = "columns behind which nothing is seen"}),
-        counter<&VoxelCounters::allocated>({.name = "voxels", .help = "there is memory for"}),
+        counter<&VoxelCounters::voxels>({.name = "voxels", .help = "there is memory for"}),
         counter<&VoxelCounters::cleared>({.name = "cleared", .help = "voxels emptied: in tiles and slices that are used"}),
         counter<&VoxelCounters::integrated>({.name = "integrated", .help = "voxels of these read up to saturation"}),
         counter<&VoxelCounters::slices_used>({.name = "slices used", .help = "of an adaptive volume: with something in them"}),

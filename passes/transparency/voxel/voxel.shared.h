@@ -124,7 +124,7 @@ struct VoxelCounters {
     uint uncovered;
     uint overflowed;
     uint saturated;
-    uint allocated;
+    uint voxels;
     uint cleared;
     uint integrated;
     uint slices_used;
