@@ -32,7 +32,9 @@ void main() {
     if (any(greaterThanEqual(texel, uvec2(push.width, push.height)))) return;
     const ivec2 column = column_of(texel, gl_GlobalInvocationID.z);
     uint cleared = 0u;
-    for (uint word = 0u; word < push.words; ++word) cleared += cleared_of(column, word);
+    for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
+        for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) 
+            cleared += cleared_of(column, 32u * block + uint(findLSB(bits)));
     const uint planes = packs_colors != 0u ? 1u + push.channels : 1u;
     if (splat == splat_overflow_minimum)
         for (uint plane = 0u; plane < planes; ++plane)

@@ -35,14 +35,15 @@ void main() {
     const ivec2 column = column_of(texel, gl_GlobalInvocationID.z);
     const uint overflow = splat == splat_overflow_minimum ? nearest_overflow[index_of(column)] : no_overflow;
     uint sum = 0u, integrated = 0u;
-    for (uint word = 0u; word < push.words; ++word) {
-        if (!is_used(gl_WorkGroupID.xy, word)) continue;
-        const ivec3 at = ivec3(column, word);
-        const bool full = sum == push.full_code;
-        const uint extinction = full ? 0u : imageLoad(voxels, at).r;
-        imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));
-        if (!full) integrated += slices_per_word;
-    }
+    for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
+        for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) {
+            const uint word = 32u * block + uint(findLSB(bits));
+            const ivec3 at = ivec3(column, word);
+            const bool full = sum == push.full_code;
+            const uint extinction = full ? 0u : imageLoad(voxels, at).r;
+            imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));
+            if (!full) integrated += slices_per_word;
+        }
     imageStore(zero_slices, ivec3(column, 0), uvec4(zero_slice));
     atomicAdd(counters.columns, 1u);
     if (integrated > 0u) atomicAdd(counters.integrated, integrated);

@@ -39,22 +39,23 @@ void main() {
     Sums sums = Sums(0u, uvec3(0u));
     uvec3 zero_slice = uvec3(no_overflow);
     uint integrated = 0u;
-    for (uint word = 0u; word < push.words; ++word) {
-        const bool grey = is_used(gl_WorkGroupID.xy, word, source_grey), colors = is_used(gl_WorkGroupID.xy, word, source_color);
-        if (!grey && !colors) continue;
-        const uint first = word * slices_per_word, end = min(first + slices_per_word, push.slices);
-        const bool full = is_full(total(sums));
-        const uint extinction = grey && !full ? imageLoad(voxels, place_of(ivec2(texel), first)).r : 0u;
-        if (!full) integrated += (grey ? slices_per_word : 0u) + (colors ? end - first : 0u);
-        for (uint slice = first; slice < end; ++slice) {
-            const ivec3 at = ivec3(texel, slice);
-            const uvec3 codes = color_fields(colors && !full ? imageLoad(voxels, at).r : 0u);
-            add(sums, field(extinction, shift_of(slice)), mix(codes, uvec3(color_full_code), greaterThanEqual(uvec3(slice), overflow)));
-            const uvec3 sum = total(sums);
-            zero_slice = min(zero_slice, mix(uvec3(no_overflow), uvec3(slice), equal(sum, uvec3(color_full_code))));
-            imageStore(voxels, at, uvec4(color_word(sum)));
+    for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
+        for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) {
+            const uint word = 32u * block + uint(findLSB(bits));
+            const bool grey = is_used(gl_WorkGroupID.xy, word, source_grey), colors = is_used(gl_WorkGroupID.xy, word, source_color);
+            const uint first = word * slices_per_word, end = min(first + slices_per_word, push.slices);
+            const bool full = is_full(total(sums));
+            const uint extinction = grey && !full ? imageLoad(voxels, place_of(ivec2(texel), first)).r : 0u;
+            if (!full) integrated += (grey ? slices_per_word : 0u) + (colors ? end - first : 0u);
+            for (uint slice = first; slice < end; ++slice) {
+                const ivec3 at = ivec3(texel, slice);
+                const uvec3 codes = color_fields(colors && !full ? imageLoad(voxels, at).r : 0u);
+                add(sums, field(extinction, shift_of(slice)), mix(codes, uvec3(color_full_code), greaterThanEqual(uvec3(slice), overflow)));
+                const uvec3 sum = total(sums);
+                zero_slice = min(zero_slice, mix(uvec3(no_overflow), uvec3(slice), equal(sum, uvec3(color_full_code))));
+                imageStore(voxels, at, uvec4(color_word(sum)));
+            }
         }
-    }
     for (uint channel = 0u; channel < 3u; ++channel)
         imageStore(zero_slices, ivec3(column_of(texel, channel), 0), uvec4(zero_slice[channel]));
     atomicAdd(counters.columns, 1u);

@@ -16,6 +16,16 @@ uint first_bits_of(uvec2 tile, uint source) {
 bool is_used(uvec2 tile, uint word, uint source) {
     return skips == 0u || (tile_bits[first_bits_of(tile, source) + word / 32u] >> word % 32u & 1u) != 0u;
 }
+
+// A bit for each of 32 words that any source uses: a loop over what is set costs nothing where nothing is.
+uint used_words(uvec2 tile, uint block) {
+    const uint left = push.words - 32u * block;
+    if (skips == 0u) return left < 32u ? (1u << left) - 1u : 0xffffffffu;
+    uint bits = tile_bits[first_bits_of(tile, source_grey) + block];
+    if (packs_colors != 0u) bits |= tile_bits[first_bits_of(tile, source_color) + block];
+    return bits;
+}
+
 bool is_used(uvec2 tile, uint word) {
     return is_used(tile, word, source_grey) || packs_colors != 0u && is_used(tile, word, source_color);
 }
