@@ -92,7 +92,8 @@ Projected project(const StageInput& input, const PrepassModel& model) {
     low.view.width = extent.width;
     low.view.height = extent.height;
     low.view.samples = 1;
-    const ImageSet& before = model.tested == PrepassModel::Tested::against_opaque ? input.before : ImageSet{};
+    const ImageSet nothing;
+    const ImageSet& before = model.tested == PrepassModel::Tested::against_opaque ? input.before : nothing;
     const FragmentLists lists =
         transparent_fragments(low, farthest_depth(opaque_depth(before, input.before.at("color")), extent));
     Projected projected{low.view.width, low.view.height, {}, {}};

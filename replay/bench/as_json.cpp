@@ -2,16 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/bench/bench.h"
+#include "replay/report/json_parts.h"
 
 namespace strata {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json json_of(const Spread& spread) {
-    return {
-        {"median", spread.median}, {"mad", spread.mad}, {"low", spread.low}, {"high", spread.high}, {"repeats", spread.repeats}};
-}
 
 ordered_json json_of(const TimedWay& way) {
     ordered_json json{
@@ -45,12 +41,7 @@ ordered_json json_of(const MeasuredRatio& row) {
 std::string as_json(const Bench& bench) {
     ordered_json json{{"schema", "strata.bench"},
                       {"schema_version", 1},
-                      {"device",
-                       {{"name", bench.device.name},
-                        {"driver", bench.device.driver},
-                        {"driver_version", bench.device.driver_version},
-                        {"cpu", bench.device.cpu},
-                        {"software", bench.device.software}}},
+                      {"device", json_of(bench.device)},
                       {"repeats", bench.repeats},
                       {"rows", ordered_json::array()}};
     for (const MeasuredRatio& row : bench.rows) json["rows"].push_back(json_of(row));

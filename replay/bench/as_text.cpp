@@ -1,4 +1,6 @@
 // Measured ratios for a terminal: a table of them, then what either way is, took and counted.
+#include <fmt/format.h>
+
 #include "replay/bench/bench.h"
 #include "replay/counted.h"
 #include "replay/report/table.h"
@@ -22,12 +24,6 @@ Table table_of(const Bench& bench) {
     return table;
 }
 
-std::string joined(std::span<const std::string> texts) {
-    std::string all;
-    for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-    return all;
-}
-
 /// A line of a terminal's width, continued below itself.
 std::string wrapped(const std::string& indent, std::string_view text) {
     constexpr std::size_t columns = 120;
@@ -45,7 +41,7 @@ std::string wrapped(const std::string& indent, std::string_view text) {
 std::string way_text(const TimedWay& way) {
     std::vector<std::string> parts{fmt::format("{} +-{} ms", short_number(way.ms.median), short_number(way.ms.mad))};
     for (const CounterRecord& counter : way.counters) parts.push_back(fmt::format("{} {}", counter.name, counter.value));
-    return fmt::format("{}: {}", label(way.technique, way.settings), joined(parts));
+    return fmt::format("{}: {}", label(way.technique, way.settings), fmt::join(parts, ", "));
 }
 
 std::string details_of(const MeasuredRatio& row) {
@@ -53,9 +49,10 @@ std::string details_of(const MeasuredRatio& row) {
     std::string text = wrapped("", fmt::format("{}: {}", row.claim.technique->name, stated.name));
     if (!row.not_measured.empty()) return text + wrapped("    ", "not measured: " + row.not_measured);
     text += wrapped("    ", way_text(row.of)) + wrapped("    ", "against " + way_text(row.against));
-    const std::vector<std::string> steps(stated.steps.begin(), stated.steps.end());
-    text += wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel", steps.empty() ? "the whole stage" : joined(steps),
-                                        row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
+    text +=
+        wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel",
+                                    stated.steps.empty() ? "the whole stage" : fmt::format("{}", fmt::join(stated.steps, ", ")),
+                                    row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
     if (stated.published) text += wrapped("    ", fmt::format("published: {:.2f}, {}", *stated.published, stated.source));
     return text;
 }

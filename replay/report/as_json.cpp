@@ -2,17 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "replay/report/json_parts.h"
 #include "replay/report/pooled.h"
 
 namespace strata {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json json_of(const Spread& spread) {
-    return {
-        {"median", spread.median}, {"mad", spread.mad}, {"low", spread.low}, {"high", spread.high}, {"repeats", spread.repeats}};
-}
 
 ordered_json json_of(const Measurement& row) {
     ordered_json json{{"technique", row.technique}, {"settings", row.settings}};
@@ -85,12 +81,7 @@ ordered_json json_of(const Report& report) {
                       {"frame", report.frame},
                       {"extent", {report.width, report.height}},
                       {"samples", report.samples},
-                      {"device",
-                       {{"name", report.device.name},
-                        {"driver", report.device.driver},
-                        {"driver_version", report.device.driver_version},
-                        {"cpu", report.device.cpu},
-                        {"software", report.device.software}}},
+                      {"device", json_of(report.device)},
                       {"repeats", report.repeats},
                       {"truth", report.truth},
                       {"time_unit", report.time_unit},

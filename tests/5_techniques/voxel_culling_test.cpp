@@ -28,10 +28,6 @@ Run run_of(Session& session, Request request, std::vector<std::string> sets, con
     return must(session.run(request));
 }
 
-std::uint64_t count_of(const Run& run, std::string_view counter) {
-    return std::ranges::find(run.counters, counter, &CounterRecord::name)->value;
-}
-
 std::size_t differing_pixels(const HostImage& a, const HostImage& b) {
     constexpr std::size_t pixel = 16;  // of rgba32f
     std::size_t differing = 0;
@@ -44,13 +40,13 @@ std::size_t differing_pixels(const HostImage& a, const HostImage& b) {
 std::uint64_t expect_equal(Session& session, const Request& request, const std::vector<std::string>& sets,
                            std::span<const char* const> ways) {
     const Run all = run_of(session, request, sets, "culling=off");
-    std::uint64_t least = count_of(all, "unseen");
+    std::uint64_t least = counted(all, "unseen");
     for (const char* way : ways) {
         const Run culled = run_of(session, request, sets, way);
         EXPECT_EQ(differing_pixels(culled.images.at("color"), all.images.at("color")), 0u)
             << way << " " << testing::PrintToString(sets);
-        EXPECT_EQ(count_of(culled, "drawn"), count_of(all, "drawn")) << way;
-        least = std::min(least, count_of(all, "unseen") - count_of(culled, "unseen"));
+        EXPECT_EQ(counted(culled, "drawn"), counted(all, "drawn")) << way;
+        least = std::min(least, counted(all, "unseen") - counted(culled, "unseen"));
     }
     return least;
 }
@@ -87,7 +83,7 @@ TEST(VoxelCulling, LeavesUnshadedWhatDenseSmokeHides) {
     const auto session = dense_smoke(1);
     const auto shaded = [&](const char* culling) {
         const auto run = run_of(*session, {}, {}, culling);
-        return double(count_of(run, "drawn") + count_of(run, "unseen"));
+        return double(counted(run, "drawn") + counted(run, "unseen"));
     };
     EXPECT_LT(shaded("culling=quads_16"), .8 * shaded("culling=off"));
     EXPECT_EQ(shaded("culling=full_screen"), shaded("culling=quads_16"));

@@ -21,10 +21,6 @@ std::vector<std::byte> color_of(Session& session, std::vector<std::string> sets)
     return run_of(session, std::move(sets)).images.at("color").texels;
 }
 
-std::uint64_t count_of(const Run& run, std::string_view counter) {
-    return std::ranges::find(run.counters, counter, &CounterRecord::name)->value;
-}
-
 /// The channel at a pixel of an rgba32f image.
 float shown_at(const Run& run, const std::string& view, std::size_t pixel) {
     float value = 0;
@@ -44,11 +40,11 @@ TEST(VoxelVolume, IntegratesAnOverflowAsIfItSaturated) {
     const auto session = scenario_session("three_cards", 1);  // of alpha .99 in one slice: 636 of 255
     const std::string even = "volume=dense", fixed = "range=fixed";
     const auto packed = run_of(*session, {even, fixed});
-    EXPECT_GT(count_of(packed, "overflowed"), 0u);
-    EXPECT_EQ(count_of(packed, "border atomics"), 0u);
+    EXPECT_GT(counted(packed, "overflowed"), 0u);
+    EXPECT_EQ(counted(packed, "border atomics"), 0u);
     EXPECT_EQ(color_of(*session, {even, fixed, "splat=saturating"}), packed.images.at("color").texels);
     EXPECT_EQ(color_of(*session, {even, fixed, "splat=words"}), packed.images.at("color").texels);
-    EXPECT_LT(count_of(run_of(*session, {even, fixed, "splat=wrapping"}), "saturated"), count_of(packed, "saturated"));
+    EXPECT_LT(counted(run_of(*session, {even, fixed, "splat=wrapping"}), "saturated"), counted(packed, "saturated"));
 }
 
 /// Numbers that fit nothing, and settings that meet only here.
@@ -103,7 +99,7 @@ TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
         for (const char* splatting : {"splatting=linear", "splatting=point"}) {
             Request request = on_scenario(scenario, 4);
             request.uses = {voxel}, request.sets = {splatting, "thinnest=1e-5"};
-            EXPECT_EQ(count_of(must(session_of_scenarios().run(request)), "uncovered"), 0u) << scenario << splatting;
+            EXPECT_EQ(counted(must(session_of_scenarios().run(request)), "uncovered"), 0u) << scenario << splatting;
         }
 }
 
@@ -115,8 +111,8 @@ TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
         request.uses = {voxel}, request.outputs = {"color"};
         request.sets = {"curve=linear", "linear=3", "slices=64", "thinnest=0.005"};
         const strata::Run adaptive = must(session_of_scenarios().run(request));
-        const std::uint64_t slices = count_of(adaptive, "virtual slices");
-        if (slices > 1024 || count_of(adaptive, "slices used") == 0) continue;
+        const std::uint64_t slices = counted(adaptive, "virtual slices");
+        if (slices > 1024 || counted(adaptive, "slices used") == 0) continue;
         finer += slices > 64;
         request.sets = {"curve=linear", "linear=3", "slices=" + std::to_string(slices), "volume=dense"};
         EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, adaptive.images.at("color").texels)
@@ -133,9 +129,9 @@ TEST(VoxelVolume, AddsThreeChannelsAtOnceWhereTheyShareAWord) {
         const std::vector<std::string> point = {"splatting=point", "sampling=point"};
         const auto planes = run_of(*session, point);
         const auto packed = run_of(*session, {point[0], point[1], "packing=rgb10"});
-        EXPECT_GT(count_of(packed, "atomics"), 0u) << scenario;
-        EXPECT_EQ(count_of(planes, "columns"), 3 * count_of(packed, "columns")) << scenario;
-        EXPECT_LE(2 * count_of(packed, "atomics"), count_of(planes, "atomics")) << scenario;
+        EXPECT_GT(counted(packed, "atomics"), 0u) << scenario;
+        EXPECT_EQ(counted(planes, "columns"), 3 * counted(packed, "columns")) << scenario;
+        EXPECT_LE(2 * counted(packed, "atomics"), counted(planes, "atomics")) << scenario;
     }
 }
 
@@ -160,7 +156,7 @@ TEST(VoxelVolume, ShowsWhereItOverflowsAndFromWhereNothingIsSeen) {
         EXPECT_GT(shown_at(run, "saturation depth", pixel), 2 * thickness);
         EXPECT_GT(thickness, .1f);
     }
-    EXPECT_EQ(overflowed, count_of(run_of(*session, {}), "overflowed"));
+    EXPECT_EQ(overflowed, counted(run_of(*session, {}), "overflowed"));
 }
 
 }  // namespace

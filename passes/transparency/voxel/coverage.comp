@@ -11,10 +11,7 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 3, scalar) buffer Halves { uint halves[]; };
 
-uint half_of_depth(float z) {
-    const float s = log2(1.0 + max(z - push.nearest, 0.0) * push.per_linear) * push.slices_per_log2;
-    return min(uint(2.0 * s), 2u * push.finest_slices - 1u);
-}
+uint half_of_depth(float z) { return min(uint(2.0 * finest_slice_of_depth(z)), 2u * push.finest_slices - 1u); }
 
 void mark(uint first, uint last) {
     for (uint i = first / 32u; i <= last / 32u; ++i) {

@@ -17,10 +17,12 @@ uint virtual_slices() { return adaptive != 0u ? warp.virtual_slices : push.fines
 // Of the finest slices, to those that are left after halving.
 float halved() { return adaptive != 0u ? exp2(-float(warp.halvings)) : 1.0; }
 
+// Of the finest, not clamped behind.
+float finest_slice_of_depth(float z) { return log2(1.0 + max(z - push.nearest, 0.0) * push.per_linear) * push.slices_per_log2; }
+
 // Virtual, clamped to the volume.
 float slice_of_depth(float z) {
-    const float s = log2(1.0 + max(z - push.nearest, 0.0) * push.per_linear) * push.slices_per_log2;
-    return min(s * halved(), float(virtual_slices()) - end_margin);
+    return min(finest_slice_of_depth(z) * halved(), float(virtual_slices()) - end_margin);
 }
 
 float depth_of_slice(float s) {

@@ -151,7 +151,7 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
     PrepassModel prepass{.divisor = voxel_divisor(params, extent, channels), .unseen = PrepassModel::Unseen::adds_nothing};
-    if (!made_after_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
+    if (is_made_before_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
     prepass.project = [=, &splatter](std::span<const Fragment> fragments, glm::uvec2 texel) {
         return packs ? splatter.packed(fragments, texel) : splatter.planes(fragments, texel);
     };

@@ -25,7 +25,7 @@ uint first_with(uvec2 texel, uint code) {
 
 float used_slices(uvec2 tile) {
     uint words = 0u;
-    for (uint word = 0u; word < push.words; ++word) words += is_used(tile, word) ? 1u : 0u;
+    for (uint block = 0u; block < (push.words + 31u) / 32u; ++block) words += uint(bitCount(used_words(tile, block)));
     return float(words * slices_per_word);
 }
 

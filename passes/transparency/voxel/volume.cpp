@@ -47,14 +47,16 @@ Pass& bind_warp(const Volume& volume, const VoxelParams& params, Pass&& pass) {
     return pass.loads("DepthWarp", volume.warp).fixes("adaptive", flag(params.volume == volume_adaptive));
 }
 
+/// To a step that knows how slices lie in words.
+template <typename Pass>
+Pass& bind_format(const Volume& volume, Pass&& pass) {
+    return pass.fixes("field_bits", volume.field_bits).fixes("packs_colors", flag(volume.packs)).push(volume.push);
+}
+
 /// To a step that knows what is in a column.
 template <typename Pass>
 Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
-    return pass.updates("Overflow", volume.overflow)
-        .fixes("splat", params.splat)
-        .fixes("field_bits", volume.field_bits)
-        .fixes("packs_colors", flag(volume.packs))
-        .push(volume.push);
+    return bind_format(volume, pass).updates("Overflow", volume.overflow).fixes("splat", params.splat);
 }
 
 /// To a step over tiles of columns.
@@ -62,7 +64,7 @@ ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& 
     return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", params.skipping);
 }
 
-/// A step with a row of groups for each transparent draw, for at most `groups` of its triangles at once.
+/// A step with a row of groups for each transparent draw, each for so many of its triangles at a time.
 ComputePass over_triangles(Graph& graph, const FrameImages& images, const char* shader, std::uint32_t triangles_per_group) {
     std::uint32_t most = 1;
     for (const std::uint32_t draw : transparent_draws(*images.recorded))
@@ -90,11 +92,8 @@ void find_slices(Graph& graph, const FrameImages& images, const VoxelParams& par
 
 void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
     ComputePass pass = over_triangles(graph, images, "transparency/voxel/tiles.comp", 1);
-    bind_warp(volume, params, pass)
-        .push(volume.push)
+    bind_warp(volume, params, bind_format(volume, pass))
         .updates("Tiles", volume.tiles)
-        .fixes("field_bits", volume.field_bits)
-        .fixes("packs_colors", flag(volume.packs))
         .fixes("splatting", params.splatting)
         .fixes("sampling", params.sampling);
 }
@@ -176,11 +175,8 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
 }
 
 DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& params) {
-    return bind_warp(volume, params, draw)
+    return bind_warp(volume, params, bind_format(volume, draw))
         .samples("voxels", volume.voxels)
-        .push(volume.push)
-        .fixes("field_bits", volume.field_bits)
-        .fixes("packs_colors", flag(volume.packs))
         .fixes("sampling", params.sampling);
 }
 

@@ -31,7 +31,7 @@ constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_sc
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
-    const bool earlier = !made_after_opaque(params, *images.features);
+    const bool earlier = is_made_before_opaque(params, *images.features);
     const Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
     drawn_before.depth = earlier ? earlier_culled_depth(graph) : culled_depth(graph, images, volume, params);
@@ -45,7 +45,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
 /// Before the opaque draws: from which depth on nothing is seen of them, either.
 void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
-    if (made_after_opaque(params, *images.features)) return;
+    if (!is_made_before_opaque(params, *images.features)) return;
     images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
 }
 

@@ -107,7 +107,6 @@ struct WarpHeader {
     uint halvings;        // of the finest slices until their number fits
     uint virtual_slices;  // that are left: finest_slices >> halvings
     uint used;            // of these, slices with something in them
-    uint reserved;
 };
 const uint most_virtual_slices = 8192u;
 // An entry of the table: the number of used slices up to and with this one, whether it is used, and first or last of a run.

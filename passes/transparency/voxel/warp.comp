@@ -109,7 +109,7 @@ void main() {
     const uint after = used_word(thread + 1u, slices) & 1u;
     write_entries(thread, used, before, after);
     if (thread > 0u) return;
-    warp = WarpHeader(halvings, slices, counts[threads - 1u], 0u);
+    warp = WarpHeader(halvings, slices, counts[threads - 1u]);
     counters.slices_used = counts[threads - 1u];
     counters.virtual_slices = slices;
 }

@@ -84,12 +84,9 @@ Image culled_depth(Graph& graph, const FrameImages& images, const Volume& volume
     return depth;
 }
 
-std::optional<std::string_view> made_after_opaque(const VoxelParams& params, const Features& features) {
-    if (params.prepared == prepared_after_opaque) return "it is chosen so";
-    if (params.culling == culling_off) return "nothing is culled";
-    if (features.has(Feature::soft_particles)) return "soft particles fade by the depth of what is opaque";
-    if (features.has(Feature::distortion)) return "distortion shows what is opaque elsewhere";
-    return std::nullopt;
+bool is_made_before_opaque(const VoxelParams& params, const Features& features) {
+    return params.prepared == prepared_before_opaque && params.culling != culling_off && !features.has(Feature::soft_particles) &&
+           !features.has(Feature::distortion);
 }
 
 Image depth_to_draw_opaque_into(Graph& graph, const FrameImages& images, const Volume& volume, const VoxelParams& params) {

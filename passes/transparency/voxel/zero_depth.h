@@ -2,9 +2,6 @@
 // 6.9). The picture does not change by a bit: an event whose T(z) is 0 in all channels adds nothing, drawn or not.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/transparency/voxel/volume.h"
@@ -16,8 +13,9 @@ namespace strata::transparency {
 /// where nothing is drawn at the frame's extent.
 Image culled_depth(Graph&, const FrameImages&, const Volume&, const VoxelParams&);
 
-/// Why the volume is made after the opaque draws, though it is asked for before them; or nothing.
-std::optional<std::string_view> made_after_opaque(const VoxelParams&, const Features&);
+/// Whether the volume is made before the opaque draws: where that is asked for, something is culled, and no particle fades by
+/// opaque depth nor shows distortion what is opaque elsewhere.
+bool is_made_before_opaque(const VoxelParams&, const Features&);
 
 /// The same depth before the opaque draws: they go into it, and where nothing is seen of them they are not shaded, either.
 Image depth_to_draw_opaque_into(Graph&, const FrameImages&, const Volume&, const VoxelParams&);
