@@ -188,6 +188,13 @@ DrawPass& DrawPass::culls(Cull side) {
     return *this;
 }
 
+DrawPass& DrawPass::geometry(std::string shader) {
+    std::vector<std::string>& shaders = step().shaders;
+    shaders.front() = shader + ".vert";
+    shaders.insert(shaders.begin() + 1, shader + ".geom");
+    return *this;
+}
+
 DrawPass& DrawPass::counted(const Buffer& count, std::uint64_t offset) {
     graph_->check_fresh(count);
     auto& work = std::get<DrawWork>(step().work);

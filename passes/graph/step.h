@@ -137,7 +137,7 @@ struct ClearWork {
 };
 using Work = std::variant<ComputeWork, DrawWork, FullscreenWork, CopyWork, ClearWork>;
 
-/// One step as declared. `shaders` are names in the ShaderLibrary: one .comp, or a .vert and a .frag.
+/// One step as declared. `shaders` are names in the ShaderLibrary: one .comp, or a .vert, perhaps a .geom, and a .frag.
 struct Step {
     std::string name;         ///< the shader's name, or "clear X", "copy X to Y"
     std::uint32_t scope = 0;  ///< index into Graph::scopes
