@@ -10,6 +10,7 @@
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
+#include "passes/transparency/voxel/factors.h"
 
 namespace strata::transparency {
 namespace {
@@ -41,9 +42,13 @@ struct Slices {
     DepthWarp warp;
 
     /// Slice coordinate within the volume.
-    double place_of(const Fragment& f) const {
-        const double s = curve.slice_of(std::max(f.depth, curve.nearest)) * std::exp2(-double(warp.halvings));
+    double place_of(double depth) const {
+        const double s = curve.slice_of(std::max(depth, curve.nearest)) * std::exp2(-double(warp.halvings));
         return std::min(s, warp.virtual_slices() - double(end_margin));
+    }
+    /// The physical slice of a virtual one, or the next in front that is there.
+    std::uint32_t physical(std::uint32_t slice) const {
+        return static_cast<std::uint32_t>(std::max(warp.physical(static_cast<int>(slice)), 0));
     }
     double sampled(std::span<const double> integral, double at, std::uint32_t sampling) const {
         const auto value = [&](int slice) {
@@ -57,6 +62,14 @@ struct Slices {
 Slices slices_of(const VoxelParams& params, const Frame& frame) {
     const DepthCurve curve = depth_curve(params, voxel_range(params, frame));
     return {curve, depth_warp(params, frame, curve)};
+}
+
+/// By Fragment::submission, what each triangle is multiplied into.
+std::vector<std::uint32_t> slices_of_triangles(const Frame& frame, const Slices& slices) {
+    std::vector<std::uint32_t> all;
+    for (const double depth : depths_of_triangles(frame))
+        all.push_back(slices.physical(static_cast<std::uint32_t>(slices.place_of(depth))));
+    return all;
 }
 
 }  // namespace
@@ -85,14 +98,18 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const std::vector<Origin> origins = origins_of(input.frame);
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
+    const std::vector<std::uint32_t> of_triangles = slices_of_triangles(input.frame, slices);
     PrepassModel prepass{.divisor = voxel_divisor(params, extent, static_cast<std::uint32_t>(channels))};
-    prepass.project = [=, &origins](std::span<const Fragment> fragments, glm::uvec2 texel) {
+    prepass.project = [=, &origins, &of_triangles](std::span<const Fragment> fragments, glm::uvec2 texel) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {
             Column column(format);
-            for (const Fragment& f : fragments) {
-                SlicePlace place = slice_place(slices.place_of(f), slices.warp.virtual_slices(), params.splatting);
-                place.slice = static_cast<std::uint32_t>(std::max(slices.warp.physical(static_cast<int>(place.slice)), 0));
+            const bool multiplies = params.splat == splat_multiply;
+            if (multiplies)
+                column = column_of_factors(format, multiplications(fragments, of_triangles, channel, channels), params.bits);
+            for (const Fragment& f : multiplies ? std::span<const Fragment>{} : fragments) {
+                SlicePlace place = slice_place(slices.place_of(f.depth), slices.warp.virtual_slices(), params.splatting);
+                place.slice = slices.physical(place.slice);
                 const double codes = format.codes(channel_depth(f, channel, channels));
                 column.add(split_code(format, place, codes, rounding_of(params, origins, f, texel)));
             }
@@ -103,7 +120,7 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     };
     prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
         return [=](const Fragment& f) {
-            const double at = slices.place_of(f) + sampling_bias(params.sampling) + double(params.shift);
+            const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
                 const auto integral = integrals.subspan(channel * format.slices, format.slices);

@@ -8,6 +8,7 @@
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/factors.h"
 #include "passes/transparency/voxel/model.h"
 
 namespace strata::transparency {
@@ -32,6 +33,9 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
 
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
 
+/// What multiplies puts a triangle's fragments where the triangle's center is, which is not where tiles know of it.
+bool skips(const VoxelParams& params) { return params.skipping != 0 && params.splat != splat_multiply; }
+
 Buffer zeros(Graph& graph, const char* name, std::uint64_t words) {
     Buffer buffer = graph.create(name, words * sizeof(std::uint32_t));
     graph.clear(buffer, 0);
@@ -55,7 +59,7 @@ Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
 
 /// To a step over tiles of columns.
 ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& pass) {
-    return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", params.skipping);
+    return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", flag(skips(params)));
 }
 
 /// A step with a row of groups for each transparent draw, for at most `groups` of its triangles at once.
@@ -106,9 +110,16 @@ Volume create_volume(Graph& graph, const VoxelParams& params, const Extent& low,
     return {.voxels = graph.create("voxels", Shape{.extent = columns, .format = Format::r32ui, .layers = format.words()}),
             .overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t)),
             .warp = zeros(graph, "depth warp", warp),
-            .tiles = zeros(graph, "voxel tiles", params.skipping ? marks : 1),
+            .tiles = zeros(graph, "voxel tiles", skips(params) ? marks : 1),
             .field_bits = format.field_bits,
             .push = push_of(params, curve, low, channels)};
+}
+
+void splat_codes(Graph& graph, const FrameImages& low, const VoxelParams& params, Volume& volume) {
+    bind_warp(volume, params, bind_columns(volume, params, draw_events(graph, "transparency/voxel/splat", low.transparent, low)))
+        .updates("voxels", volume.voxels)
+        .fixes("splatting", params.splatting)
+        .fixes("rounding", params.rounding);
 }
 
 }  // namespace
@@ -123,13 +134,11 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     const Extent columns{low.extent.width, low.extent.height, channels};
 
     if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);
-    if (params.skipping) find_tiles(graph, images, params, volume);
+    if (skips(params)) find_tiles(graph, images, params, volume);
     ComputePass clear = graph.compute("transparency/voxel/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);
-    bind_warp(volume, params, bind_columns(volume, params, draw_events(graph, "transparency/voxel/splat", low.transparent, low)))
-        .updates("voxels", volume.voxels)
-        .fixes("splatting", params.splatting)
-        .fixes("rounding", params.rounding);
+    if (params.splat == splat_multiply) splat_factors(graph, low, params, volume);
+    else splat_codes(graph, low, params, volume);
     ComputePass integrate = graph.compute("transparency/voxel/integrate.comp");
     bind_tiles(volume, params, integrate).updates("voxels", volume.voxels).over(columns);
     return volume;
