@@ -11,6 +11,7 @@
 
 #include "capture_format/frame.h"
 #include "capture_format/frame_features.h"
+#include "passes/capability.h"
 #include "passes/graph/graph.h"
 
 namespace strata {
@@ -21,6 +22,8 @@ struct FrameImages {
     const Features* features = nullptr;
     Extent extent;              ///< of the view; depth 1
     std::uint32_t samples = 1;  ///< 1 or 4
+    // What it is drawn on.
+    Capabilities capabilities;
 
     // Draw lists of the scene, all indexed triangles over the offered scene buffers (passes/shaders/scene.shared.h).
     DrawList all_opaque;     ///< opaque and masked draws, before culling

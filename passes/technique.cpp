@@ -116,10 +116,4 @@ void Settings::write(std::span<std::byte> block) const {
     }
 }
 
-std::string_view name(Capability capability) {
-    constexpr std::string_view names[] = {"buffer_int64_atomics", "fragment_interlock"};
-    static_assert(std::size(names) == static_cast<std::size_t>(Capability::count_));
-    return names[static_cast<std::size_t>(capability)];
-}
-
 }  // namespace strata

@@ -13,6 +13,7 @@
 
 #include "capture_format/frame_features.h"
 #include "capture_format/result.h"
+#include "passes/capability.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
 #include "passes/reference/fragments.h"
@@ -106,11 +107,6 @@ private:
     std::vector<double> values_;
 };
 
-/// What a device must have beyond the baseline.
-enum class Capability : std::uint32_t { buffer_int64_atomics, fragment_interlock, count_ };
-std::string_view name(Capability);
-using Capabilities = std::vector<Capability>;
-
 using AddFunction = void (*)(Graph&, FrameImages&, const Settings&);
 
 /// Something a technique does at another stage than its own: before it (preparing) or after it (finishing).
@@ -182,7 +178,7 @@ struct Technique {
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct
     std::vector<DebugView> views = {};
     std::vector<DebugTable> tables = {};
-    Capabilities needs = {};
+    Capabilities needs = {};  ///< of the device, beyond the baseline
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
     std::vector<KnownFailure> known_failures = {};

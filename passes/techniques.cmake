@@ -125,7 +125,7 @@ function(add_techniques target)
     write_gbuffer_decoders(${listed})
 
     set(spirv "")
-    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.frag)
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag)
     foreach(shader IN LISTS shaders)
         compile_shader(${shader} spirv)
     endforeach()

@@ -91,7 +91,7 @@ class Remember {
 public:
     Remember(Declaration& d, Memo& memo, std::uint64_t frame_key, std::vector<std::vector<std::string>> wanted,
              std::vector<bool> skip)
-        : d_(&d), memo_(&memo), keys_(frame_key), wanted_(std::move(wanted)), skip_(std::move(skip)) {}
+        : d_(&d), memo_(&memo), keys_(frame_key, memo.runs()), wanted_(std::move(wanted)), skip_(std::move(skip)) {}
 
     void operator()(const DeclaredAct& act) {
         const std::size_t place = place_++;

@@ -2,6 +2,7 @@
 // session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging) and memory_budget.cpp.
 #pragma once
 
+#include <set>
 #include <variant>
 
 #include "passes/reference/fragments.h"
@@ -34,7 +35,7 @@ public:
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
     Result<const FragmentLists*> transparent_fragments(const Request&) override;
     Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
-    void forget_memo() override { memo_.clear(); }
+    void forget_memo() override;
 
 private:
     /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
@@ -73,6 +74,8 @@ private:
     /// Makes room for a plan that uses nothing of the memo.
     Result<void> make_room(const Plan&, const RunOptions&);
     void upload_scene();
+    /// Zeros for what frames leave to the next and none left yet.
+    void make_remembered(const Plan&);
     /// The one place where a device's collapse becomes an Error.
     template <typename Action>
     std::invoke_result_t<Action> guarded(Action);
@@ -88,7 +91,8 @@ private:
     std::unique_ptr<LoadedFrame> loaded_;
     std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
     std::uint64_t memory_budget_;
-    RunTimes times_;  ///< of the latest request
+    std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
+    RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
     Source source_;
 };

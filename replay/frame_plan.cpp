@@ -51,8 +51,6 @@ Result<void> apply_set(Choices& choices, std::string_view set) {
     return {};
 }
 
-bool has(const Capabilities& device, Capability needed) { return std::ranges::find(device, needed) != device.end(); }
-
 Result<void> check_needs(const Technique& technique, const Capabilities& device) {
     for (const Capability needed : technique.needs)
         if (!has(device, needed))
@@ -104,6 +102,7 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
                                     const AfterAct& after) {
     DeclaredFrame frame;
     Choices wanted;
+    images.capabilities = device;
     for (const StageInfo& stage : stages()) {
         const auto choice = choices.find(stage.stage);
         if (const auto reason = stage.unwanted(*images.features)) {

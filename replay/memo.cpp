@@ -103,6 +103,7 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
         if (step.scope != act.scope) continue;
         for (const Use& use : uses(step)) {
             use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
+            if (!use.image && graph.record(use.buffer).remembered) hash.add(run_);
             if (writes(use.access)) use.image ? images.insert(use.image.id) : buffers.insert(use.buffer.id);
         }
     }

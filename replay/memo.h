@@ -39,7 +39,11 @@ public:
     void limit(std::uint64_t budget_bytes);
     std::uint64_t held() const { return held_; }
     /// What is used from here on stays until the next call.
-    void begin_run() { run_began_ = clock_; }
+    void begin_run() {
+        run_began_ = clock_;
+        ++runs_;
+    }
+    std::uint64_t runs() const { return runs_; }
     /// Null when the key is not there, not filled, or lacks one of the images.
     KeptAct* find(std::uint64_t key, std::span<const std::string> images);
     /// Makes room and images for an act about to run; null where the budget has no room for them.
@@ -55,19 +59,20 @@ private:
     void shrink(std::uint64_t bytes);
 
     Executor* executor_;
-    std::uint64_t budget_, held_ = 0, clock_ = 0, run_began_ = 0, next_id_ = first_free_import;
+    std::uint64_t budget_, held_ = 0, clock_ = 0, run_began_ = 0, runs_ = 0, next_id_ = first_free_import;
     std::map<std::uint64_t, KeptAct> kept_;
 };
 
 /// Hash of what an act depends on: technique, settings, the frame, and the keys of the acts whose images and buffers it reads.
 class ActKeys {
 public:
-    explicit ActKeys(std::uint64_t frame_key) : frame_key_(frame_key) {}
+    /// run: no two runs have the same. What frames leave to the next is part of no key, so acts that look at it have none twice.
+    ActKeys(std::uint64_t frame_key, std::uint64_t run) : frame_key_(frame_key), run_(run) {}
     /// The key of the act just declared as `scope`; remembers it as the producer of what the scope writes.
     std::uint64_t key(const Graph&, const DeclaredAct&, const Settings&);
 
 private:
-    std::uint64_t frame_key_;
+    std::uint64_t frame_key_, run_;
     std::map<std::uint32_t, std::uint64_t> image_key_, buffer_key_;  ///< by id: key of the last writer
 };
 

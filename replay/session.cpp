@@ -150,6 +150,17 @@ void DeviceSession::upload_scene() {
     times_.upload = lap();
 }
 
+void DeviceSession::make_remembered(const Plan& plan) {
+    for (const BufferRecord& buffer : plan.buffers)
+        if (buffer.remembered && remembered_.insert(buffer.import->key).second)
+            executor_->upload(*buffer.import, std::vector<std::byte>(buffer.bytes));
+}
+
+void DeviceSession::forget_memo() {
+    memo_.clear();
+    remembered_.clear();
+}
+
 Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
     if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
     const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
@@ -157,6 +168,7 @@ Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions&
         if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
     auto execution = guarded([&]() -> Result<Execution> {
         upload_scene();
+        make_remembered(d.plan);
         return executor_->run(d.plan, options);
     });
     if (execution) times_.device = execution->host_ms;

@@ -173,7 +173,7 @@ public:
     /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
     virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
 
-    /// Drops every kept stage output.
+    /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;
 };
 

@@ -37,14 +37,15 @@ Result<const Shader*> find_shader(const ShaderLibrary& library, const std::strin
 
 /// A draw's own vertex shader, or the one for the scene's meshes; its fragment shader may be missing where only depth is written.
 std::vector<std::string> shaders_of_draw(const Step& step, const ShaderLibrary& library) {
-    const std::string &vertex = step.shaders.at(0), &fragment = step.shaders.at(1);
+    std::vector<std::string> shaders = step.shaders;
     const auto is_color = [](const Attachment& a) {
         return a.access == Access::color_written || a.access == Access::color_blended;
     };
-    const bool own_vertex = library.find(vertex) != nullptr;
-    const bool depth_only = own_vertex && !library.find(fragment) && std::ranges::none_of(step.attachments, is_color);
-    if (depth_only) return {vertex};
-    return {own_vertex ? vertex : "shaders/draw.vert", fragment};
+    const bool own_vertex = library.find(shaders.front()) != nullptr;
+    const bool depth_only = own_vertex && !library.find(shaders.back()) && std::ranges::none_of(step.attachments, is_color);
+    if (depth_only) shaders.pop_back();
+    if (!own_vertex) shaders.front() = "shaders/draw.vert";
+    return shaders;
 }
 
 Result<void> find_shaders(PlannedStep& planned, const ShaderLibrary& library) {
@@ -249,7 +250,29 @@ Result<void> check_attachment(const Graph& graph, const Step& step, const Attach
     return check_part(shape, attachment.part, step.name + ": image " + name);
 }
 
-Result<void> check_attachments(const Graph& graph, const PlannedStep& planned) {
+std::uint32_t layers_of(const Graph& graph, const Attachment& attachment) {
+    return attachment.part.layer ? 1 : graph.shape(attachment.image).layers;
+}
+
+/// Attachments of several layers are drawn into at once, so all have as many, and a shader says which one a triangle is in.
+Result<void> check_layers(const Graph& graph, PlannedStep& planned) {
+    const Step& step = planned.step;
+    if (step.attachments.empty()) return {};
+    const Attachment& first = step.attachments.front();
+    planned.layers = layers_of(graph, first);
+    for (const Attachment& attachment : step.attachments)
+        if (layers_of(graph, attachment) != planned.layers)
+            return fail(Fault::usage, "{} draws into {} with {} layers and into {} with {}", step.name,
+                        quoted(graph, first.image), planned.layers, quoted(graph, attachment.image),
+                        layers_of(graph, attachment));
+    const bool chosen = std::ranges::any_of(planned.shaders, &Shader::chooses_layer);
+    if (planned.layers > 1 && !chosen)
+        return fail(Fault::usage, "{} draws into {}, which has {} layers: name one, or let a shader write gl_Layer", step.name,
+                    quoted(graph, first.image), planned.layers);
+    return {};
+}
+
+Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
     const Step& step = planned.step;
     const auto* draw = std::get_if<DrawWork>(&step.work);
     const auto* fullscreen = std::get_if<FullscreenWork>(&step.work);
@@ -259,6 +282,7 @@ Result<void> check_attachments(const Graph& graph, const PlannedStep& planned) {
         if (auto checked = check_attachment(graph, step, attachment); !checked) return checked;
         if (row(graph.shape(attachment.image).format).kind != FormatKind::depth) ++colors;
     }
+    if (auto checked = check_layers(graph, planned); !checked) return checked;
     const std::uint32_t outputs = planned.shaders.back()->color_outputs;
     if (colors > outputs || (colors < outputs && !step.drops_other_colors))
         return fail(Fault::usage, "{} writes {} colors, but the step has {} color attachments", planned.shaders.back()->name,

@@ -62,6 +62,15 @@ std::string groups_text(const PlannedStep& planned) {
     return fmt::format(", {} x {} x {} groups", planned.groups.width, planned.groups.height, planned.groups.depth);
 }
 
+/// What a reader would not expect of a raster step.
+std::string raster_text(const PlannedStep& planned) {
+    std::string text;
+    for (const std::string& shader : planned.step.shaders)
+        if (shader.ends_with(".geom")) text += ", through " + shader;
+    if (planned.layers > 1) text += fmt::format(", {} layers at once", planned.layers);
+    return text;
+}
+
 std::string summary(const Plan& plan) {
     return fmt::format("{}, {} left out; images {} in {}, buffers {}\n", count_text(plan.steps.size(), "step", "steps"),
                        plan.culled.size(), size_text(plan.image_bytes), count_text(plan.slots.size(), "slot", "slots"),
@@ -111,7 +120,7 @@ std::string describe(const Plan& plan) {
             scope = planned.step.scope;
             text += fmt::format("\n{}\n", plan.scopes[scope].name);
         }
-        text += fmt::format("    {}{}\n", planned.step.name, groups_text(planned));
+        text += fmt::format("    {}{}{}\n", planned.step.name, groups_text(planned), raster_text(planned));
         for (const Barrier& barrier : planned.barriers) text += barrier_text(plan, barrier);
     }
     if (!plan.final_barriers.empty()) text += "\nat the end\n";

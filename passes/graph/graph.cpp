@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 
 #include <fmt/core.h>
 
@@ -188,6 +189,13 @@ DrawPass& DrawPass::culls(Cull side) {
     return *this;
 }
 
+DrawPass& DrawPass::geometry(std::string shader) {
+    std::vector<std::string>& shaders = step().shaders;
+    shaders.front() = shader + ".vert";
+    shaders.insert(shaders.begin() + 1, shader + ".geom");
+    return *this;
+}
+
 DrawPass& DrawPass::counted(const Buffer& count, std::uint64_t offset) {
     graph_->check_fresh(count);
     auto& work = std::get<DrawWork>(step().work);
@@ -262,6 +270,14 @@ Buffer Graph::create(std::string name, std::uint64_t size) {
 Buffer Graph::import(std::string name, std::uint64_t size, ImportId id) {
     buffers_.push_back({.name = std::move(name), .bytes = size, .import = id});
     return {static_cast<std::uint32_t>(buffers_.size() - 1), 0};
+}
+
+Buffer Graph::remember(std::string name, std::uint64_t size) {
+    const std::uint64_t of_host = std::uint64_t(1) << 63;  // keys that nobody counts up to
+    const std::uint64_t key = std::hash<std::string>()(fmt::format("{} {}", name, size)) | of_host;
+    const Buffer buffer = import(std::move(name), size, {key});
+    buffers_.back().remembered = true;
+    return buffer;
 }
 
 ComputePass Graph::compute(std::string shader) {

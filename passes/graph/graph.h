@@ -60,7 +60,9 @@ public:
     ComputePass& indirect(const Buffer& arguments, std::uint64_t offset = 0);
 };
 
-/// Color attachments stand in the order of their verbs: the first is location 0.
+/// Color attachments stand in the order of their verbs: the first is location 0. Attachments of several layers of which no part
+/// names one are drawn into all at once, each triangle into the layer that the last shader before the fragments writes to
+/// gl_Layer.
 template <typename Self>
 class RasterBuilder : public StepBuilder<Self> {
 public:
@@ -85,6 +87,8 @@ class DrawPass : public RasterBuilder<DrawPass> {
 public:
     using RasterBuilder::RasterBuilder;
     DrawPass& culls(Cull);
+    /// A geometry shader by its path without ".geom", between the fragment shader and the vertex shader beside itself.
+    DrawPass& geometry(std::string shader);
     /// Only the first *count of the list's commands.
     DrawPass& counted(const Buffer& count, std::uint64_t offset = 0);
 };
@@ -109,6 +113,9 @@ public:
     Image import(std::string name, Shape, ImportId);
     Buffer create(std::string name, std::uint64_t bytes);
     Buffer import(std::string name, std::uint64_t bytes, ImportId);
+    /// What frames leave to the next: zero in a session's first run, then as the last run that declared the name and size left
+    /// it.
+    Buffer remember(std::string name, std::uint64_t bytes);
 
     /// A .comp shader by its path below passes/, without "passes/": "transparency/weighted/resolve.comp".
     ComputePass compute(std::string shader);

@@ -39,7 +39,8 @@ struct PlannedStep {
     std::vector<Barrier> barriers;         ///< before the step
     std::vector<PlannedBinding> bindings;  ///< every binding of every shader of the step, offers included
     std::vector<const Shader*> shaders;
-    Extent groups{0, 0, 0};  ///< of a compute step that is not indirect, fixed group sizes respected
+    Extent groups{0, 0, 0};    ///< of a compute step that is not indirect, fixed group sizes respected
+    std::uint32_t layers = 1;  ///< that a raster step draws into at once
 };
 
 /// One access of a step, whatever verb, offer or work it came from.

@@ -33,10 +33,12 @@ ShaderStage stage_of(const Compiler& compiler) {
             return ShaderStage::compute;
         case spv::ExecutionModelVertex:
             return ShaderStage::vertex;
+        case spv::ExecutionModelGeometry:
+            return ShaderStage::geometry;
         case spv::ExecutionModelFragment:
             return ShaderStage::fragment;
         default:
-            throw Unusable{"it is neither a compute, a vertex nor a fragment shader"};
+            throw Unusable{"it is neither a compute, a vertex, a geometry nor a fragment shader"};
     }
 }
 
@@ -208,6 +210,10 @@ std::uint32_t color_outputs_of(const Compiler& compiler, const spirv_cross::Shad
     return outputs;
 }
 
+bool writes_layer(const spirv_cross::ShaderResources& resources) {
+    return std::ranges::any_of(resources.builtin_outputs, [](const auto& output) { return output.builtin == spv::BuiltInLayer; });
+}
+
 Shader reflected_shader(std::string name, std::span<const std::uint32_t> code) {
     const Compiler compiler(code.data(), code.size());
     const auto resources = compiler.get_shader_resources(compiler.get_active_interface_variables());
@@ -223,6 +229,7 @@ Shader reflected_shader(std::string name, std::span<const std::uint32_t> code) {
         shader.push_bytes = static_cast<std::uint32_t>(compiler.get_declared_struct_size(compiler.get_type(r.base_type_id)));
     if (shader.stage == ShaderStage::compute) read_group(compiler, shader);
     if (shader.stage == ShaderStage::fragment) shader.color_outputs = color_outputs_of(compiler, resources);
+    shader.chooses_layer = writes_layer(resources);
     return shader;
 }
 

@@ -17,7 +17,7 @@
 
 namespace strata {
 
-enum class ShaderStage : std::uint32_t { compute, vertex, fragment };
+enum class ShaderStage : std::uint32_t { compute, vertex, geometry, fragment };
 enum class BindingKind : std::uint32_t { sampled_image, storage_image, storage_buffer, uniform_buffer };
 enum class ImageDimension : std::uint32_t { two, three };
 
@@ -60,6 +60,7 @@ struct Shader {
     Extent group{1, 1, 1};                       ///< threads; where a specialization constant says so, its default
     std::array<std::string, 3> group_constants;  ///< their names where local_size_?_id is used, else empty
     std::uint32_t color_outputs = 0;             ///< fragment: highest location + 1
+    bool chooses_layer = false;                  ///< writes gl_Layer
 };
 
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.

@@ -78,7 +78,8 @@ struct BufferRecord {
     std::uint64_t bytes = 0;
     std::uint32_t version = 0;
     std::optional<ImportId> import = {};
-    bool weak = false;  ///< writing it keeps no step alive (counters)
+    bool weak = false;        ///< writing it keeps no step alive (counters)
+    bool remembered = false;  ///< outlives the frame: see Graph::remember
 };
 
 using SpecValue = std::variant<std::uint32_t, std::int32_t, float>;
@@ -137,7 +138,7 @@ struct ClearWork {
 };
 using Work = std::variant<ComputeWork, DrawWork, FullscreenWork, CopyWork, ClearWork>;
 
-/// One step as declared. `shaders` are names in the ShaderLibrary: one .comp, or a .vert and a .frag.
+/// One step as declared. `shaders` are names in the ShaderLibrary: one .comp, or a .vert, perhaps a .geom, and a .frag.
 struct Step {
     std::string name;         ///< the shader's name, or "clear X", "copy X to Y"
     std::uint32_t scope = 0;  ///< index into Graph::scopes

@@ -16,7 +16,8 @@ struct AccessRow {
 };
 
 // Reads name every shader stage: a plan puts no barrier between equal reads, whichever stages do them.
-constexpr vk::PipelineStageFlags2 shaders = Stage::eVertexShader | Stage::eFragmentShader | Stage::eComputeShader;
+constexpr vk::PipelineStageFlags2 shaders =
+    Stage::eVertexShader | Stage::eGeometryShader | Stage::eFragmentShader | Stage::eComputeShader;
 constexpr vk::PipelineStageFlags2 depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 // `none` waits for everything: what touched the memory before is another run, or is not known.

@@ -42,7 +42,6 @@ constexpr FeatureRow baseline[] = {
     feature<&V12::hostQueryReset>("hostQueryReset"),
     feature<&V12::scalarBlockLayout>("scalarBlockLayout"),
     feature<&V12::drawIndirectCount>("drawIndirectCount"),
-    feature<&V12::shaderOutputLayer>("shaderOutputLayer"),
     feature<&V11::shaderDrawParameters>("shaderDrawParameters"),
     feature<&Core::fragmentStoresAndAtomics>("fragmentStoresAndAtomics"),
     feature<&Core::vertexPipelineStoresAndAtomics>("vertexPipelineStoresAndAtomics"),
@@ -132,7 +131,9 @@ std::vector<std::string_view> baseline_features() {
 Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
     Capabilities found;
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return found;
-    if (features_of(device).get<V12>().shaderBufferInt64Atomics) found.push_back(Capability::buffer_int64_atomics);
+    const auto features = features_of(device);
+    if (features.get<V12>().shaderBufferInt64Atomics) found.push_back(Capability::buffer_int64_atomics);
+    if (features.get<V12>().shaderOutputLayer) found.push_back(Capability::shader_output_layer);
     if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
     return found;
 }
@@ -152,14 +153,13 @@ std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Capabilities& capabilities) {
     FeatureChain wanted;
     for (const FeatureRow& row : baseline) row.of(wanted) = VK_TRUE;
-    const auto has = [&](Capability capability) { return std::ranges::find(capabilities, capability) != capabilities.end(); };
-    wanted.get<V12>().shaderBufferInt64Atomics = has(Capability::buffer_int64_atomics);
-
+    wanted.get<V12>().shaderBufferInt64Atomics = has(capabilities, Capability::buffer_int64_atomics);
+    wanted.get<V12>().shaderOutputLayer = has(capabilities, Capability::shader_output_layer);
     wanted.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery = counts_invocations(physical);
 
     std::vector<const char*> extensions;
     vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT interlock;
-    if (has(Capability::fragment_interlock)) {
+    if (has(capabilities, Capability::fragment_interlock)) {
         extensions.push_back(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
         interlock.fragmentShaderPixelInterlock = VK_TRUE;
         interlock.pNext = std::exchange(wanted.get<V13>().pNext, &interlock);

@@ -105,8 +105,8 @@ struct ShaderPart {
 
     vk::PipelineShaderStageCreateInfo info() {
         specialization.setMapEntries(constants.entries).setData<std::uint32_t>(constants.values);
-        constexpr std::array bits = {vk::ShaderStageFlagBits::eCompute, vk::ShaderStageFlagBits::eVertex,
-                                     vk::ShaderStageFlagBits::eFragment};
+        using Bit = vk::ShaderStageFlagBits;
+        constexpr std::array bits = {Bit::eCompute, Bit::eVertex, Bit::eGeometry, Bit::eFragment};
         return {{}, bits[static_cast<std::size_t>(stage)], *module, "main", &specialization};
     }
 
@@ -197,7 +197,9 @@ vk::DescriptorType descriptor_type(BindingKind kind) {
 vk::ShaderStageFlags shader_stages(const Step& step) {
     using Bit = vk::ShaderStageFlagBits;
     if (std::holds_alternative<ComputeWork>(step.work)) return Bit::eCompute;
-    return Bit::eVertex | Bit::eFragment;
+    const auto is_geometry = [](const std::string& shader) { return shader.ends_with(".geom"); };
+    const bool geometry = std::ranges::any_of(step.shaders, is_geometry);
+    return Bit::eVertex | Bit::eFragment | (geometry ? Bit::eGeometry : vk::ShaderStageFlags());
 }
 
 PipelineStore::PipelineStore(OpenedDevice& device) : device_(&device) {}

@@ -156,12 +156,9 @@ void StepRecorder::begin_rendering(const PlannedStep& planned, std::optional<Ext
     std::vector<vk::RenderingAttachmentInfo> colors;
     vk::RenderingAttachmentInfo depth;
     Extent extent = viewport.value_or(Extent{});
-    std::uint32_t layers = 1;
-    for (std::size_t i = 0; i < planned.step.attachments.size(); ++i) {
-        const Attachment& attachment = planned.step.attachments[i];
+    for (const Attachment& attachment : planned.step.attachments) {
         const Shape& shape = plan_->images[attachment.image.id].shape;
-        const std::uint32_t mip = attachment.part.mip.value_or(0), has = attachment.part.layer ? 1 : shape.layers;
-        layers = i == 0 ? has : std::min(layers, has);
+        const std::uint32_t mip = attachment.part.mip.value_or(0);
         if (!viewport) extent = {at_mip(shape.extent.width, mip), at_mip(shape.extent.height, mip), 1};
         if (is_depth(attachment)) {
             depth = attach(planned, attachment);
@@ -170,7 +167,7 @@ void StepRecorder::begin_rendering(const PlannedStep& planned, std::optional<Ext
         }
     }
     const vk::Rect2D area({0, 0}, {extent.width, extent.height});
-    commands_->beginRendering(vk::RenderingInfo({}, area, layers, 0, colors, depth.imageView ? &depth : nullptr));
+    commands_->beginRendering(vk::RenderingInfo({}, area, planned.layers, 0, colors, depth.imageView ? &depth : nullptr));
     const vk::Viewport whole(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1);
     commands_->setViewport(0, whole);
     commands_->setScissor(0, area);

@@ -52,6 +52,14 @@ TEST(Reflection, IntegerImagesAndColorOutputsAreRead) {
     EXPECT_EQ(gather->color_outputs, 1u);
 }
 
+TEST(Reflection, AShaderThatChoosesALayerIsKnown) {
+    const auto chooses = [](std::string_view name) { return ShaderLibrary::built_in().find(name)->chooses_layer; };
+    EXPECT_TRUE(chooses("transparency/voxel/splat_multiply.vert"));
+    EXPECT_TRUE(chooses("transparency/voxel/choose_slice.geom"));
+    EXPECT_FALSE(chooses("shaders/draw.vert"));
+    EXPECT_EQ(ShaderLibrary::built_in().find("transparency/voxel/choose_slice.geom")->stage, ShaderStage::geometry);
+}
+
 TEST(Reflection, NestedStructsAreFlattened) {
     const Shader* draw = ShaderLibrary::built_in().find("shaders/draw.vert");
     ASSERT_TRUE(draw);

@@ -58,6 +58,9 @@ ShaderLibrary made_library() {
     library.add(shader("shaders/fullscreen.vert", ShaderStage::vertex, {}));
     library.add(shader("depth_only.vert", ShaderStage::vertex, {}));
     library.add(shader("paint.frag", ShaderStage::fragment, {}));
+    Shader sort = shader("sort.geom", ShaderStage::geometry, {block("List", 0, Direction::in)});
+    sort.chooses_layer = true;
+    library.add(sort);
     library.add(shader("shade.frag", ShaderStage::fragment, {texture("source", 0)}));
     return library;
 }

@@ -11,7 +11,8 @@ namespace strata {
 // write.comp stores target; copy.comp loads source, stores target; sample.comp samples source, stores target; change.comp
 // updates target; count.comp samples source, updates Counters; shade_and_count.comp stores target as well; fill_list.comp stores
 // List; use_list.comp loads List, stores target; pushed.comp has an 8 byte push block and a constant "rank"; paint.frag has one
-// color output; shade.frag samples source and has one; depth_only.vert stands alone. Groups are 8 x 8.
+// color output; shade.frag samples source and has one; depth_only.vert stands alone; sort.geom loads List and chooses a layer.
+// Groups are 8 x 8.
 const ShaderLibrary& small_shaders();
 
 /// 64 x 32, one of everything.

@@ -7,7 +7,7 @@
 namespace strata {
 namespace {
 
-constexpr std::array extensions = {".h", ".cpp", ".glsl", ".comp", ".vert", ".frag"};
+constexpr std::array extensions = {".h", ".cpp", ".glsl", ".comp", ".vert", ".geom", ".frag"};
 
 SourceFile read(const std::filesystem::path& root, const std::filesystem::path& path) {
     SourceFile file{path.lexically_relative(root), {}};

@@ -8,8 +8,8 @@
 
 namespace strata {
 
-/// Compiles the source with glslangValidator and reflects it; the name ends in .comp, .vert or .frag. The version line, scalar
-/// layout, subgroups and includes from include_folder are provided. Throws with the compiler's words.
+/// Compiles the source with glslangValidator and reflects it; the name ends in .comp, .vert, .geom or .frag. The version line,
+/// scalar layout, subgroups and includes from include_folder are provided. Throws with the compiler's words.
 Shader glsl(const std::string& name, std::string_view source, const std::string& include_folder = ".");
 
 }  // namespace strata

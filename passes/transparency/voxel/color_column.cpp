@@ -6,7 +6,7 @@
 namespace strata::transparency {
 
 bool packs_colors(const VoxelParams& params, std::uint32_t channels) {
-    return channels == 3 && params.packing == packing_rgb10 && params.splat != splat_words;
+    return channels == 3 && params.packing == packing_rgb10 && params.splat != splat_words && params.splat != splat_multiply;
 }
 
 ColumnFormat color_format(const VoxelParams& params) {

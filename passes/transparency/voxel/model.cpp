@@ -11,6 +11,7 @@
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
+#include "passes/transparency/voxel/factors.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
@@ -47,9 +48,13 @@ struct Slices {
     DepthWarp warp;
 
     /// Slice coordinate within the volume.
-    double place_of(const Fragment& f) const {
-        const double s = curve.slice_of(std::max(f.depth, curve.nearest)) * std::exp2(-double(warp.halvings));
+    double place_of(double depth) const {
+        const double s = curve.slice_of(std::max(depth, curve.nearest)) * std::exp2(-double(warp.halvings));
         return std::min(s, warp.virtual_slices() - double(end_margin));
+    }
+    /// The physical slice of a virtual one, or the next in front that is there.
+    std::uint32_t physical(std::uint32_t slice) const {
+        return static_cast<std::uint32_t>(std::max(warp.physical(static_cast<int>(slice)), 0));
     }
     double sampled(std::span<const double> integral, double at, std::uint32_t sampling) const {
         const auto value = [&](int slice) {
@@ -65,6 +70,14 @@ Slices slices_of(const VoxelParams& params, const Frame& frame) {
     return {curve, depth_warp(params, frame, curve)};
 }
 
+/// By Fragment::submission, what each triangle is multiplied into.
+std::vector<std::uint32_t> slices_of_triangles(const Frame& frame, const Slices& slices) {
+    std::vector<std::uint32_t> all;
+    for (const double depth : depths_of_triangles(frame))
+        all.push_back(slices.physical(static_cast<std::uint32_t>(slices.place_of(depth))));
+    return all;
+}
+
 /// Fills columns from the fragments of a texel.
 struct Splatter {
     const Frame* frame;
@@ -72,21 +85,29 @@ struct Splatter {
     std::size_t channels;
     Slices slices;
     std::vector<Origin> origins;
+    std::vector<std::uint32_t> of_triangles;  ///< with splat_multiply
 
     SplitCode split(const ColumnFormat& format, const Fragment& f, glm::uvec2 texel, std::size_t channel) const {
-        SlicePlace place = slice_place(slices.place_of(f), slices.warp.virtual_slices(), params.splatting);
-        place.slice = static_cast<std::uint32_t>(std::max(slices.warp.physical(static_cast<int>(place.slice)), 0));
+        SlicePlace place = slice_place(slices.place_of(f.depth), slices.warp.virtual_slices(), params.splatting);
+        place.slice = slices.physical(place.slice);
         const double codes = format.codes(channel_depth(f, channel, channels));
         return split_code(format, place, codes, rounding_of(params, origins, f, texel));
+    }
+
+    Column column_of(std::span<const Fragment> fragments, glm::uvec2 texel, std::size_t channel) const {
+        const ColumnFormat format = column_format(params);
+        if (params.splat == splat_multiply)
+            return column_of_factors(format, multiplications(fragments, of_triangles, channel, channels), params.bits);
+        Column column(format);
+        for (const Fragment& f : fragments) column.add(split(format, f, texel, channel));
+        return column;
     }
 
     /// Of the slices of a channel, then of those of the next.
     std::vector<double> planes(std::span<const Fragment> fragments, glm::uvec2 texel) const {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {
-            Column column(column_format(params));
-            for (const Fragment& f : fragments) column.add(split(column_format(params), f, texel, channel));
-            const std::vector<std::uint32_t> integral = column.integral();
+            const std::vector<std::uint32_t> integral = column_of(fragments, texel, channel).integral();
             all.insert(all.end(), integral.begin(), integral.end());
         }
         return all;
@@ -147,7 +168,8 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     const bool packs = packs_colors(params, channels);
     const ColumnFormat format = packs ? color_format(params) : column_format(params);
     const Slices slices = slices_of(params, input.frame);
-    const Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame)};
+    Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame), {}};
+    if (params.splat == splat_multiply) splatter.of_triangles = slices_of_triangles(input.frame, slices);
     const Extent extent{input.frame.view.width, input.frame.view.height};
 
     PrepassModel prepass{.divisor = voxel_divisor(params, extent, channels), .unseen = PrepassModel::Unseen::adds_nothing};
@@ -157,7 +179,7 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     };
     prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
         return [=](const Fragment& f) {
-            const double at = slices.place_of(f) + sampling_bias(params.sampling) + double(params.shift);
+            const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
                 const auto integral = integrals.subspan(channel * format.slices, format.slices);

@@ -9,6 +9,7 @@
 #include "passes/transparency/voxel/color_column.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/factors.h"
 #include "passes/transparency/voxel/model.h"
 
 namespace strata::transparency {
@@ -34,6 +35,9 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
 }
 
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
+
+/// What multiplies puts a triangle's fragments where the triangle's center is, which is not where tiles know of it.
+bool skips(const VoxelParams& params) { return params.skipping != 0 && params.splat != splat_multiply; }
 
 Buffer zeros(Graph& graph, const char* name, std::uint64_t words) {
     Buffer buffer = graph.create(name, words * sizeof(std::uint32_t));
@@ -61,7 +65,7 @@ Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
 
 /// To a step over tiles of columns.
 ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& pass) {
-    return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", params.skipping);
+    return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", flag(skips(params)));
 }
 
 /// A step with a row of groups for each transparent draw, each for so many of its triangles at a time.
@@ -127,11 +131,11 @@ void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     volume.voxels = graph.create(voxels_name, words_of(planes, voxel_words(params, push.channels) / planes));
     volume.overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t));
     volume.warp = zeros(graph, warp_name, warp);
-    volume.tiles = zeros(graph, "voxel tiles", params.skipping ? marks : 1);
+    volume.tiles = zeros(graph, "voxel tiles", skips(params) ? marks : 1);
     volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
 
-DrawPass splat(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
+DrawPass events_of_columns(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
     const std::string shader = "transparency/voxel/splat";
     if (images.depth) {
         const FrameImages low = prepass_images(graph, images, divisor);
@@ -141,6 +145,13 @@ DrawPass splat(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
     low.extent = prepass_extent(images.extent, divisor);
     low.samples = 1;
     return draw_events_untested(graph, shader, low.transparent, low).within(low.extent);
+}
+
+void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
+    bind_warp(volume, params, bind_columns(volume, params, events_of_columns(graph, images, volume.divisor)))
+        .updates("voxels", volume.voxels)
+        .fixes("splatting", params.splatting)
+        .fixes("rounding", params.rounding);
 }
 
 }  // namespace
@@ -158,13 +169,11 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);
-    if (params.skipping) find_tiles(graph, images, params, volume);
+    if (skips(params)) find_tiles(graph, images, params, volume);
     ComputePass clear = graph.compute("transparency/voxel/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);
-    bind_warp(volume, params, bind_columns(volume, params, splat(graph, images, volume.divisor)))
-        .updates("voxels", volume.voxels)
-        .fixes("splatting", params.splatting)
-        .fixes("rounding", params.rounding);
+    if (params.splat == splat_multiply) splat_factors(graph, prepass_images(graph, images, volume.divisor), params, volume);
+    else splat_codes(graph, images, params, volume);
     ComputePass integrate =
         graph.compute(volume.packs ? "transparency/voxel/integrate_colors.comp" : "transparency/voxel/integrate.comp");
     bind_tiles(volume, params, integrate)

@@ -15,7 +15,7 @@ namespace strata::transparency {
 namespace {
 
 // In the order of the constants in voxel.shared.h.
-constexpr std::string_view splats[] = {"words", "wrapping", "saturating", "overflow_minimum"};
+constexpr std::string_view splats[] = {"words", "wrapping", "saturating", "overflow_minimum", "multiply"};
 constexpr std::string_view bits_choices[] = {"8", "10", "16", "32"};
 constexpr std::string_view packings[] = {"planes", "rgb10"};
 constexpr std::string_view splattings[] = {"point", "linear"};
@@ -81,10 +81,10 @@ std::vector<Param> code_params() {
         param<&VoxelParams::splat>(
             {.name = "splat",
              .low = 0,
-             .high = 3,
+             .high = 4,
              .fallback = splat_overflow_minimum,
-             .help = "a word per slice, or as many in a word as fit: wrapping, saturating by compare-and-swap, or "
-                     "wrapping with a note of the nearest overflow",
+             .help = "a word per slice, or as many in a word as fit: wrapping, saturating by compare-and-swap, or wrapping "
+                     "with a note of the nearest overflow; multiply: no atomics, triangles blended into one slice each",
              .choices = splats}),
         param<&VoxelParams::bits>({.name = "bits",
                                    .low = 0,
@@ -257,10 +257,27 @@ Technique voxel() {
             "Adds optical depth to slices of a low-resolution volume by integer atomics and sums them up along the view: order "
             "independent, bit by bit; within a slice nothing hides anything, and layers below 8 bits are lost.",
         .params = params(),
-        .points = {"slices=64", "slices=256", "slices=512", "volume=dense", "volume=dense range=fixed", "splat=saturating",
-                   "splat=words bits=32", "splatting=point sampling=point", "sampling=bicubic", "bits=10", "bits=16",
-                   "bits=16 slices=512", "packing=rgb10", "packing=rgb10 bits=16", "curve=thickness", "rounding=stochastic",
-                   "resolution=half", "resolution=quarter", "resolution=eighth"},
+        .points = {"slices=64",
+                   "slices=256",
+                   "slices=512",
+                   "volume=dense",
+                   "volume=dense range=fixed",
+                   "splat=saturating",
+                   "splat=words bits=32",
+                   "splat=multiply",
+                   "splatting=point sampling=point",
+                   "sampling=bicubic",
+                   "bits=10",
+                   "bits=16",
+                   "bits=16 slices=512",
+                   "packing=rgb10",
+                   "packing=rgb10 bits=16",
+                   "curve=thickness",
+                   "rounding=stochastic",
+                   "resolution=half",
+                   "resolution=quarter",
+                   "resolution=eighth",
+                   "resolution=sixteenth"},
         .counters = counters(),
         .counter_bytes = sizeof(VoxelCounters),
         .views = views(),

@@ -7,11 +7,12 @@ namespace strata::transparency {
 #endif
 
 // A word of 32 bits for each slice; or as many slices in a word as fit, added to with a wrapping add, by compare-and-swap that
-// saturates, or wrapping with a note of the nearest slice that did.
+// saturates, or wrapping with a note of the nearest slice that did. Or no sum: the product of what is let through, by blending.
 const uint splat_words = 0u;
 const uint splat_wrapping = 1u;
 const uint splat_saturating = 2u;
 const uint splat_overflow_minimum = 3u;
+const uint splat_multiply = 4u;
 
 const uint bits_8 = 0u;
 const uint bits_10 = 1u;

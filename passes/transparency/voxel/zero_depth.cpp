@@ -85,8 +85,8 @@ Image culled_depth(Graph& graph, const FrameImages& images, const Volume& volume
 }
 
 bool is_made_before_opaque(const VoxelParams& params, const Features& features) {
-    return params.prepared == prepared_before_opaque && params.culling != culling_off && !features.has(Feature::soft_particles) &&
-           !features.has(Feature::distortion);
+    return params.prepared == prepared_before_opaque && params.culling != culling_off && params.splat != splat_multiply &&
+           !features.has(Feature::soft_particles) && !features.has(Feature::distortion);
 }
 
 Image depth_to_draw_opaque_into(Graph& graph, const FrameImages& images, const Volume& volume, const VoxelParams& params) {

@@ -1,0 +1,18 @@
+// What a fragment lets through, multiplied by the blending into its triangle's slice (transparency chapter 6.4). Every attachment of
+// a layered draw has as many layers, so opaque depth is tested here.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/voxel/voxel.shared.h"
+
+layout(push_constant, scalar) uniform Push { VoxelPush push; };
+
+layout(location = 0) out vec4 out_factor;
+
+void main() {
+    const Event event = transparent_event();
+    const bool hidden = gl_FragCoord.z < texelFetch(depth_layers, ivec3(gl_FragCoord.xy, 0), 0).r;
+    if (hidden || !event.visible) discard;
+    const float luminance = dot(event.t, vec3(0.2126, 0.7152, 0.0722));
+    out_factor = push.channels == 1u ? vec4(luminance) : vec4(event.t, 1.0);
+}

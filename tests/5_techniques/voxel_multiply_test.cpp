@@ -1,0 +1,101 @@
+// transparency/voxel with splat=multiply: no atomics, every triangle blended into one slice by a layered draw.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "passes/transparency/voxel/factors.h"
+#include "tests/support/session.h"
+#include "tests/support/test_frame.h"
+
+namespace strata {
+namespace {
+
+const std::string voxel = "transparency/voxel";
+
+Run multiplied_run(Session& session, std::vector<std::string> sets = {}) {
+    sets.push_back("splat=multiply");
+    session.forget_memo();
+    return must(session.run({.uses = {voxel}, .sets = std::move(sets), .outputs = {"color"}}));
+}
+
+TEST(VoxelMultiply, IsTheSameWhicheverShaderChoosesTheLayer) {
+    for (const char* scenario : {"smoke_grenade", "glass_and_smoke", "interpenetrating_panes"}) {
+        const auto session = scenario_session(scenario, 4);
+        const auto without =
+            must(Session::open(scenario_frames(scenario, 4), {.validation = true, .without = {"shader_output_layer"}}));
+        ASSERT_TRUE(has(session->device().capabilities, Capability::shader_output_layer));
+        ASSERT_FALSE(has(without->device().capabilities, Capability::shader_output_layer));
+        EXPECT_EQ(multiplied_run(*session).images.at("color").texels, multiplied_run(*without).images.at("color").texels)
+            << scenario;
+    }
+}
+
+TEST(VoxelMultiply, AddsByNoAtomics) {
+    const auto session = scenario_session("particle_storm");
+    const auto run = multiplied_run(*session);
+    EXPECT_EQ(counted(run, "atomics"), 0u);
+    EXPECT_EQ(counted(run, "overflowed"), 0u);
+    EXPECT_GT(counted(run, "columns"), 0u);
+}
+
+/// What is stored grows to the right in all of 8 bits, the factor downwards.
+TEST(VoxelMultiply, RoundsEveryBlendAsTheModelDoes) {
+    constexpr std::uint32_t size = 256;
+    constexpr Format formats[] = {Format::r8_unorm, Format::r16_unorm};
+    for (const std::uint32_t bits : {transparency::bits_8, transparency::bits_16}) {
+        TestFrame frame;
+        frame.shader("across.frag", R"(
+            layout(location = 0) out float stored;
+            void main() { stored = floor(gl_FragCoord.x) / 255.0; })");
+        frame.shader("down.frag", R"(
+            layout(location = 0) out float factor;
+            void main() { factor = gl_FragCoord.y / 256.0; })");
+        Image product = frame.graph.create("product", {.extent = {size, size}, .format = formats[bits]});
+        frame.graph.fullscreen("across").covers(product);
+        frame.graph.fullscreen("down").multiplies(product);
+        const HostImage result = frame.result(product);
+        std::size_t wrong = 0;
+        for (std::uint32_t y = 0; y < size; ++y)
+            for (std::uint32_t x = 0; x < size; ++x) {
+                const double expected = transparency::multiplied(x / 255., (y + .5) / 256, bits);
+                if (std::abs(texel(result, x, y).x - expected) > 1e-6) ++wrong;
+            }
+        EXPECT_EQ(wrong, 0u) << row(formats[bits]).name;
+    }
+}
+
+/// Particles face the eye, so a triangle has one depth.
+TEST(VoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
+    const Technique& technique = *must(find_technique(voxel));
+    for (const char* scenario : {"smoke_grenade", "particle_storm", "explosion"})
+        for (const char* bits : {"bits=8", "bits=16", "bits=32"}) {
+            Request request = on_scenario(scenario);
+            request.uses = {voxel};
+            request.sets = {"splat=multiply", bits};
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << bits;
+            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << " " << bits;
+        }
+}
+
+TEST(VoxelMultiply, IsWhatTheModelSaysInCombinations) {
+    const Technique& technique = *must(find_technique(voxel));
+    const std::vector<std::string> combinations[] = {
+        {"slices=37", "bits=16", "sampling=point"},
+        {"slices=99", "resolution=half", "curve=thickness", "near_thickness=0.3"},
+        {"slices=256", "channels=mono", "resolution=eighth", "sampling=bicubic"},
+    };
+    for (std::vector<std::string> sets : combinations) {
+        sets.push_back("splat=multiply");
+        Request request = on_scenario("glass_and_smoke", 4);
+        request.uses = {voxel};
+        request.sets = sets;
+        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
+        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+    }
+}
+
+}  // namespace
+}  // namespace strata
