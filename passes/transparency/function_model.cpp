@@ -126,9 +126,7 @@ Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 e
     for (const Tap& tap : taps) {
         if (tap.share == 0) continue;
         const std::size_t texel = tap.y * projected.width + tap.x;
-        const std::vector<double>& numbers = projected.texels[texel];
-        read.numbers.resize(numbers.size());
-        for (std::size_t i = 0; i < numbers.size(); ++i) read.numbers[i] += tap.share * numbers[i];
+        model.add(read.numbers, projected.texels[texel], tap.share);
         read.undecided = read.undecided || projected.undecided[texel];
     }
     return read;
@@ -165,6 +163,11 @@ ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& loo
 }
 
 }  // namespace
+
+void add_numbers(std::vector<double>& sum, std::span<const double> numbers, double share) {
+    sum.resize(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) sum[i] += share * numbers[i];
+}
 
 double optical_depth_in_double(double t) {
     return t > 0 ? std::min(-std::log(t), double(largest_optical_depth)) : double(largest_optical_depth);

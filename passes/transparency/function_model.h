@@ -29,6 +29,9 @@ double channel_depth(const Fragment&, std::size_t channel, std::size_t channels)
 using FunctionOfSample = std::function<Transmittance(std::span<const Fragment>)>;
 ImageSet function_model(const StageInput&, std::uint32_t accumulation, const FunctionOfSample&);
 
+/// Number by number; all texels have as many.
+void add_numbers(std::vector<double>& sum, std::span<const double> numbers, double share);
+
 /// A method with a prepass at the extent divided by `divisor`, at one sample per texel.
 struct PrepassModel {
     std::uint32_t divisor = 1;
@@ -39,6 +42,8 @@ struct PrepassModel {
     enum class Unseen { counts, adds_nothing } unseen = Unseen::counts;
     /// What the prepass keeps of a texel's fragments.
     std::function<std::vector<double>(std::span<const Fragment>, glm::uvec2 texel)> project;
+    /// Adds a texel's share to what is read.
+    std::function<void(std::vector<double>& sum, std::span<const double> numbers, double share)> add = add_numbers;
     /// T of a sample from the (filtered) numbers of its place; `texel` is the nearest.
     std::function<Transmittance(std::span<const double>, glm::uvec2 texel)> function;
 };

@@ -33,8 +33,22 @@ float code_at(ivec2 column, uint slice) {
     return float(field(texelFetch(voxels, place_of(column, slice), 0).r, shift_of(slice)));
 }
 
+// Of a word that the tile does not use, the end of the last in front.
+vec3 sparse_codes_at(uvec2 texel, uint slice) {
+    const uvec2 tile = texel / tile_size;
+    const uint word = slice / slices_per_word;
+    const int block = last_block(tile, word);
+    if (block < 0) return vec3(0.0);
+    const uint shift = shift_of(is_in_pool(tile, word) ? slice : slices_per_word - 1u);
+    vec3 codes = vec3(field(texelFetch(voxels, place_of_block(texel, 0u, uint(block)), 0).r, shift));
+    for (uint channel = 1u; channel < push.channels; ++channel)
+        codes[channel] = float(field(texelFetch(voxels, place_of_block(texel, channel, uint(block)), 0).r, shift));
+    return codes;
+}
+
 // Of the channels that there are, or of one for all of them.
 vec3 codes_at(ivec2 texel, uint slice) {
+    if (sparse != 0u) return sparse_codes_at(uvec2(texel), slice);
     if (packs_colors != 0u) return vec3(color_fields(texelFetch(voxels, ivec3(texel, slice), 0).r));
     const float first = code_at(texel, slice);
     if (push.channels == 1u) return vec3(first);

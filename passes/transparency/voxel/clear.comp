@@ -39,6 +39,6 @@ void main() {
     if (splat == splat_overflow_minimum)
         for (uint plane = 0u; plane < planes; ++plane)
             nearest_overflow[index_of(ivec2(column.x, column.y + plane * push.height))] = no_overflow;
-    atomicAdd(counters.voxels, push.words * slices_per_word + (packs_colors != 0u ? push.slices : 0u));
+    if (sparse == 0u) atomicAdd(counters.voxels, push.words * slices_per_word + (packs_colors != 0u ? push.slices : 0u));
     if (cleared > 0u) atomicAdd(counters.cleared, cleared);
 }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/transparency/voxel/sparse.h"
+
 namespace strata::transparency {
 
 bool packs_colors(const VoxelParams& params, std::uint32_t channels) {
-    return channels == 3 && params.packing == packing_rgb10 && params.splat != splat_words && params.splat != splat_multiply;
+    return channels == 3 && params.packing == packing_rgb10 && params.splat != splat_words && params.splat != splat_multiply &&
+           !is_sparse(params);
 }
 
 ColumnFormat color_format(const VoxelParams& params) {

@@ -6,16 +6,20 @@
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(constant_id = 15) const uint adaptive = 0u;  // 1: there is a table
+layout(constant_id = 18) const uint sparse = 0u;    // 1: there is a table of blocks (pool.glsl); all virtual slices are physical
 // Entries of virtual slices, then, from most_virtual_slices on, the virtual slice of each physical one.
 layout(set = 0, binding = 12, scalar) readonly buffer DepthWarp {
     WarpHeader warp;
     uint warp_entries[];
 };
 
-uint virtual_slices() { return adaptive != 0u ? warp.virtual_slices : push.finest_slices; }
+bool is_halved() { return adaptive != 0u || sparse != 0u; }
+
+uint virtual_slices() { return is_halved() ? warp.virtual_slices : push.finest_slices; }
+uint physical_slices() { return sparse != 0u ? warp.virtual_slices : push.slices; }
 
 // Of the finest slices, to those that are left after halving.
-float halved() { return adaptive != 0u ? exp2(-float(warp.halvings)) : 1.0; }
+float halved() { return is_halved() ? exp2(-float(warp.halvings)) : 1.0; }
 
 // Of the finest, not clamped behind.
 float finest_slice_of_depth(float z) { return log2(1.0 + max(z - push.nearest, 0.0) * push.per_linear) * push.slices_per_log2; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "passes/reference/fragments.h"
 #include "passes/reference/shade.h"
@@ -11,11 +10,6 @@
 
 namespace strata::transparency {
 namespace {
-
-/// Rays through a part of the image, z = 1.
-struct RayRectangle {
-    glm::dvec2 low, high;
-};
 
 RayRectangle whole_image(const Frame& frame) {
     const glm::dvec2 a(pixel_ray(frame, 0, 0)), b(pixel_ray(frame, frame.view.width, frame.view.height));
@@ -29,12 +23,8 @@ std::array<double, 2> reached(const RayRectangle& rays, glm::dvec3 plane) {
     return {plane.z + least.x + least.y, plane.z + most.x + most.y};
 }
 
-struct Depths {
-    double nearest, farthest;
-};
+}  // namespace
 
-/// View depths of a triangle where these rays may meet it, at least `near`; nothing if none does. The plane through the eye and
-/// an edge tells on which side of it the rays pass, the triangle's own plane what depths they meet: nothing needs to be clipped.
 std::optional<Depths> depths_within(const Corners& corners, const RayRectangle& rays, double near) {
     Depths depths{std::min({corners[0].z, corners[1].z, corners[2].z}), std::max({corners[0].z, corners[1].z, corners[2].z})};
     if (depths.farthest <= near) return {};
@@ -54,8 +44,6 @@ std::optional<Depths> depths_within(const Corners& corners, const RayRectangle& 
     if (least > 0) depths.farthest = std::min(depths.farthest, (1 + slack) / least);
     return depths;
 }
-
-}  // namespace
 
 void Coverage::take(double from, double to) {
     const auto last = static_cast<double>(halves_.size() - 1);

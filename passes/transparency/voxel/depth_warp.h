@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "capture_format/frame.h"
+#include "passes/reference/triangles.h"
 #include "passes/transparency/voxel/depth_curve.h"
 
 namespace strata::transparency {
@@ -47,6 +49,17 @@ struct DepthWarp {
 DepthWarp depth_warp(Coverage, std::uint32_t physical, std::uint32_t splatting);
 /// Nothing is left out.
 DepthWarp unwarped(std::uint32_t slices);
+
+/// Rays through a part of the image, z = 1.
+struct RayRectangle {
+    glm::dvec2 low, high;
+};
+struct Depths {
+    double nearest, farthest;
+};
+/// View depths of a triangle where these rays may meet it, at least `near`; nothing if none does. The plane through the eye and
+/// an edge tells on which side of it the rays pass, the triangle's own plane what depths they meet: nothing needs to be clipped.
+std::optional<Depths> depths_within(const Corners&, const RayRectangle&, double near);
 
 /// What the frame's transparent triangles cover of the curve's slices, each over as much of its depth as may be seen.
 Coverage transparent_coverage(const Frame&, const DepthCurve&);

@@ -5,6 +5,7 @@
 #include "passes/reference/triangles.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_model.h"
+#include "passes/transparency/voxel/sparse.h"
 
 namespace strata::transparency {
 namespace {
@@ -40,10 +41,7 @@ void splat_factors(Graph& graph, const FrameImages& low, const VoxelParams& para
     const DrawList list = by_vertex ? by_place(graph, low.transparent) : low.transparent;
     DrawPass draw = draw_events_untested(graph, "transparency/voxel/splat_multiply", list, low);
     if (!by_vertex) draw.geometry("transparency/voxel/choose_slice");
-    draw.multiplies(factors)
-        .loads("DepthWarp", volume.warp)
-        .fixes("adaptive", params.volume == volume_adaptive ? 1u : 0u)
-        .push(push);
+    draw.multiplies(factors).loads("DepthWarp", volume.warp).fixes("adaptive", is_adaptive(params) ? 1u : 0u).push(push);
     const Extent columns = graph.shape(volume.voxels).extent;
     graph.compute("transparency/voxel/factors_to_codes.comp")
         .samples("factors", factors)

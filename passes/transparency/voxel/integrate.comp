@@ -38,7 +38,7 @@ void main() {
     for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
         for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) {
             const uint word = 32u * block + uint(findLSB(bits));
-            const ivec3 at = ivec3(column, word);
+            const ivec3 at = place_of(column, word * slices_per_word);
             const bool full = sum == push.full_code;
             const uint extinction = full ? 0u : imageLoad(voxels, at).r;
             imageStore(voxels, at, uvec4(summed_word(extinction, word * slices_per_word, overflow, sum)));

@@ -12,6 +12,7 @@
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
 #include "passes/transparency/voxel/factors.h"
+#include "passes/transparency/voxel/sparse.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
@@ -56,10 +57,10 @@ struct Slices {
     std::uint32_t physical(std::uint32_t slice) const {
         return static_cast<std::uint32_t>(std::max(warp.physical(static_cast<int>(slice)), 0));
     }
-    double sampled(std::span<const double> integral, double at, std::uint32_t sampling) const {
+    double sampled(const std::function<double(std::size_t)>& integral, double at, std::uint32_t sampling) const {
         const auto value = [&](int slice) {
             const int physical = warp.physical(slice);
-            return physical < 0 ? 0 : integral[static_cast<std::size_t>(physical)];
+            return physical < 0 ? 0 : integral(static_cast<std::size_t>(physical));
         };
         return sampled_integral(value, at, sampling);
     }
@@ -68,6 +69,37 @@ struct Slices {
 Slices slices_of(const VoxelParams& params, const Frame& frame) {
     const DepthCurve curve = depth_curve(params, voxel_range(params, frame));
     return {curve, depth_warp(params, frame, curve)};
+}
+
+/// All virtual slices are there, tile by tile.
+Slices sparse_slices_of(const VoxelParams& params, const Frame& frame, Extent columns, std::uint32_t channels) {
+    Slices slices{.curve = sparse_curve(params, voxel_range(params, frame), columns), .warp = {}};
+    const std::uint32_t halvings = sparse_halvings(params, frame, columns, channels);
+    slices.warp = unwarped(static_cast<std::uint32_t>(slices.curve.slices) >> halvings);
+    slices.warp.halvings = halvings;
+    return slices;
+}
+
+/// Where sums rise, and by how much: place, rise, place, rise... Of thousands of slices few hold something. `slices` sums are a
+/// channel's.
+std::vector<double> rises_of(std::span<const double> sums, std::size_t slices) {
+    std::vector<double> rises;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double rise = sums[i] - (i % slices == 0 ? 0 : sums[i - 1]);
+        if (rise > 0) rises.insert(rises.end(), {double(i), rise});
+    }
+    return rises;
+}
+
+void add_rises(std::vector<double>& sum, std::span<const double> rises, double share) {
+    for (std::size_t i = 0; i < rises.size(); i += 2) sum.insert(sum.end(), {rises[i], share * rises[i + 1]});
+}
+
+double risen(std::span<const double> rises, std::size_t first, std::size_t last) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rises.size(); i += 2)
+        if (rises[i] >= double(first) && rises[i] <= double(last)) sum += rises[i + 1];
+    return sum;
 }
 
 /// By Fragment::submission, what each triangle is multiplied into.
@@ -149,10 +181,11 @@ std::uint32_t voxel_words(const VoxelParams& params, std::uint32_t channels) {
 std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint32_t channels) {
     constexpr std::uint64_t largest = 512 << 20;
     std::uint32_t divisor = divisor_of(params.resolution);
-    const auto bytes = [&](const Extent& low) {
-        return std::uint64_t{low.width} * low.height * voxel_words(params, channels) * sizeof(std::uint32_t);
+    const auto fits = [&](const Extent& low) {
+        if (is_sparse(params)) return pool_suffices(params, low, channels);
+        return std::uint64_t{low.width} * low.height * voxel_words(params, channels) * sizeof(std::uint32_t) <= largest;
     };
-    while (bytes(prepass_extent(extent, divisor)) > largest) divisor *= 2;
+    while (!fits(prepass_extent(extent, divisor))) divisor *= 2;
     return divisor;
 }
 
@@ -163,18 +196,23 @@ double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t trian
 }
 
 ImageSet voxel_model(const StageInput& input, const Settings& settings) {
-    const auto params = settings.as<VoxelParams>();
+    auto params = settings.as<VoxelParams>();
     const std::uint32_t channels = channel_count(params.channels, frame_features(input.frame));
-    const bool packs = packs_colors(params, channels);
+    const Extent extent{input.frame.view.width, input.frame.view.height};
+    const std::uint32_t divisor = voxel_divisor(params, extent, channels);
+    const bool packs = packs_colors(params, channels), sparse = is_sparse(params);
+    const Slices slices = sparse ? sparse_slices_of(params, input.frame, prepass_extent(extent, divisor), channels)
+                                 : slices_of(params, input.frame);
+    if (sparse) params.slices = slices.warp.virtual_slices();
     const ColumnFormat format = packs ? color_format(params) : column_format(params);
-    const Slices slices = slices_of(params, input.frame);
     Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame), {}};
     if (params.splat == splat_multiply) splatter.of_triangles = slices_of_triangles(input.frame, slices);
-    const Extent extent{input.frame.view.width, input.frame.view.height};
 
-    PrepassModel prepass{.divisor = voxel_divisor(params, extent, channels), .unseen = PrepassModel::Unseen::adds_nothing};
+    PrepassModel prepass{.divisor = divisor, .unseen = PrepassModel::Unseen::adds_nothing};
     if (is_made_before_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
+    if (sparse) prepass.add = add_rises;
     prepass.project = [=, &splatter](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        if (sparse) return rises_of(splatter.planes(fragments, texel), format.slices);
         return packs ? splatter.packed(fragments, texel) : splatter.planes(fragments, texel);
     };
     prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
@@ -182,7 +220,10 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
             const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
-                const auto integral = integrals.subspan(channel * format.slices, format.slices);
+                const std::size_t first = channel * format.slices;
+                const auto integral = [&](std::size_t slice) {
+                    return sparse ? risen(integrals, first, first + slice) : integrals[first + slice];
+                };
                 through[static_cast<int>(channel)] = format.transmittance(slices.sampled(integral, at, params.sampling));
             }
             return channels == 1 ? glm::dvec3(through.x) : through;

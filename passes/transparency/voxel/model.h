@@ -9,7 +9,8 @@ namespace strata::transparency {
 
 /// Of a texel of the prepass, of all channels.
 std::uint32_t voxel_words(const VoxelParams&, std::uint32_t channels);
-/// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB.
+/// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB, or a sparse one's pool has a block for
+/// every tile and channel.
 std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
 
 /// What stochastic rounding adds to a code, of a fragment's texel, draw and triangle: from 0 to 1.

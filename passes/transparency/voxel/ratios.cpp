@@ -10,7 +10,7 @@ std::vector<TimeRatio> voxel_ratios() {
                 draws = {"/accumulate"}, zero = {"/zero_depth", "/quads", "/full_screen"}, stage = {};
     const Names added = {"atomics", "border atomics", "overflowed"}, drawn = {"drawn", "atomics"},
                 blended = {"drawn", "fragments", "atomics"}, culled = {"drawn", "unseen", "zero tiles"},
-                filled = {"voxels", "cleared", "integrated"}, warped = {"slices used", "virtual slices"};
+                filled = {"voxels", "cleared", "integrated"}, warped = {"slices used", "virtual slices", "blocks"};
     return {
         {"splat: compare-and-swap that saturates, against noting overflows", "splat=saturating", "splat=overflow_minimum", splat,
          1.95 / .91, "1.95 / .91 ms, 17 million pixels, 1080p, PS5", "particle_storm", added},
@@ -31,6 +31,8 @@ std::vector<TimeRatio> voxel_ratios() {
         {"integration: every voxel, against those in use", "skipping=off volume=dense range=fixed", "volume=dense range=fixed",
          integrate, .2 / .04, ".2 / .04 ms, 1440p", "glass_and_smoke", filled},
         {"the stage: slices where something is, against everywhere", "volume=adaptive", "volume=dense", stage, std::nullopt, "",
+         "smoke_grenade", warped},
+        {"the stage: blocks where something is, against slices", "volume=sparse", "volume=adaptive", stage, std::nullopt, "",
          "smoke_grenade", warped},
         {"clearing and integration: RGB, against mono", "channels=rgb", "channels=mono", volume, 3., "3 times for each",
          "particle_storm", filled},

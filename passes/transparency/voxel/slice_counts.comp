@@ -13,12 +13,12 @@ layout(set = 0, binding = 10) uniform usampler2DArray voxels;
 layout(set = 0, binding = 1, scalar) buffer Counts { SliceCounts counts[]; };
 
 void count_tile(uvec2 tile) {
-    for (uint slice = 0u; slice < push.slices; ++slice)
+    for (uint slice = 0u; slice < physical_slices(); ++slice)
         if (is_used(tile, slice / slices_per_word)) atomicAdd(counts[slice].tiles, 1u);
 }
 
 void count_full(uvec2 texel, uint channel) {
-    for (uint slice = 0u; slice < push.slices; ++slice) {
+    for (uint slice = 0u; slice < physical_slices(); ++slice) {
         if (!is_used(texel / tile_size, slice / slices_per_word)) continue;
         const uint word = texelFetch(voxels, integral_place(texel, channel, slice), 0).r;
         if (integral_code(word, channel, slice) != full_integral()) continue;

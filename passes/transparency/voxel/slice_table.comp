@@ -26,7 +26,7 @@ vec4 row_of_run(uint first, uint used) {
 }
 
 void main() {
-    const uint slice = gl_GlobalInvocationID.y, used = adaptive != 0u ? warp.used : push.slices;
+    const uint slice = gl_GlobalInvocationID.y, used = adaptive != 0u ? warp.used : physical_slices();
     if (slice >= uint(imageSize(numbers).y)) return;
     vec4 row = vec4(uintBitsToFloat(0x7fc00000u));
     if (slice < used) row = shows_runs != 0u ? row_of_run(slice, used) : row_of_slice(slice);

@@ -111,6 +111,11 @@ void add_color(ivec2 column, uint slice, uvec2 codes[3]) {
 
 // Whether a virtual slice, and where a share goes there the one behind it, is in the volume: coverage.glsl says so of every triangle.
 bool is_covered(int slice, float share) {
+    if (sparse != 0u) {
+        const uvec2 tile = uvec2(gl_FragCoord.xy) / tile_size;
+        return is_in_pool(tile, uint(slice) / slices_per_word) &&
+               (share == 0.0 || is_in_pool(tile, (uint(slice) + 1u) / slices_per_word));
+    }
     const int physical = physical_slice(slice);
     return physical > physical_slice(slice - 1) && (share == 0.0 || physical_slice(slice + 1) > physical);
 }

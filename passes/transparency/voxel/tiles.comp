@@ -16,9 +16,11 @@ layout(constant_id = 1) const uint splatting = splatting_linear;
 layout(constant_id = 2) const uint sampling = sampling_linear;
 
 const uint slices_per_word = 32u / field_bits;
+#include "passes/transparency/voxel/marks.glsl"
 
-// Bilinear reads reach a column further; rounding of rays and pixels less than a tenth of one.
-const float reach = 1.1;
+// Bilinear reads reach a column further, unless what is not there can be read, too; rounding of rays and pixels less than a tenth
+// of one.
+const float reach = sparse != 0u ? 0.1 : 1.1;
 
 // The tiles around a triangle, the last included.
 struct TileRange {
@@ -54,12 +56,34 @@ uvec2 slices_between(float nearest, float farthest) {
     return uvec2(max(ivec2(physical_slice(first), physical_slice(last)), 0));
 }
 
-void mark(uvec2 tile, uint source, uvec2 slices) {
-    const uint base = first_bits_of(tile, source), first = slices.x / slices_per_word, last = slices.y / slices_per_word;
+// Returns how many words were not marked before.
+uint mark_words(uint base, uvec2 slices) {
+    const uint first = slices.x / slices_per_word, last = slices.y / slices_per_word;
+    uint marked = 0u;
     for (uint i = first / 32u; i <= last / 32u; ++i) {
         const uint bits = bits_between(i, first, last);
-        if ((tile_bits[base + i] & bits) != bits) atomicOr(tile_bits[base + i], bits);
+        if ((tile_bits[base + i] & bits) != bits) marked += uint(bitCount(bits & ~atomicOr(tile_bits[base + i], bits)));
     }
+    return marked;
+}
+
+// What fragments between these depths add to at every resolution: which one fits the pool is known when all are counted.
+void mark_resolutions(uvec2 tile, vec2 depths) {
+    const vec2 ends = vec2(finest_slice_of_depth(depths.x), finest_slice_of_depth(depths.y));
+    const vec2 splatted = splatting == splatting_linear ? vec2(-0.5, 0.5) : vec2(0.0);
+    Resolution r = finest_resolution();
+    while (true) {
+        const vec2 slices = ends * exp2(-float(r.halvings)) + splatted;
+        const uint marked = mark_words(first_mark_of(r, tile), uvec2(clamp(slices, 0.0, float(r.slices) - 1.0)));
+        if (marked > 0u) atomicAdd(tile_bits[r.halvings], marked);
+        if (is_coarsest(r)) return;
+        r = coarser(r);
+    }
+}
+
+void mark(uvec2 tile, uint source, vec2 depths) {
+    if (sparse != 0u) mark_resolutions(tile, depths);
+    else mark_words(first_bits_of(tile, source), slices_between(depths.x, depths.y));
 }
 
 void main() {
@@ -73,7 +97,7 @@ void main() {
         for (uint t = gl_LocalInvocationIndex; t < count.x * count.y; t += gl_WorkGroupSize.x) {
             const uvec2 tile = around.first + uvec2(t % count.x, t / count.x);
             const vec2 depths = depths_within(triangle, rays_of(tile)) - triangle.depth_offset;
-            if (depths.x <= depths.y) mark(tile, source, slices_between(depths.x, depths.y));
+            if (depths.x <= depths.y) mark(tile, source, depths);
         }
     }
 }

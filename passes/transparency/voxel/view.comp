@@ -16,11 +16,11 @@ layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
 
 // The nearest slice whose integral of the first channel is at least so much; all of them if none is.
 uint first_with(uvec2 texel, uint code) {
-    for (uint slice = 0u; slice < push.slices; ++slice) {
+    for (uint slice = 0u; slice < physical_slices(); ++slice) {
         if (!is_used(texel / tile_size, slice / slices_per_word)) continue;
         if (integral_code(texelFetch(voxels, integral_place(texel, 0u, slice), 0).r, 0u, slice) >= code) return slice;
     }
-    return push.slices;
+    return physical_slices();
 }
 
 float used_slices(uvec2 tile) {
@@ -30,12 +30,12 @@ float used_slices(uvec2 tile) {
 }
 
 float shown_of(uvec2 texel) {
-    if (shown == view_overflow) return float(min(overflow_of(texel, 0u), push.slices));
+    if (shown == view_overflow) return float(min(overflow_of(texel, 0u), physical_slices()));
     if (shown == view_occupancy) return used_slices(texel / tile_size);
     const uint slice = first_with(texel, shown == view_saturation_depth ? full_integral() : 1u);
-    const float place = slice < push.slices ? float(virtual_slice(slice)) : float(virtual_slices());
+    const float place = slice < physical_slices() ? float(virtual_slice(slice)) : float(virtual_slices());
     if (shown == view_saturation_depth) return depth_of_slice(min(place + empty_in_front, float(virtual_slices())));
-    return slice < push.slices ? thickness_at(depth_of_slice(place + 0.5)) : 0.0;
+    return slice < physical_slices() ? thickness_at(depth_of_slice(place + 0.5)) : 0.0;
 }
 
 void main() {

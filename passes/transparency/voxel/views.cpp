@@ -15,19 +15,19 @@ template <Rows rows>
 Image table(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = settings.as<VoxelParams>();
     Volume volume = integrated_volume(graph, images, params);
-    Buffer counts = graph.create("slice counts", params.slices * sizeof(SliceCounts));
+    Buffer counts = graph.create("slice counts", volume.push.slices * sizeof(SliceCounts));
     graph.clear(counts, 0);
     ComputePass counting = graph.compute("transparency/voxel/slice_counts.comp");
     look_into(counting, volume, params)
         .updates("Counts", counts)
         .over({volume.push.width, volume.push.height, volume.push.channels});
-    Image numbers = graph.create("slice table", Shape{.extent = {1, params.slices}, .format = Format::rgba32f});
+    Image numbers = graph.create("slice table", Shape{.extent = {1, volume.push.slices}, .format = Format::rgba32f});
     ComputePass writing = graph.compute("transparency/voxel/slice_table.comp");
     read_slices(writing, volume, params)
         .loads("Counts", counts)
         .stores("numbers", numbers)
         .fixes("shows_runs", rows == Rows::runs ? 1u : 0u)
-        .over({1, params.slices});
+        .over({1, volume.push.slices});
     return numbers;
 }
 
@@ -37,7 +37,7 @@ Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& pa
     Volume volume = integrated_volume(graph, images, params);
     Image picture = picture_of(graph, images);
     ComputePass pass = graph.compute("transparency/voxel/view.comp");
-    read_slices(look_into(pass, volume, params), volume, params)
+    look_into(pass, volume, params)
         .stores("picture", picture)
         .fixes("shown", shown)
         .fixes("empty_in_front", static_cast<float>(slices_to_zero(params)))

@@ -11,18 +11,20 @@
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/factors.h"
 #include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/sparse.h"
 
 namespace strata::transparency {
 namespace {
 
 VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Extent& low, std::uint32_t channels) {
-    const ColumnFormat format = column_format(params);
+    ColumnFormat format = column_format(params);
+    if (is_sparse(params)) format.slices = static_cast<std::uint32_t>(curve.slices);
     const double range = curve.farthest - curve.nearest;
     return {.nearest = static_cast<float>(curve.nearest),
             .per_linear = static_cast<float>(1 / curve.linear),
             .slices_per_log2 = static_cast<float>(curve.slices / std::log2(1 + range / curve.linear)),
             .finest_slices = static_cast<std::uint32_t>(curve.slices),
-            .slices = params.slices,
+            .slices = format.slices,
             .words = format.words(),
             .width = low.width,
             .height = low.height,
@@ -37,7 +39,7 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
 
 /// What multiplies puts a triangle's fragments where the triangle's center is, which is not where tiles know of it.
-bool skips(const VoxelParams& params) { return params.skipping != 0 && params.splat != splat_multiply; }
+bool skips(const VoxelParams& params) { return is_sparse(params) || (params.skipping != 0 && params.splat != splat_multiply); }
 
 Buffer zeros(Graph& graph, const char* name, std::uint64_t words) {
     Buffer buffer = graph.create(name, words * sizeof(std::uint32_t));
@@ -48,7 +50,9 @@ Buffer zeros(Graph& graph, const char* name, std::uint64_t words) {
 /// To a step that knows where slices are.
 template <typename Pass>
 Pass& bind_warp(const Volume& volume, const VoxelParams& params, Pass&& pass) {
-    return pass.loads("DepthWarp", volume.warp).fixes("adaptive", flag(params.volume == volume_adaptive));
+    return pass.loads("DepthWarp", volume.warp)
+        .fixes("adaptive", flag(is_adaptive(params)))
+        .fixes("sparse", flag(is_sparse(params)));
 }
 
 /// To a step that knows how slices lie in words.
@@ -65,7 +69,9 @@ Pass& bind_columns(Volume& volume, const VoxelParams& params, Pass&& pass) {
 
 /// To a step over tiles of columns.
 ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& pass) {
-    return bind_columns(volume, params, pass).updates("Tiles", volume.tiles).fixes("skips", flag(skips(params)));
+    return bind_warp(volume, params, bind_columns(volume, params, pass))
+        .updates("Tiles", volume.tiles)
+        .fixes("skips", flag(skips(params)));
 }
 
 /// A step with a row of groups for each transparent draw, each for so many of its triangles at a time.
@@ -109,32 +115,53 @@ void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& para
 constexpr const char* voxels_name = "voxels";
 constexpr const char* warp_name = "depth warp";
 
+/// The tiles' marks must have been found.
+void give_blocks(Graph& graph, const VoxelParams& params, Volume& volume) {
+    const Extent columns{volume.push.width, volume.push.height};
+    const std::uint64_t table = sparse_notes(params, volume.push.finest_slices, columns).table;
+    volume.warp = graph.create(warp_name, sizeof(WarpHeader) + table * sizeof(std::uint32_t));
+    graph.compute("transparency/voxel/blocks.comp")
+        .updates("Tiles", volume.tiles)
+        .stores("DepthWarp", volume.warp)
+        .push(volume.push)
+        .fixes("field_bits", volume.field_bits)
+        .fixes("pool_blocks", pool_blocks(params))
+        .groups(voxel_tiles(columns));
+}
+
 /// All but images and buffers.
 Volume described(const FrameImages& images, const VoxelParams& params) {
     const std::uint32_t channels = channel_count(params.channels, *images.features);
     const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
-    const DepthCurve curve = depth_curve(params, voxel_range(params, *images.recorded));
+    const Extent columns = prepass_extent(images.extent, divisor);
+    const DepthRange range = voxel_range(params, *images.recorded);
+    const DepthCurve curve = is_sparse(params) ? sparse_curve(params, range, columns) : depth_curve(params, range);
     return {.divisor = divisor,
             .field_bits = column_format(params).field_bits,
             .packs = packs_colors(params, channels),
-            .push = push_of(params, curve, prepass_extent(images.extent, divisor), channels)};
+            .push = push_of(params, curve, columns, channels)};
 }
 
 void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     const VoxelPush& push = volume.push;
     const std::uint32_t planes = volume.packs ? 1 : push.channels, sources = volume.packs ? 2 : 1;
     const std::uint64_t texels = std::uint64_t{push.width} * push.height;
-    const auto tiles_along = [](std::uint32_t length) { return std::uint64_t{(length + tile_size - 1) / tile_size}; };
+    const Extent tiles = voxel_tiles({push.width, push.height});
     const std::uint64_t noted = params.splat == splat_overflow_minimum ? texels * (volume.packs ? 4 : planes) : 1;
-    const std::uint64_t marks = sources * tiles_along(push.width) * tiles_along(push.height) * ((push.words + 31) / 32);
+    const std::uint64_t marks = is_sparse(params)
+                                    ? sparse_notes(params, push.finest_slices, {push.width, push.height}).marks
+                                    : std::uint64_t{sources} * tiles.width * tiles.height * ((push.words + 31) / 32);
     constexpr std::uint64_t header = sizeof(WarpHeader) / sizeof(std::uint32_t), entries = most_virtual_slices;
-    const std::uint64_t warp = params.volume == volume_adaptive ? header + entries + params.slices : header + 1;
+    const std::uint64_t warp = is_adaptive(params) ? header + entries + params.slices : header + 1;
     const auto words_of = [&](std::uint32_t channels, std::uint32_t layers) {
         return Shape{.extent = {push.width, push.height * channels}, .format = Format::r32ui, .layers = layers};
     };
-    volume.voxels = graph.create(voxels_name, words_of(planes, voxel_words(params, push.channels) / planes));
+    constexpr std::uint32_t across = pool_blocks_across * tile_size;
+    const Shape pool{.extent = {across, across}, .format = Format::r32ui, .layers = params.pool};
+    const auto in_columns = [&] { return words_of(planes, voxel_words(params, push.channels) / planes); };
+    volume.voxels = graph.create(voxels_name, is_sparse(params) ? pool : in_columns());
     volume.overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t));
-    if (!volume.warp) volume.warp = zeros(graph, warp_name, warp);
+    if (!volume.warp) volume.warp = zeros(graph, is_sparse(params) ? "no depth warp" : warp_name, warp);
     volume.tiles = zeros(graph, "voxel tiles", skips(params) ? marks : 1);
     volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
@@ -171,12 +198,13 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     Volume volume = described(images, params);
     // A frame's history moves on once, however many volumes are made to be looked at.
     if (params.hysteresis > 0) volume.warp = graph.find_buffer(warp_name);
-    const bool finds = params.volume == volume_adaptive && !volume.warp;
+    const bool finds = is_adaptive(params) && !volume.warp;
     create_parts(graph, params, volume);
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (finds) find_slices(graph, images, params, volume);
     if (skips(params)) find_tiles(graph, images, params, volume);
+    if (is_sparse(params)) give_blocks(graph, params, volume);
     ComputePass clear = graph.compute("transparency/voxel/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);
     if (params.splat == splat_multiply) splat_factors(graph, prepass_images(graph, images, volume.divisor), params, volume);

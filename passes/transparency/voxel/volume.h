@@ -10,10 +10,10 @@
 namespace strata::transparency {
 
 struct Volume {
-    Image voxels;     ///< r32ui: layer = word of a column; channels one below the other, or see voxels.glsl
+    Image voxels;     ///< r32ui: layer = word of a column; channels one below the other, or see voxels.glsl; or the pool's blocks
     Buffer overflow;  ///< a word per column, four where colors are packed; one word where nothing notes overflows
-    Buffer warp;      ///< WarpHeader and its table; a header of zeros where nothing is adaptive
-    Buffer tiles;     ///< a bit per tile, source and word of its columns; one word where nothing is skipped
+    Buffer warp;      ///< WarpHeader and its table, of slices or of blocks; a header of zeros where all there is is dense
+    Buffer tiles;     ///< a bit per tile, source and word of its columns, or marks.glsl; one word where nothing is skipped
     Image
         zero_slices;  ///< r32ui, of each column and channel: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;

@@ -22,7 +22,7 @@ constexpr std::string_view splattings[] = {"point", "linear"};
 constexpr std::string_view samplings[] = {"point", "linear", "bicubic"};
 constexpr std::string_view roundings[] = {"nearest", "stochastic"};
 constexpr std::string_view curves[] = {"slices", "thickness", "linear"};
-constexpr std::string_view volumes[] = {"dense", "adaptive"};
+constexpr std::string_view volumes[] = {"dense", "adaptive", "sparse"};
 constexpr std::string_view skippings[] = {"off", "on"};
 constexpr std::string_view ranges[] = {"frame", "fixed"};
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth", "sixteenth"};
@@ -59,18 +59,25 @@ std::vector<Param> code_params() {
                                      .scale = Scale::logarithmic}),
         param<&VoxelParams::volume>({.name = "volume",
                                      .low = 0,
-                                     .high = 1,
+                                     .high = 2,
                                      .fallback = volume_adaptive,
                                      .help = "dense: slices cut all of the range of depth; adaptive: only where something is, as "
-                                             "finely as their number allows",
+                                             "finely as their number allows; sparse: tile by tile, as finely as the pool allows",
                                      .choices = volumes}),
         param<&VoxelParams::thinnest>(
             {.name = "thinnest",
              .low = 1e-5,
              .high = 10,
              .fallback = 0.001,
-             .help = "metres of the nearest slice, with volume=adaptive; of 8192 at most over the range",
+             .help = "metres of the nearest slice, with volume=adaptive and sparse; of 8192 at most over the range",
              .scale = Scale::logarithmic}),
+        param<&VoxelParams::pool>({.name = "pool",
+                                   .low = 1,
+                                   .high = 256,
+                                   .fallback = 16,
+                                   .help = "MiB of blocks, with volume=sparse: 8 x 8 columns by a word, for what each tile "
+                                           "holds; slices are as thin as fit",
+                                   .scale = Scale::logarithmic}),
         param<&VoxelParams::skipping>(
             {.name = "skipping",
              .low = 0,
@@ -211,12 +218,14 @@ std::vector<Counter> counters() {
         counter<&VoxelCounters::integrated>({.name = "integrated", .help = "voxels of these read up to saturation"}),
         counter<&VoxelCounters::slices_used>({.name = "slices used", .help = "of an adaptive volume: with something in them"}),
         counter<&VoxelCounters::virtual_slices>(
-            {.name = "virtual slices", .help = "that cut all of the range where slices are adaptive"}),
+            {.name = "virtual slices", .help = "that cut all of the range where slices are adaptive or sparse"}),
         counter<&VoxelCounters::zero_tiles>({.name = "zero tiles", .help = "tiles of pixels behind which nothing is seen"}),
         counter<&VoxelCounters::unseen>({.name = "unseen", .help = "fragments shaded of which nothing is seen"}),
         counter<&VoxelCounters::halvings>({.name = "halvings", .help = "of the finest slices' number, to that of virtual ones"}),
         counter<&VoxelCounters::held_halvings>(
             {.name = "halvings held", .help = "of these, such as only frames before this one needed: hysteresis"}),
+        counter<&VoxelCounters::blocks>(
+            {.name = "blocks", .help = "of a sparse volume's pool that something is in: 8 x 8 columns by a word, 256 bytes"}),
     };
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;
@@ -271,6 +280,8 @@ Technique voxel() {
                    "slices=512",
                    "volume=dense",
                    "volume=dense range=fixed",
+                   "volume=sparse",
+                   "volume=sparse resolution=half",
                    "splat=saturating",
                    "splat=words bits=32",
                    "splat=multiply",

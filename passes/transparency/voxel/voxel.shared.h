@@ -37,9 +37,11 @@ const uint curve_slices = 0u;
 const uint curve_thickness = 1u;
 const uint curve_linear = 2u;
 
-// Slices cut all of the range of depth; or only what holds something, as finely as their number allows.
+// Slices cut all of the range of depth; or only what holds something anywhere, as finely as their number allows; or each tile has
+// blocks where it holds something, as finely as a pool of them allows.
 const uint volume_dense = 0u;
 const uint volume_adaptive = 1u;
+const uint volume_sparse = 2u;
 
 const uint range_frame = 0u;
 const uint range_fixed = 1u;
@@ -63,7 +65,8 @@ const uint view_occupancy = 3u;
 struct VoxelParams {
     uint slices;  // there is memory for
     uint volume;
-    float thinnest;  // metres, of the nearest slice; what is adaptive is not cut finer
+    float thinnest;  // metres, of the nearest slice; what is adaptive or sparse is not cut finer
+    uint pool;       // MiB of blocks, with volume_sparse
     uint skipping;   // 1: clearing and integration leave empty tiles out
     uint splat;
     uint bits;
@@ -104,11 +107,11 @@ struct VoxelPush {
     uint color_scale;             // codes to those of words of three channels, in color_scale_one
 };
 
-// What warp.comp finds out, in front of its table.
+// What warp.comp and blocks.comp find out, in front of their tables.
 struct WarpHeader {
-    uint halvings;        // of the finest slices until their number fits
+    uint halvings;        // of the finest slices until what is used fits
     uint virtual_slices;  // that are left: finest_slices >> halvings
-    uint used;            // of these, slices with something in them
+    uint used;            // of these, slices with something in them; words of all tiles, where blocks are
     uint fitting;         // halvings that this frame needs; more are held of those before it
 };
 const uint most_virtual_slices = 8192u;
@@ -141,6 +144,7 @@ struct VoxelCounters {
     uint unseen;
     uint halvings;
     uint held_halvings;
+    uint blocks;
 };
 
 // What slice_counts.comp counts over all columns.
@@ -152,6 +156,13 @@ struct SliceCounts {
 
 // Columns of a tile, each way.
 const uint tile_size = 8u;
+// A block is a word of each of a tile's columns, 256 bytes. A layer of the pool has so many of them each way: a MiB.
+const uint pool_blocks_across = 64u;
+const uint pool_blocks_per_layer = pool_blocks_across * pool_blocks_across;
+// In front of the marks that marks.glsl lays out: how many there are at each resolution, from 8192 slices down to one, and how
+// many words of the resolution chosen have got their place.
+const uint words_placed = 14u;
+const uint first_mark = 15u;
 // Between what coverage.glsl makes of a triangle's corners and what its fragments interpolate: of depth, and of rays in z = 1.
 // Beyond `steepest`, distance over distance to the plane, a triangle's plane says nothing in float.
 const float depth_slack = 2e-6f;

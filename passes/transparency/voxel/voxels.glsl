@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/voxel/depth_curve.glsl"
 #include "passes/transparency/voxel/packing.glsl"
+#include "passes/transparency/voxel/pool.glsl"
 
 layout(constant_id = 10) const uint splat = splat_overflow_minimum;
 layout(constant_id = 11) const uint field_bits = 8u;  // 8, 10, 16 or 32
@@ -19,8 +20,9 @@ ivec2 column_of(uvec2 texel, uint channel) { return ivec2(texel.x, texel.y + cha
 
 uint index_of(ivec2 column) { return uint(column.y) * push.width + uint(column.x); }
 
-// Slices are physical ones.
+// Slices are physical ones, of a sparse volume those of words that the tile uses.
 ivec3 place_of(ivec2 column, uint slice) {
+    if (sparse != 0u) return place_in_pool(column, slice / slices_per_word);
     return ivec3(column, slice / slices_per_word + (packs_colors != 0u ? push.slices : 0u));
 }
 

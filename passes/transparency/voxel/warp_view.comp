@@ -24,7 +24,7 @@ void main() {
     const uint slices = virtual_slices(), first = pixel.x * slices / extent.x;
     const uint end = max((pixel.x + 1u) * slices / extent.x, first + 1u);
     const uint marks = adaptive != 0u ? marks_between(first, end) : warp_used;
-    const uint below = (extent.y - pixel.y) * push.slices / extent.y;
+    const uint below = (extent.y - pixel.y) * physical_slices() / extent.y;
     vec3 color = vec3(0.0);
     if (below <= uint(physical_slice(int(end) - 1) + 1)) color = (marks & warp_used) != 0u ? vec3(0.7) : vec3(0.2);
     else if ((marks & warp_begin) != 0u) color = vec3(0.0, 0.6, 0.1);

@@ -1,0 +1,181 @@
+// transparency/voxel with volume=sparse: blocks out of a pool, and the picture of a dense volume.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/sparse.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using namespace transparency;
+
+const std::string voxel = "transparency/voxel";
+constexpr std::uint64_t voxels_per_block = 64 * 4;  // with 8 bits
+
+using Sets = std::vector<std::string>;
+
+Sets both(Sets sets, const Sets& more) {
+    sets.insert(sets.end(), more.begin(), more.end());
+    return sets;
+}
+
+Request sparse_request(std::string_view scenario, const Sets& sets, std::uint32_t samples = 1) {
+    Request request = on_scenario(scenario, samples);
+    request.uses = {voxel}, request.sets = both({"volume=sparse"}, sets), request.outputs = {"color"};
+    return request;
+}
+
+Run sparse_run(std::string_view scenario, const Sets& sets, std::uint32_t samples = 1) {
+    return must(session_of_scenarios().run(sparse_request(scenario, sets, samples)));
+}
+
+/// A curve that the number of slices does not bend.
+const Sets unbent{"curve=linear", "linear=3"};
+
+/// Whether a sparse volume was compared with the dense one of as many slices as it has.
+bool expect_dense(std::string_view scenario, const Sets& sets, const Sets& sparse_sets) {
+    const auto sparse = sparse_run(scenario, both(sets, sparse_sets));
+    const std::uint64_t slices = counted(sparse, "virtual slices");
+    if (slices < 32 || slices > 1024 || counted(sparse, "blocks") == 0) return false;
+    Request request = sparse_request(scenario, both(sets, {"slices=" + std::to_string(slices)}));
+    request.sets.front() = "volume=dense";
+    EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, sparse.images.at("color").texels)
+        << scenario << " in " << slices << " slices, " << testing::PrintToString(both(sets, sparse_sets));
+    return true;
+}
+
+TEST(VoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
+    const Sets combinations[] = {
+        {},
+        {"resolution=half", "sampling=bicubic"},
+        {"resolution=quarter", "splatting=point", "sampling=point", "channels=rgb"},
+        {"bits=16", "rounding=stochastic"},
+        {"bits=10", "splat=saturating", "shift=1"},
+        {"splat=words", "bits=32", "culling=full_screen"},
+    };
+    for (const Sets& sets : combinations) {
+        std::size_t compared = 0;
+        for (const std::string_view scenario : info(Stage::transparency).scenarios)
+            compared += expect_dense(scenario, both(unbent, sets), {"slices=64", "thinnest=0.005"}) ? 1 : 0;
+        EXPECT_GE(compared, 5u) << testing::PrintToString(sets);
+    }
+}
+
+TEST(VoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
+    std::size_t halved = 0;
+    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
+        const Sets sets = both(unbent, {"thinnest=0.002", "channels=rgb"});
+        const auto large = sparse_run(scenario, both(sets, {"pool=256"})), small = sparse_run(scenario, both(sets, {"pool=1"}));
+        EXPECT_LE(counted(small, "blocks"), 4096u) << scenario;
+        EXPECT_LE(counted(small, "blocks"), counted(large, "blocks")) << scenario;
+        EXPECT_EQ(counted(small, "uncovered"), 0u) << scenario;
+        if (counted(small, "virtual slices") == counted(large, "virtual slices")) continue;
+        EXPECT_GT(counted(large, "blocks"), 4096u) << scenario;
+        if (expect_dense(scenario, sets, {"pool=1"})) ++halved;
+    }
+    EXPECT_GE(halved, 3u);
+}
+
+TEST(VoxelSparse, NeverTakesMoreThanThePool) {
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const char* pool : {"pool=1", "pool=4", "pool=16"})
+            for (const char* splatting : {"splatting=linear", "splatting=point"}) {
+                const auto run = sparse_run(scenario, {pool, splatting, "thinnest=1e-5"}, 4);
+                EXPECT_LE(counted(run, "blocks") * voxels_per_block, counted(run, "voxels")) << scenario << pool;
+                EXPECT_LE(counted(run, "cleared"), counted(run, "blocks") * voxels_per_block) << scenario << pool;
+                EXPECT_LE(counted(run, "integrated"), counted(run, "cleared")) << scenario << pool;
+                EXPECT_EQ(counted(run, "uncovered"), 0u) << scenario << splatting;
+            }
+}
+
+TEST(VoxelSparse, TakesNothingOfThePoolWhereNothingIsSeen) {
+    Request request = sparse_request("smoke_grenade", {});
+    EXPECT_GT(counted(must(session_of_scenarios().run(request)), "blocks"), 0u);
+    request.eye.pan = 3.14159;
+    const auto away = must(session_of_scenarios().run(request));
+    EXPECT_EQ(counted(away, "blocks"), 0u);
+    EXPECT_EQ(counted(away, "cleared"), 0u);
+    EXPECT_EQ(counted(away, "drawn"), 0u);
+}
+
+TEST(VoxelSparse, HalvesAsOftenAsTheModel) {
+    const Settings settings(must(find_technique(voxel))->params);
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const std::uint32_t pool : {1u, 4u, 16u}) {
+            const Request request = sparse_request(scenario, {"thinnest=1e-5", fmt::format("pool={}", pool)});
+            Frame frame = must(session_of_scenarios().frame(request.frame));
+            frame.view.width /= request.extent_divisor, frame.view.height /= request.extent_divisor;
+            VoxelParams params = settings.as<VoxelParams>();
+            params.volume = volume_sparse, params.thinnest = 1e-5f, params.pool = pool;
+            const Extent extent{frame.view.width, frame.view.height};
+            const std::uint32_t channels = channel_count(params.channels, frame_features(frame));
+            const Extent columns = prepass_extent(extent, voxel_divisor(params, extent, channels));
+            const auto finest = static_cast<std::uint32_t>(sparse_curve(params, voxel_range(params, frame), columns).slices);
+            EXPECT_EQ(counted(must(session_of_scenarios().run(request)), "virtual slices"),
+                      finest >> sparse_halvings(params, frame, columns, channels))
+                << scenario << " " << pool;
+        }
+}
+
+TEST(VoxelSparse, IsWhatTheModelSaysInCombinations) {
+    const Technique& technique = *must(find_technique(voxel));
+    const Sets combinations[] = {
+        {"pool=1"},
+        {"pool=1", "resolution=half", "bits=16", "sampling=bicubic"},
+        {"pool=2", "splatting=point", "sampling=point", "channels=mono", "thinnest=1e-5"},
+        {"packing=rgb10", "splat=saturating", "resolution=quarter", "rounding=stochastic"},
+        {"splat=multiply", "resolution=half"},
+        {"range=fixed", "farthest=9", "curve=thickness", "near_thickness=0.05", "bits=10"},
+    };
+    for (const Sets& sets : combinations) {
+        const Request request = sparse_request("glass_and_smoke", sets, 4);
+        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
+        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << testing::PrintToString(sets);
+        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << testing::PrintToString(sets);
+    }
+}
+
+// The order in which tiles get their blocks is chance.
+TEST(VoxelSparse, IsTheSameInEveryRun) {
+    const auto session = scenario_session("particle_storm", 1);
+    const auto color = [&](const char* prepared) {
+        session->forget_memo();
+        const Request request{.uses = {voxel}, .sets = {"volume=sparse", "pool=4", prepared}, .outputs = {"color"}};
+        return must(session->run(request)).images.at("color").texels;
+    };
+    for (const char* prepared : {"prepared=after_opaque", "prepared=before_opaque"}) {
+        const auto first = color(prepared);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(color(prepared), first) << prepared;
+    }
+}
+
+TEST(VoxelSparse, IsCulledWithoutChangingAPixel) {
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
+            const auto all = sparse_run(scenario, {resolution, "culling=off"});
+            const auto culled = sparse_run(scenario, {resolution, "culling=quads_16"});
+            EXPECT_EQ(culled.images.at("color").texels, all.images.at("color").texels) << scenario << resolution;
+            EXPECT_EQ(counted(culled, "drawn"), counted(all, "drawn")) << scenario << resolution;
+        }
+}
+
+TEST(VoxelSparse, ShowsTheSliceThatOverflowsAsADenseVolumeDoes) {
+    Request request = sparse_request("three_cards", both(unbent, {"thinnest=0.05", "slices=64"}));
+    request.outputs = {voxel + ":overflow", voxel + ":saturation depth", voxel + ":thickness"};
+    const auto sparse = must(session_of_scenarios().run(request));
+    request.sets.front() = "volume=dense";
+    request.sets.back() = "slices=" + std::to_string(counted(sparse, "virtual slices"));
+    const auto dense = must(session_of_scenarios().run(request));
+    EXPECT_GT(counted(sparse, "overflowed"), 0u);
+    EXPECT_EQ(counted(sparse, "overflowed"), counted(dense, "overflowed"));
+    for (const std::string& output : request.outputs)
+        EXPECT_EQ(sparse.images.at(output).texels, dense.images.at(output).texels) << output;
+}
+
+}  // namespace
+}  // namespace strata
