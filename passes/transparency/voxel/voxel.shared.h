@@ -82,6 +82,7 @@ struct VoxelParams {
     uint accumulation;
     uint culling;
     uint prepared;
+    uint tint;
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
