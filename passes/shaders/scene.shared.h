@@ -64,6 +64,7 @@ struct DrawRecord {
     uint layer;
     vec3 bound_center;  // view space sphere
     float bound_radius;
+    mat4 motion;  // of a point in view space: how far it has moved since the frame before, seen by a camera that did not
 };
 
 // Kinds of textures that a material has.

@@ -11,6 +11,11 @@ const uint accumulation_half = 0u;
 const uint accumulation_packed = 1u;
 const uint accumulation_single = 2u;
 
+// What colored layers do where T(z) has one channel: tint the background alone; what is drawn, too; that, but not themselves.
+const uint tint_total = 0u;
+const uint tint_skew = 1u;
+const uint tint_corrected = 2u;
+
 struct FunctionCounters {
     ListCounters lists;  // of methods that make lists, too
     uint drawn;
@@ -21,6 +26,8 @@ struct FunctionCounters {
 const float largest_optical_depth = 32.0f;
 // Radiance up to here is weighted and added.
 const float largest_radiance = 1e4f;
+// A layer's channels differ by a thousand at most where they tint: what takes itself out of that is divided by the least of them.
+const float largest_skew_depth = 6.9077553f;
 // Below this sum of weights nothing is normalized: emission has none.
 const float least_normalizer = 1e-5f;
 

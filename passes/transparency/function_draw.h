@@ -12,8 +12,17 @@
 
 namespace strata::transparency {
 
-/// X and N have three channels where the frame has colored transmission; E is there only where something emits, the offset D
-/// where something distorts.
+/// What D is a sum of: of how far away what is behind is seen, or, for a view, of how far fragments have moved.
+enum class Offsets { distortion, motion };
+
+struct SumOptions {
+    std::uint32_t accumulation = accumulation_half;  ///< formats: see function.shared.h
+    std::uint32_t tint = tint_total;                 ///< another is for methods with one channel of T(z)
+    Offsets offsets = Offsets::distortion;
+};
+
+/// X and N have three channels where the frame has colored transmission; with a tint there N has four, see function_outputs.glsl.
+/// E is there only where something emits, the offset D where something distorts or motion is asked for.
 struct ResolutionSums {
     Image color, extinction, normalizer, emission, offset;
 };
@@ -21,10 +30,11 @@ struct FunctionSums {
     ResolutionSums full;     ///< drawn with the frame's samples
     ResolutionSums low;      ///< half the extent, one sample; no images where nothing is drawn so
     FrameImages low_images;  ///< what those draws see
+    SumOptions options;      ///< nothing tints in a grey frame
 };
 
-/// Cleared sums. accumulation: see function.shared.h.
-FunctionSums create_sums(Graph&, const FrameImages&, std::uint32_t accumulation);
+/// Cleared sums.
+FunctionSums create_sums(Graph&, const FrameImages&, const SumOptions&);
 
 /// Declares the draws that add every fragment to the sums: one, and more in a frame of two resolutions. The fragment shader
 /// includes function_outputs.glsl and calls write_event(); `chain` adds the technique's own verbs to each.
@@ -34,8 +44,13 @@ void draw_into(Graph&, const std::string& shader, const FrameImages&, FunctionSu
 /// Blends the sums over images.color.
 void resolve_sums(Graph&, FrameImages&, const FunctionSums&);
 
-/// The row of the `accumulation` parameter.
-extern const Param accumulation_row;
+/// The sums as steps after the draw read them, and the beginning of such a step, which includes function_sums.glsl: X and N are
+/// bound.
+FunctionSums by_sample(Graph&, const FunctionSums&);
+ComputePass over_sums(Graph&, const std::string& shader, const FrameImages&, const FunctionSums& by_sample);
+
+/// The rows of the `accumulation` and `tint` parameters.
+extern const Param accumulation_row, tint_row;
 
 /// Rows of FunctionCounters: what is drawn; with those of the lists in front for methods that make lists.
 std::vector<Counter> function_counters();
@@ -46,12 +61,12 @@ std::vector<Counter> function_counters_with_lists();
 Image normalization_view(Graph&, const FrameImages&, const FunctionSums&);
 
 /// A technique's own part: everything up to the sums.
-using SumsFunction = FunctionSums (*)(Graph&, FrameImages&, const Settings&);
+using SumsFunction = FunctionSums (*)(Graph&, FrameImages&, const Settings&, Offsets);
 
 /// Technique::add of a method that is its sums.
 template <SumsFunction sums>
 void add_function(Graph& graph, FrameImages& images, const Settings& settings) {
-    resolve_sums(graph, images, sums(graph, images, settings));
+    resolve_sums(graph, images, sums(graph, images, settings, Offsets::distortion));
 }
 
 /// The row of its normalization view.
@@ -59,7 +74,7 @@ DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&))
 template <SumsFunction sums>
 DebugView normalization_row() {
     return normalization_row([](Graph& graph, FrameImages& images, const Settings& settings) {
-        return normalization_view(graph, images, sums(graph, images, settings));
+        return normalization_view(graph, images, sums(graph, images, settings, Offsets::distortion));
     });
 }
 

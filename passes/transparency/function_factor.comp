@@ -9,6 +9,6 @@ layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(picture)))) return;
-    const float found = factor(extinction_at(at).r, normalizer_at(at).r);
+    const float found = factor_at(at, extinction_at(at)).r;
     imageStore(picture, at, vec4(vec3(found), 1.0));
 }

@@ -7,6 +7,7 @@
 #include "passes/transparency/distortion_model.h"
 #include "passes/transparency/low_draws_model.h"
 #include "passes/transparency/rounding.h"
+#include "passes/transparency/tint_model.h"
 
 namespace strata::transparency {
 namespace {
@@ -25,7 +26,7 @@ bool is_chromatic(const Frame& frame) { return frame_features(frame).has(Feature
 
 struct Sums {
     glm::dvec3 color{0}, extinction{0}, normalizer{0}, emission{0};
-    glm::dvec2 offset{0};
+    glm::dvec2 offset{0}, skew{0};
 
     Sums& operator+=(const Sums& other) {
         color += other.color;
@@ -33,26 +34,37 @@ struct Sums {
         normalizer += other.normalizer;
         emission += other.emission;
         offset += other.offset;
+        skew += other.skew;
         return *this;
     }
     friend Sums operator*(const Sums& s, double share) {
-        return {s.color * share, s.extinction * share, s.normalizer * share, s.emission * share, s.offset * share};
+        return {s.color * share,    s.extinction * share, s.normalizer * share,
+                s.emission * share, s.offset * share,     s.skew * share};
     }
 };
 
-/// How fragments are summed.
-struct Summing {
-    std::uint32_t accumulation = accumulation_single;
-    bool chromatic = false;
-    PrepassModel::Unseen unseen = PrepassModel::Unseen::counts;
-};
+/// Adds N and X of one channel and the depths that skew, and returns what of the fragment is then skewed.
+Fragment tinted(const Fragment& fragment, double through, const Summing& how, Sums& sums) {
+    const glm::dvec2 depths = skew_depths(fragment, through * std::exp(-how.fog_density * fragment.depth));
+    const double t = luminance(fragment.transmittance);
+    const auto add = [&](double& sum, double term) { sum = blended(sum, term, how.accumulation, half_float); };
+    add(sums.normalizer.x, (1 - t) * through);
+    add(sums.normalizer.y, optical_depth_in_double(t));
+    for (int i = 0; i < 2; ++i) add(sums.skew[i], depths[i]);
+    Fragment seen = fragment;
+    if (how.tint != tint_corrected) return seen;
+    seen.color /= skew(depths);
+    seen.emission /= skew(depths);
+    return seen;
+}
 
 Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, const Summing& how) {
     const std::uint32_t accumulation = how.accumulation;
     Sums sums;
-    for (const Fragment& fragment : fragments) {
-        const glm::dvec3 through = transmittance(fragment);
-        if (how.unseen == PrepassModel::Unseen::adds_nothing && through == glm::dvec3(0)) continue;
+    for (const Fragment& drawn : fragments) {
+        const glm::dvec3 through = transmittance(drawn);
+        if (how.unseen == Unseen::adds_nothing && through == glm::dvec3(0)) continue;
+        const Fragment fragment = how.tint != tint_total ? tinted(drawn, through.x, how, sums) : drawn;
         for (int axis = 0; axis < 2; ++axis)
             sums.offset[axis] =
                 blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), accumulation, half_float);
@@ -62,21 +74,26 @@ Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmitt
             const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, accumulation, format); };
             add(sums.color[c], std::min(fragment.color[c], double(largest_radiance)) * through[c], color);
             add(sums.extinction[c], optical_depth_in_double(fragment.transmittance[c]), weight);
-            add(sums.normalizer[c], (1 - fragment.transmittance[c]) * through[c], weight);
+            if (how.tint == tint_total) add(sums.normalizer[c], (1 - fragment.transmittance[c]) * through[c], weight);
             add(sums.emission[c], std::min(fragment.emission[c], double(largest_radiance)) * through[c], color);
         }
     }
     return sums;
 }
 
-glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind) {
-    glm::dvec3 radiance(0);
-    for (int c = 0; c < 3; ++c) {
-        const double n = sums.normalizer[c];
-        const double factor = n > double(least_normalizer) ? -std::expm1(-sums.extinction[c]) / n : 1;
-        radiance[c] = behind[c] * std::exp(-sums.extinction[c]) + sums.color[c] * factor + sums.emission[c];
+double factor(double extinction, double normalizer) {
+    return normalizer > double(least_normalizer) ? -std::expm1(-extinction) / normalizer : 1;
+}
+
+glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind, std::uint32_t tint) {
+    const glm::dvec3 through = glm::exp(-sums.extinction);
+    if (tint != tint_total) {
+        const glm::dvec3 over = sums.color * factor(sums.normalizer.y, sums.normalizer.x) + sums.emission;
+        return behind * through + over * skew(sums.skew);
     }
-    return radiance;
+    glm::dvec3 over = sums.emission;
+    for (int c = 0; c < 3; ++c) over[c] += sums.color[c] * factor(sums.extinction[c], sums.normalizer[c]);
+    return behind * through + over;
 }
 
 /// The numbers of every texel, and whether its coverage hangs on rounding.
@@ -157,7 +174,7 @@ ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& loo
         sums += read.sums;
         const bool bent = sums.offset != glm::dvec2(0);
         const BlendedSample seen = bent ? seen_behind(before, at, sums.offset) : BlendedSample{behind};
-        return {resolved(sums, seen.radiance), undecided || read.undecided || seen.undecided};
+        return {resolved(sums, seen.radiance, how.tint), undecided || read.undecided || seen.undecided};
     };
     return {{"color", blended(before, only(input.frame, Resolution::full), input.before, blend)}};
 }
@@ -179,8 +196,8 @@ double channel_depth(const Fragment& f, std::size_t channel, std::size_t channel
 }
 
 glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const Transmittance& transmittance,
-                          std::uint32_t accumulation) {
-    return resolved(sums_of(fragments, transmittance, {.accumulation = accumulation}), behind);
+                          const Summing& how) {
+    return resolved(sums_of(fragments, transmittance, how), behind, how.tint);
 }
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
@@ -201,7 +218,9 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     const Projected projected = project(input, model);
     // What a T(z) looks up lives as long as the pixel does.
     Read read;
-    const Summing how{accumulation, is_chromatic(input.frame), model.unseen};
+    const bool chromatic = is_chromatic(input.frame);
+    const Summing how{accumulation, chromatic, model.unseen, chromatic ? model.tint : tint_total,
+                      double(input.frame.fog.density)};
     return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         read = read_at(projected, model, extent, glm::uvec2(at));
         return Found{model.function(read.numbers, read.texel), read.undecided};

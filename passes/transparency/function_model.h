@@ -14,10 +14,21 @@ namespace strata::transparency {
 /// T(z) at a fragment, per channel.
 using Transmittance = std::function<glm::dvec3(const Fragment&)>;
 
-/// One sample: fragments in submission order weighted by T over what is behind. `accumulation`: the sums are rounded to its
-/// formats at every blend; accumulation_single stays in double.
-glm::dvec3 function_blend(std::span<const Fragment>, glm::dvec3 behind, const Transmittance&,
-                          std::uint32_t accumulation = accumulation_single);
+/// What an event with T = 0 in all channels does to the sum of optical depths; to the other sums it adds nothing anyway.
+enum class Unseen { counts, adds_nothing };
+
+/// How fragments are summed.
+struct Summing {
+    /// The sums are rounded to its formats at every blend; accumulation_single stays in double.
+    std::uint32_t accumulation = accumulation_single;
+    bool chromatic = false;
+    Unseen unseen = Unseen::counts;
+    std::uint32_t tint = tint_total;
+    double fog_density = 0;
+};
+
+/// One sample: fragments in submission order weighted by T over what is behind.
+glm::dvec3 function_blend(std::span<const Fragment>, glm::dvec3 behind, const Transmittance&, const Summing& = {});
 
 /// tau = -ln t, at most largest_optical_depth.
 double optical_depth_in_double(double t);
@@ -38,8 +49,8 @@ struct PrepassModel {
     enum class Filter { linear, nearest } filter = Filter::linear;
     /// Whether opaque surfaces hide fragments from the prepass.
     enum class Tested { against_opaque, against_nothing } tested = Tested::against_opaque;
-    /// What an event with T = 0 in all channels does to the sum of optical depths; to the other sums it adds nothing anyway.
-    enum class Unseen { counts, adds_nothing } unseen = Unseen::counts;
+    Unseen unseen = Unseen::counts;
+    std::uint32_t tint = tint_total;
     /// What the prepass keeps of a texel's fragments.
     std::function<std::vector<double>(std::span<const Fragment>, glm::uvec2 texel)> project;
     /// Adds a texel's share to what is read.

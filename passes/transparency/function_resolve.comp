@@ -1,4 +1,5 @@
-// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E, with L_behind seen D away (transparency chapters 7 and 6.13).
+// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E, with L_behind seen D away (transparency chapters 7 and 6.13), and what is not
+// L_behind skewed (6.12).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/distortion.glsl"
@@ -12,9 +13,10 @@ layout(set = 0, binding = 12, scalar) buffer Counters { FunctionCounters counter
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(color)))) return;
-    const vec3 x = extinction_at(at), n = normalizer_at(at);
-    vec3 over = merged(color_sum, low_color_sum, at).rgb * factor(x, n);
+    const vec3 x = extinction_at(at);
+    vec3 over = merged(color_sum, low_color_sum, at).rgb * factor_at(at, x);
     if (emits != 0u) over += merged(emission, low_emission, at).rgb;
+    if (tint != tint_total) over *= skew_at(at);
     const vec3 clean = finite_or_zero(over);
     if (any(notEqual(clean, over))) atomicAdd(counters.scrubbed, 1u);
     const vec4 here = imageLoad(color, at);

@@ -6,11 +6,13 @@
 #include "passes/transparency/function.shared.h"
 #include "passes/transparency/optical_depth.glsl"
 #include "passes/transparency/sanitize.glsl"
+#include "passes/transparency/tint.glsl"
 
 layout(constant_id = 0) const uint chromatic = 0u;       // 1: extinction and normalizer have three channels
 layout(constant_id = 1) const uint emits = 0u;           // 1: there is emission
 layout(constant_id = 2) const uint low_resolution = 0u;  // 1: there are sums of half-resolution draws
 layout(constant_id = 3) const uint distorts = 0u;        // 1: there are offsets
+layout(constant_id = 4) const uint tint = tint_total;    // else the normalizer has four channels: see function_outputs.glsl
 layout(set = 0, binding = 1) uniform sampler2DArray color_sum;
 layout(set = 0, binding = 2) uniform sampler2DArray extinction;
 layout(set = 0, binding = 3) uniform sampler2DArray normalizer;
@@ -32,10 +34,17 @@ vec4 merged(sampler2DArray full, sampler2DArray low, ivec3 at) {
 
 vec3 channels(vec4 texel) { return chromatic != 0u ? texel.rgb : texel.rrr; }
 vec3 extinction_at(ivec3 at) { return channels(merged(extinction, low_extinction, at)); }
-vec3 normalizer_at(ivec3 at) { return channels(merged(normalizer, low_normalizer, at)); }
 
 // (1 - exp(-X)) / N; 1 where nothing covers.
 float factor(float x, float n) { return n > least_normalizer ? opacity(x) / n : 1.0; }
-vec3 factor(vec3 x, vec3 n) { return vec3(factor(x.r, n.r), factor(x.g, n.g), factor(x.b, n.b)); }
+vec3 factor_at(ivec3 at, vec3 x) {
+    const vec4 weights = merged(normalizer, low_normalizer, at);
+    if (tint != tint_total) return vec3(factor(weights.y, weights.x));
+    const vec3 n = channels(weights);
+    return vec3(factor(x.r, n.r), factor(x.g, n.g), factor(x.b, n.b));
+}
+
+// What all that is drawn is multiplied by, besides.
+vec3 skew_at(ivec3 at) { return skew(merged(normalizer, low_normalizer, at).zw); }
 
 #endif

@@ -86,22 +86,34 @@ std::uint32_t add_quads(std::span<const std::uint32_t> order, SceneRecords& scen
     return first;
 }
 
+/// A flattened object has no inverse; its normals come from the matrix itself.
+bool is_flat(const glm::dmat4& to_view) { return std::abs(glm::determinant(glm::dmat3(to_view))) < 1e-30; }
+
+/// See DrawRecord::motion: of the object alone, because the camera of the frame before is not recorded.
+glm::dmat4 motion_in_view(const Draw& draw, const glm::dmat4& view) {
+    glm::dmat4 moved = view * (draw.to_world - draw.previous_to_world);
+    if (moved == glm::dmat4(0)) return moved;
+    const glm::dmat4 to_view = view * draw.to_world;
+    if (!is_flat(to_view)) return moved * glm::inverse(to_view);
+    moved[0] = moved[1] = moved[2] = glm::dvec4(0);
+    return moved;  // as its origin has
+}
+
 DrawRecord draw_record(const Frame& frame, const Draw& draw, const Box& box) {
-    glm::dmat4 view(frame.view.to_view);
-    const glm::dmat4 to_view = glm::translate(view, -frame.view.origin) * draw.to_world;
+    const glm::dmat4 view = glm::translate(glm::dmat4(frame.view.to_view), -frame.view.origin);
+    const glm::dmat4 to_view = view * draw.to_world;
     const Sphere bound = bounding_sphere(frame, draw, box);
-    // A flattened object has no inverse; its normals then come from the matrix itself.
     const glm::dmat3 linear(to_view);
-    const bool flat = std::abs(glm::determinant(linear)) < 1e-30;
     return {
         .to_view = glm::mat4(to_view),
-        .normal_to_view = glm::mat3(flat ? linear : glm::transpose(glm::inverse(linear))),
+        .normal_to_view = glm::mat3(is_flat(to_view) ? linear : glm::transpose(glm::inverse(linear))),
         .material = draw.material,
         .submission = 0,
         .soft_fade = 0,
         .layer = draw.layer,
         .bound_center = glm::vec3(bound.center),
         .bound_radius = float(bound.radius),
+        .motion = glm::mat4(motion_in_view(draw, view)),
     };
 }
 
@@ -116,6 +128,7 @@ DrawRecord emitter_record(const Frame& frame, std::size_t index) {
         .layer = emitter.layer,
         .bound_center = glm::vec3(0),
         .bound_radius = 0,
+        .motion = glm::mat4(0),  // particles have neither names nor velocities
     };
 }
 

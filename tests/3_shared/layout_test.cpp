@@ -73,7 +73,8 @@ std::vector<Record> geometry_records() {
               {"soft_fade", offsetof(D, soft_fade)},
               {"layer", offsetof(D, layer)},
               {"bound_center", offsetof(D, bound_center)},
-              {"bound_radius", offsetof(D, bound_radius)}}}};
+              {"bound_radius", offsetof(D, bound_radius)},
+              {"motion", offsetof(D, motion)}}}};
 }
 
 std::vector<Record> material_records() {

@@ -66,10 +66,13 @@ TEST(RoundTrip, ADrawArrivesWithItsMatrices) {
     draw.layer = 29;
     draw.bound_center = {30, 31, 32};
     draw.bound_radius = 33;
-    const auto seen = members_seen_by_a_shader(draw, "DrawRecord",
-                                               "see(r.to_view); see(r.normal_to_view); see(r.material); see(r.submission);"
-                                               "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius);");
-    ASSERT_EQ(seen.size(), 33u);
+    for (int column = 0; column < 4; ++column)
+        for (int i = 0; i < 4; ++i) draw.motion[column][i] = static_cast<float>(4 * column + i + 34);
+    const auto seen =
+        members_seen_by_a_shader(draw, "DrawRecord",
+                                 "see(r.to_view); see(r.normal_to_view); see(r.material); see(r.submission);"
+                                 "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius); see(r.motion);");
+    ASSERT_EQ(seen.size(), 49u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 

@@ -2,6 +2,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/adaptive/model.h"
 #include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_motion.h"
 #include "passes/transparency/lists.h"
 
 namespace strata::transparency {
@@ -9,7 +10,7 @@ namespace {
 
 constexpr std::string_view node_counts[] = {"4", "8", "16"};
 
-FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<AdaptiveParams>();
     const std::uint32_t nodes = curve_nodes(params);
     const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
@@ -22,7 +23,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
             .fixes("curve_nodes", nodes)
             .over(over(band));
     }
-    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawPass& draw, Resolution) {
         draw.loads("Curves", curves).fixes("curve_nodes", nodes).fixes("samples", images.samples);
     });
@@ -51,7 +52,7 @@ Technique adaptive() {
         .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {layers_view_row, normalization_row<sums>()},
+        .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},
         .add = add_function<sums>,
         .model = adaptive_model,
         .tolerance = {.rmse = 5e-3,

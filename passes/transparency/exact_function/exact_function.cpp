@@ -3,6 +3,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/exact_function/exact_function.shared.h"
 #include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_motion.h"
 #include "passes/transparency/lists.h"
 
 namespace strata::transparency {
@@ -11,10 +12,10 @@ ImageSet exact_function_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<ExactFunctionParams>();
     EventLists lists = create_lists(graph, images, params.pool);
-    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
         draw_into(graph, "transparency/exact_function/accumulate", images, drawn,
@@ -38,7 +39,7 @@ Technique exact_function() {
         .points = {"accumulation=packed", "accumulation=single"},
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {layers_view_row, normalization_row<sums>()},
+        .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},
         .add = add_function<sums>,
         .model = exact_function_model,
         .tolerance = {.rmse = 2e-3,

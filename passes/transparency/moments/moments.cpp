@@ -4,6 +4,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
 #include "passes/transparency/moments/model.h"
@@ -80,7 +81,7 @@ void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params,
     if (moments.tail) moments.tail = others;
 }
 
-FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<MomentsParams>();
     const MomentsPush push = push_of(params, images);
     const FrameImages low = prepass_images(graph, images, divisor_of(params.resolution));
@@ -90,7 +91,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
     } else {
         add_up(graph, low, params, push, moments);
     }
-    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     draw_into(graph, "transparency/moments/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
         const Filter filter = prepass_filter(params.resolution, resolution);
         draw.samples("total", moments.total, filter)
@@ -166,7 +167,7 @@ Technique moments() {
                    "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(MomentsCounters),
-        .views = {normalization_row<sums>()},
+        .views = {normalization_row<sums>(), motion_row<sums>()},
         .known_failures = {{"H1c", 0.043, "the cards are closer than the bias can tell apart"},
                            {"H2", 0.169, "four moments serve up to three depths; every further card bends the curve"},
                            {"H4", 0.115, "the panes are closer than the bias can tell apart"},

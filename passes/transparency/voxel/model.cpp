@@ -189,6 +189,10 @@ std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint3
     return divisor;
 }
 
+std::uint32_t voxel_tint(const VoxelParams& params, const Features& features) {
+    return channel_count(params.channels, features) == 1 ? params.tint : tint_total;
+}
+
 double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle) {
     // Pairs of triangles share a number: the halves of a particle meet without a seam.
     const std::uint32_t key = hashed(hashed(0, glm::uvec3(texel, draw)) ^ triangle / 2);
@@ -208,7 +212,8 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
     Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame), {}};
     if (params.splat == splat_multiply) splatter.of_triangles = slices_of_triangles(input.frame, slices);
 
-    PrepassModel prepass{.divisor = divisor, .unseen = PrepassModel::Unseen::adds_nothing};
+    PrepassModel prepass{
+        .divisor = divisor, .unseen = Unseen::adds_nothing, .tint = voxel_tint(params, frame_features(input.frame))};
     if (is_made_before_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
     if (sparse) prepass.add = add_rises;
     prepass.project = [=, &splatter](std::span<const Fragment> fragments, glm::uvec2 texel) {

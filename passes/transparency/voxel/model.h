@@ -13,6 +13,9 @@ std::uint32_t voxel_words(const VoxelParams&, std::uint32_t channels);
 /// every tile and channel.
 std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
 
+/// `tint` where T(z) has one channel.
+std::uint32_t voxel_tint(const VoxelParams&, const Features&);
+
 /// What stochastic rounding adds to a code, of a fragment's texel, draw and triangle: from 0 to 1.
 double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle);
 

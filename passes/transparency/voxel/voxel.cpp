@@ -4,6 +4,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/ratios.h"
@@ -29,13 +30,13 @@ constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth",
 constexpr std::string_view preparations[] = {"after_opaque", "before_opaque"};
 constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_screen"};
 
-FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<VoxelParams>();
     const bool earlier = is_made_before_opaque(params, *images.features);
     const Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
     drawn_before.depth = earlier ? earlier_culled_depth(graph) : culled_depth(graph, images, volume, params);
-    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    FunctionSums drawn = create_sums(graph, images, {params.accumulation, voxel_tint(params, *images.features), offsets});
     draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn, [&](DrawPass& draw, Resolution resolution) {
         read_volume(draw, volume, params).fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
     });
@@ -172,6 +173,7 @@ std::vector<Param> params() {
                                        .help = "metres at which the last slice ends, with range=fixed; what is beyond is in it",
                                        .scale = Scale::logarithmic}),
         param<&VoxelParams::channels>(channels_row),
+        param<&VoxelParams::tint>(tint_row),
         param<&VoxelParams::resolution>(resolution),
         param<&VoxelParams::accumulation>(accumulation_row),
         param<&VoxelParams::culling>(
@@ -260,6 +262,7 @@ std::vector<DebugView> views() {
         {"overflow", "the nearest slice that overflowed, or all slices if none did", "slices", 0, 128, picture<view_overflow>},
         {"thickness", "of the nearest slice that holds something", "m", 0, 1, picture<view_thickness>},
         normalization_row<sums>(),
+        motion_row<sums>(),
     };
 }
 
@@ -292,6 +295,8 @@ Technique voxel() {
                    "bits=16 slices=512",
                    "packing=rgb10",
                    "packing=rgb10 bits=16",
+                   "channels=mono tint=skew",
+                   "channels=mono tint=corrected",
                    "curve=thickness",
                    "rounding=stochastic",
                    "resolution=half",

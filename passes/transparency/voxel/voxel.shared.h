@@ -86,6 +86,7 @@ struct VoxelParams {
     uint culling;
     uint prepared;
     uint hysteresis;  // frames for which a coarser adaptive volume is held
+    uint tint;
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and

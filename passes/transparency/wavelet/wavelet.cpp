@@ -6,6 +6,7 @@
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
+#include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
 #include "passes/transparency/wavelet/model.h"
@@ -40,7 +41,7 @@ Buffer find_bounds(Graph& graph, const FrameImages& low, const WaveletParams& pa
     return bounds;
 }
 
-FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
+FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<WaveletParams>();
     const FrameImages low = prepass_images(graph, images, divisor_of(params.resolution));
     const DepthRange range = transparent_depth_range(*images.recorded);
@@ -62,7 +63,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings) {
             .fixes("channel", push.channels == 1 ? 3u : channel)
             .push(push);
     }
-    FunctionSums drawn = create_sums(graph, images, params.accumulation);
+    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     draw_into(graph, "transparency/wavelet/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
         // Coefficients of pixels with bounds of their own do not mix.
         const Filter filter = params.bounds == bounds_pixel ? Filter::nearest : prepass_filter(params.resolution, resolution);
@@ -132,7 +133,7 @@ Technique wavelet() {
                    "jitter=1", "resolution=half", "resolution=quarter", "resolution=eighth"},
         .counters = counters(),
         .counter_bytes = sizeof(FunctionCounters),
-        .views = {normalization_row<sums>()},
+        .views = {normalization_row<sums>(), motion_row<sums>()},
         .known_failures = {{"H1b", 0.288, "the cards share a cell"},
                            {"H1c", 0.656, "the cards share a cell"},
                            {"H2", 0.587, "cards in the cell of the first one dim it"},
