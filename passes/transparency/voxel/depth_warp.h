@@ -48,7 +48,8 @@ DepthWarp depth_warp(Coverage, std::uint32_t physical, std::uint32_t splatting);
 /// Nothing is left out.
 DepthWarp unwarped(std::uint32_t slices);
 
-/// What the frame's transparent triangles cover of the curve's slices, each over as much of its depth as may be seen.
+/// What the frame's transparent triangles but those of interface layers cover of the curve's slices, each over as much of its
+/// depth as may be seen.
 Coverage transparent_coverage(const Frame&, const DepthCurve&);
 
 /// The warp that the parameters ask for.

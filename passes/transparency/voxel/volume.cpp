@@ -15,6 +15,7 @@
 namespace strata::transparency {
 namespace {
 
+/// All but the interfaces.
 VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Extent& low, std::uint32_t channels) {
     const ColumnFormat format = column_format(params);
     const double range = curve.farthest - curve.nearest;
@@ -31,7 +32,8 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
             .codes_per_depth = static_cast<float>(format.codes_per_depth()),
             .bias = static_cast<float>(sampling_bias(params.sampling)) + params.shift,
             .color_codes_per_depth = static_cast<float>(color_format(params).codes_per_depth()),
-            .color_scale = color_scale(format)};
+            .color_scale = color_scale(format),
+            .interfaces = 0};
 }
 
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
@@ -108,12 +110,15 @@ constexpr const char* warp_name = "depth warp";
 /// All but images and buffers.
 Volume described(const FrameImages& images, const VoxelParams& params) {
     const std::uint32_t channels = channel_count(params.channels, *images.features);
-    const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
-    const DepthCurve curve = depth_curve(params, voxel_range(params, *images.recorded));
-    return {.divisor = divisor,
-            .field_bits = column_format(params).field_bits,
-            .packs = packs_colors(params, channels),
-            .push = push_of(params, curve, prepass_extent(images.extent, divisor), channels)};
+    const VoxelParams all = of_volume(params, *images.recorded), world = of_world(params, *images.recorded);
+    const std::uint32_t divisor = voxel_divisor(all, images.extent, channels);
+    const DepthCurve curve = depth_curve(world, voxel_range(params, *images.recorded));
+    Volume volume{.divisor = divisor,
+                  .field_bits = column_format(params).field_bits,
+                  .packs = packs_colors(params, channels),
+                  .push = push_of(all, curve, prepass_extent(images.extent, divisor), channels)};
+    volume.push.interfaces = all.slices - world.slices;
+    return volume;
 }
 
 void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
@@ -165,7 +170,7 @@ Volume earlier_volume(const Graph& graph, const FrameImages& images, const Voxel
 
 Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelParams& params) {
     Volume volume = described(images, params);
-    create_parts(graph, params, volume);
+    create_parts(graph, of_volume(params, *images.recorded), volume);
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);

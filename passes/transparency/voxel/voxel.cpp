@@ -53,7 +53,7 @@ std::vector<Param> code_params() {
     return {
         param<&VoxelParams::slices>({.name = "slices",
                                      .low = 32,
-                                     .high = 1024,
+                                     .high = most_slices,
                                      .fallback = 128,
                                      .help = "of the volume in depth; within one nothing hides anything",
                                      .scale = Scale::logarithmic}),

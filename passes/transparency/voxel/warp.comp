@@ -98,7 +98,7 @@ void main() {
     barrier();
     uint halvings = 0u, slices = push.finest_slices, used = used_word(thread, slices);
     sum_up(thread, used);
-    while (counts[threads - 1u] > push.slices) {
+    while (counts[threads - 1u] > push.slices - push.interfaces) {
         halve(thread);
         ++halvings;
         slices /= 2u;
