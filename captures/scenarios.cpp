@@ -47,6 +47,8 @@ constexpr auto table = std::to_array<Scenario>({
      scenario::thin_layers},
     {"particle_storm", "What does a storm of ash cost that lies eight layers deep over every extent?", 96, 54,
      scenario::particle_storm},
+    {"interface_layers", "Are interfaces blended by layer in front of the world, wherever in it their surfaces are?", 96, 54,
+     scenario::interface_layers},
 });
 
 }  // namespace

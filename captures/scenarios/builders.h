@@ -15,6 +15,7 @@ Frame glass_and_smoke(std::uint32_t frame, const ScenarioOptions&);
 Frame facade_at_150m(std::uint32_t frame, const ScenarioOptions&);
 Frame tail_light(std::uint32_t frame, const ScenarioOptions&);
 Frame explosion(std::uint32_t frame, const ScenarioOptions&);
+Frame interface_layers(std::uint32_t frame, const ScenarioOptions&);
 // layers.cpp
 Frame one_pane(std::uint32_t frame, const ScenarioOptions&);
 Frame three_panes(std::uint32_t frame, const ScenarioOptions&);

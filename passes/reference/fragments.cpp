@@ -8,6 +8,8 @@
 #include <numeric>
 #include <optional>
 
+#include "capture_format/frame_features.h"
+#include "passes/reference/ordering.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/surfaces.h"
 
@@ -197,6 +199,7 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
     FragmentLists lists(view.width, view.height, view.samples);
     const std::vector<std::uint32_t> draws = transparent_draws(frame);
     const Raster raster(frame, draws);
+    const bool has_interfaces = frame_features(frame).has(Feature::interface_layers);
     oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
         FragmentLists::Row& row = lists.rows_[y];
         FoundRow found;
@@ -204,8 +207,12 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
             const double opaque_depth = depth.at(point.x, point.y, point.sample).x;
             const DepthTest test = depth_test(point, opaque_depth);
             if (test == DepthTest::fails) return;
-            const std::optional<Fragment> fragment = event_at(frame, point, triangle, opaque_depth);
+            std::optional<Fragment> fragment = event_at(frame, point, triangle, opaque_depth);
             if (!fragment) return;
+            if (has_interfaces) {
+                fragment->layer = layer_of(frame, point.draw);
+                fragment->depth = ordering_depth(frame, fragment->layer, fragment->depth);
+            }
             const std::uint32_t slot = point.x * view.samples + point.sample;
             if (point.undecided || test != DepthTest::passes) row.undecided[slot] = 1;
             if (!point.covered || test == DepthTest::undecided_fails) return;

@@ -26,12 +26,13 @@ namespace strata {
 
 /// A transparent event: L_out = p + e + t L_behind. Fog is already in it (transparency chapter 0.4).
 struct Fragment {
-    double depth = 0;              ///< view z in metres, depth offset applied: what ordering uses
+    double depth = 0;              ///< view z in metres, depth offset applied, or an interface layer's: what ordering uses
     glm::dvec3 color{0};           ///< premultiplied scattered radiance p
     glm::dvec3 transmittance{1};   ///< t per channel
     glm::dvec3 emission{0};        ///< e, added without coverage
     double alpha = 0;              ///< scalar coverage
     glm::dvec2 distortion{0};      ///< d, in uv: how far from here what is behind is seen, added without coverage
+    std::uint32_t layer = 0;       ///< of interfaces, of which `depth` is made; 0 the world
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle
 };
 

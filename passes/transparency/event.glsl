@@ -7,6 +7,7 @@
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
 #include "passes/shaders/material.glsl"
+#include "passes/shaders/ordering.shared.h"
 #include "passes/transparency/sanitize.glsl"
 
 layout(location = 0) sample in vec3 in_position;
@@ -20,10 +21,11 @@ layout(location = 6) flat in uint in_draw;
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
+layout(constant_id = 6) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
-    float z;       // view depth, depth offset applied: what ordering uses
+    float z;       // view depth, depth offset applied, or an interface layer's: what ordering uses
     float alpha;   // scalar coverage
     vec3 p, t, e;  // premultiplied scattered radiance, transmittance, emission; fog is in them
     vec2 d;        // distortion: how far away, in uv, what is behind is seen
@@ -88,6 +90,16 @@ void add_fog(inout Event event) {
     event.e *= remains;
 }
 
+// 0: of the world.
+uint interface_layer() { return has_interfaces != 0u ? draws[in_draw].layer : 0u; }
+
+// passes/reference/ordering.h has the same in double.
+float ordering_depth(float z) {
+    if (has_interfaces == 0u) return z;
+    const uint layer = interface_layer();
+    return layer > 0u ? layer_depth(view.near, layer) : max(z, view.near);
+}
+
 Event transparent_event() {
     const bool particle = in_draw >= view.first_emitter;
     const float scale = to_sample();
@@ -103,7 +115,7 @@ Event transparent_event() {
         event.d = materials[draws[in_draw].material].distortion * vec2(m.normal.x, -m.normal.y);
         event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
     }
-    event.z -= in_emissive.w * scale;
+    event.z = ordering_depth(event.z - in_emissive.w * scale);
     return event;
 }
 

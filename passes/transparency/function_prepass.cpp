@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "passes/reference/fragments.h"
+#include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
+#include "passes/shaders/ordering.shared.h"
 
 namespace strata::transparency {
 namespace {
@@ -50,8 +52,16 @@ FrameImages prepass_images(Graph& graph, const FrameImages& images, std::uint32_
 }
 
 DepthRange transparent_depth_range(const Frame& frame) {
+    DepthRange range = world_depth_range(frame);
+    if (const std::uint32_t layer = highest_layer(frame))
+        range.nearest = std::min(range.nearest, layer_depth(frame.view.near, layer));
+    return range;
+}
+
+DepthRange world_depth_range(const Frame& frame) {
     Range range;
     for (const std::uint32_t index : transparent_draws(frame)) {
+        if (layer_of(frame, index) > 0) continue;
         if (index < frame.draws.size()) {
             take_draw(range, frame, frame.draws[index]);
             continue;

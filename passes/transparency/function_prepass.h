@@ -19,7 +19,10 @@ Extent prepass_extent(Extent, std::uint32_t divisor);
 struct DepthRange {
     float nearest = 0, farthest = 0;
 };
+/// As events are ordered: from the nearest interface layer on.
 DepthRange transparent_depth_range(const Frame&);
+/// Of what is in no interface layer.
+DepthRange world_depth_range(const Frame&);
 
 /// The row of the `resolution` parameter: a choice by name; divisor_of() is what it stands for.
 extern const Param resolution_row;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <tuple>
 
 #include "passes/reference/fragments.h"
+#include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
@@ -25,22 +27,24 @@ glm::dvec3 box_center(std::span<const Element> elements, Point point) {
 }
 
 struct SortedObject {
-    std::uint32_t draw = 0;
+    std::uint32_t draw = 0, layer = 0;
     std::int32_t priority = 0;
-    double depth = 0;
+    double depth = 0;  ///< 0 in an interface layer: submission decides there
 };
 
 SortedObject sorted_object(const Frame& frame, std::uint32_t index) {
+    const std::uint32_t layer = layer_of(frame, index);
+    const auto depth_of = [&](const glm::dvec3& center) { return layer > 0 ? 0 : view_depth(frame, center); };
     if (index < frame.draws.size()) {
         const Draw& draw = frame.draws[index];
         const std::span<const glm::vec3> positions = frame.meshes[draw.mesh].positions;
         const glm::dvec3 center = box_center(positions, [](const glm::vec3& p) { return glm::dvec3(p); });
-        return {index, draw.sort_priority, view_depth(frame, glm::dvec3(draw.to_world * glm::dvec4(center, 1)))};
+        return {index, layer, draw.sort_priority, depth_of(glm::dvec3(draw.to_world * glm::dvec4(center, 1)))};
     }
     const Emitter& emitter = frame.emitters[index - frame.draws.size()];
     const std::span<const Particle> particles = emitter.particles;
     const glm::dvec3 center = box_center(particles, [](const Particle& p) { return p.center; });
-    return {index, emitter.sort_priority, view_depth(frame, center)};
+    return {index, layer, emitter.sort_priority, depth_of(center)};
 }
 
 }  // namespace
@@ -52,7 +56,7 @@ std::vector<std::uint32_t> back_to_front_draws(const Frame& frame) {
             objects.push_back(sorted_object(frame, index));
     // Stable: equal objects keep the order of submission.
     std::ranges::stable_sort(objects, [](const SortedObject& a, const SortedObject& b) {
-        return a.priority != b.priority ? a.priority < b.priority : a.depth > b.depth;
+        return std::tuple(a.layer, a.priority, b.depth) < std::tuple(b.layer, b.priority, a.depth);
     });
     std::vector<std::uint32_t> order;
     for (const SortedObject& object : objects) order.push_back(object.draw);
@@ -62,7 +66,7 @@ std::vector<std::uint32_t> back_to_front_draws(const Frame& frame) {
 std::vector<std::uint32_t> back_to_front_particles(const Frame& frame, const Emitter& emitter) {
     std::vector<double> depths;
     for (const Particle& particle : emitter.particles)
-        depths.push_back(view_depth(frame, particle.center) - double(particle.depth_offset));
+        depths.push_back(emitter.layer > 0 ? 0 : view_depth(frame, particle.center) - double(particle.depth_offset));
     std::vector<std::uint32_t> order(depths.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return depths[a] > depths[b]; });

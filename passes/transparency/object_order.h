@@ -1,5 +1,6 @@
-// The order of object-sorted transparency: sort_priority first, then the view depth of the object's bounding sphere's center,
-// far to near. One rule for the scene's index buffers and for the model of transparency/alpha_blend.
+// The order of object-sorted transparency: the world before interface layers, then sort_priority, then the view depth of the
+// object's bounding sphere's center, far to near. One rule for the scene's index buffers and for the model of
+// transparency/alpha_blend.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,12 @@
 
 namespace strata {
 
-/// Draws with a transparent material and emitters with particles (as draws.size() + emitter): lower sort_priority first, then
-/// farther centers first, then earlier submission first. The center is that of the mesh's box, transformed; an emitter's is
-/// that of the box of its particles' centers.
+/// Draws with a transparent material and emitters with particles (as draws.size() + emitter): lower layers first, then lower
+/// sort_priority, then, in the world, farther centers, then earlier submission. The center is that of the mesh's box,
+/// transformed; an emitter's is that of the box of its particles' centers.
 std::vector<std::uint32_t> back_to_front_draws(const Frame&);
 
-/// Indices into Emitter::particles, descending view z of center minus depth_offset, then ascending index.
+/// Indices into Emitter::particles, in the world by descending view z of center minus depth_offset, then ascending index.
 std::vector<std::uint32_t> back_to_front_particles(const Frame&, const Emitter&);
 
 }  // namespace strata

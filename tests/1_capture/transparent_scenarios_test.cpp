@@ -89,6 +89,26 @@ TEST(TransparentScenarios, TheTailLightsCoverIsInFrontOfEveryLensThoughItsMiddle
     EXPECT_NE(frame.draws[sorted.front()].name, "clear cover");
 }
 
+TEST(TransparentScenarios, InterfacesAreOrderedByLayerAndTestedByDepth) {
+    const Frame frame = build("interface_layers", 96, 54);
+    ASSERT_TRUE(frame_features(frame).has(Feature::interface_layers));
+    const double near = double(frame.view.near);
+    const FragmentLists fragments = all_fragments(frame);
+    std::size_t deepest = 0;
+    for (std::uint32_t pixel = 0; pixel < 96 * 54; ++pixel) {
+        const std::span<const Fragment> list = fragments.at(pixel % 96, pixel / 96);
+        std::vector<double> depths;
+        for (const Fragment& fragment : list) depths.push_back(fragment.depth);
+        std::ranges::sort(depths);
+        const auto world = std::ranges::lower_bound(depths, near) - depths.begin();
+        EXPECT_LE(world, 3);
+        if (world < 3) continue;
+        ++deepest;
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(depths[i], near / double(4 - i), 1e-8);
+    }
+    EXPECT_GT(deepest, 100u);
+}
+
 TEST(TransparentScenarios, AnExplosionBurnsInsideItsSmoke) {
     const Frame frame = build("explosion");
     const Features features = frame_features(frame);

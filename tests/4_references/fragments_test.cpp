@@ -159,6 +159,25 @@ TEST(TransparentFragments, SoftParticlesFadeBeforeTheSurfaceBehind) {
     EXPECT_NEAR(event.depth, 3.25, 1e-9);
 }
 
+TEST(TransparentFragments, OfInterfacesAreInFrontOfTheWorldAndTestedWhereTheyAre) {
+    Frame frame = tiny::frame(8, 8);
+    const double near = double(frame.view.near);
+    frame.draws[tiny::add_quad(frame, everywhere, 2, AlphaMode::blend)].layer = 1;
+    frame.draws[tiny::add_quad(frame, everywhere, 3, AlphaMode::blend)].layer = 4;
+    Emitter emitter;
+    emitter.particles = {particle_at({0, 0, 1}, 0.8f)};
+    emitter.particles[0].depth_offset = 5;
+    frame.emitters = {emitter};
+    ReferenceImage depth = tiny::no_depth(frame);
+    const auto found = transparent_fragments(frame, depth);
+    ASSERT_EQ(middle(found).size(), 3u);
+    EXPECT_NEAR(middle(found)[0].depth, near / 2, 1e-8);
+    EXPECT_NEAR(middle(found)[1].depth, near / 5, 1e-8);
+    EXPECT_EQ(middle(found)[2].depth, near) << "an offset takes nothing in front of an interface";
+    for (auto& texel : depth.texels) texel.x = near / 2.5;
+    EXPECT_EQ(middle(transparent_fragments(frame, depth)).size(), 2u);
+}
+
 TEST(TransparentFragments, OnlyWhatIsInFrontOfTheDepthRemains) {
     Frame frame = tiny::frame(8, 8);
     for (const double z : {2.0, 3.0, 4.0}) tiny::add_quad(frame, everywhere, z, AlphaMode::blend);

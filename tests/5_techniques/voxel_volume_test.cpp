@@ -74,6 +74,26 @@ TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
     }
 }
 
+TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
+    const Technique& technique = *must(find_technique(voxel));
+    const std::vector<std::string> combinations[] = {
+        {"splat=multiply"},
+        {"splatting=point", "sampling=point", "slices=33"},
+        {"sampling=bicubic", "resolution=quarter", "bits=16"},
+        {"volume=dense", "range=fixed", "shift=1"},
+        {"channels=rgb", "packing=rgb10", "slices=1024", "rounding=stochastic"},
+        {"prepared=before_opaque", "splat=words", "bits=32"},
+    };
+    for (const std::vector<std::string>& sets : combinations) {
+        Request request = on_scenario("interface_layers", 4);
+        request.uses = {voxel};
+        request.sets = sets;
+        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
+        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
+        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+    }
+}
+
 /// The transparency stage's scenarios, small: with the settings, and with those and more.
 void expect_same_color(std::uint32_t samples, const std::vector<std::string>& sets, const std::vector<std::string>& more) {
     for (const std::string_view scenario : info(Stage::transparency).scenarios) {

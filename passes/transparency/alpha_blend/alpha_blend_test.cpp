@@ -42,6 +42,21 @@ TEST(ObjectOrder, DrawsLowerPrioritiesFirstWhateverTheirDepth) {
     EXPECT_THAT(back_to_front_draws(frame_of_cards(cards, 8)), ElementsAre(0, 1));
 }
 
+TEST(ObjectOrder, DrawsInterfacesAfterTheWorldByLayerThenPriorityThenSubmission) {
+    const std::array cards{Card{.center = {0, 0, 7}}, Card{.center = {0, 0, 2}}, Card{.center = {0, 0, 5}},
+                           Card{.center = {0, 0, 3}, .sort_priority = -1}, Card{.center = {0, 0, 1}, .sort_priority = 9}};
+    Frame frame = frame_of_cards(cards, 8);
+    frame.draws[0].layer = 2;
+    for (const std::size_t i : {1u, 2u, 3u}) frame.draws[i].layer = 1;
+    EXPECT_THAT(back_to_front_draws(frame), ElementsAre(4, 3, 1, 2, 0));
+}
+
+TEST(ObjectOrder, DrawsParticlesOfAnInterfaceAsTheyAreSubmitted) {
+    Frame frame = frame_of_cards(std::array{Card{}}, 8);
+    frame.emitters.push_back({.layer = 1, .particles = {{.center = {0, 0, 3}}, {.center = {0, 0, 5}}}});
+    EXPECT_THAT(back_to_front_particles(frame, frame.emitters[0]), ElementsAre(0, 1));
+}
+
 TEST(ObjectOrder, KeepsTheOrderOfSubmissionAtEqualDepth) {
     const std::array cards{Card{.center = {0, 0, 2}}, Card{.center = {1, 0, 2}}, Card{.center = {0, 1, 2}}};
     EXPECT_THAT(back_to_front_draws(frame_of_cards(cards, 8)), ElementsAre(0, 1, 2));

@@ -37,7 +37,8 @@ glm::dvec3 peeled_blend(std::span<const Fragment> fragments, glm::dvec3 behind, 
 
 ImageSet depth_peeling_model(const StageInput& input, const Settings& settings) {
     const std::uint32_t passes = settings.as<DepthPeelingParams>().passes;
-    const double near = double(input.frame.view.near);
+    const bool has_interfaces = frame_features(input.frame).has(Feature::interface_layers);
+    const double near = has_interfaces ? 0 : double(input.frame.view.near);  // as near as it gets
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {peeled_blend(fragments, behind, passes, near), is_doubtful(fragments)};
     };

@@ -10,8 +10,12 @@ layout(location = 1) out vec4 out_through;
 layout(set = 0, binding = 1) uniform sampler2DArray peeled_depth;  // of the pass before; 2: none was, 0: it found nothing
 layout(set = 0, binding = 2, scalar) buffer Counters { DepthPeelingCounters counters; };
 
-// Reversed, as the test GREATER_OR_EQUAL wants it. What a depth offset brings before the near plane is at it.
-float device_depth(float z) { return z > view.near ? view.near / z : 1.0; }
+// Reversed, as the test GREATER_OR_EQUAL wants it. What a depth offset brings before the near plane is at it. Interface layers are
+// in front of that; a power of two makes room for them and loses nothing.
+float device_depth(float z) {
+    if (has_interfaces != 0u) return view.near / z / float(last_interface_layer + 1u);
+    return z > view.near ? view.near / z : 1.0;
+}
 
 void main() {
     const Event event = transparent_event();

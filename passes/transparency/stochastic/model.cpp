@@ -135,8 +135,7 @@ public:
         const Origin& origin = *--std::ranges::upper_bound(origins_, fragment.submission, {}, &Origin::first_ordinal);
         const std::uint32_t triangle = fragment.submission - origin.first_ordinal;
         SeededFragment result{fragment, fragment_key(params.seed, at, origin.draw, triangle)};
-        if (params.mode == mode_hashed)
-            result.threshold = threshold(origin, fragment.depth + offset(origin, triangle), at, params);
+        if (params.mode == mode_hashed) result.threshold = threshold(origin, triangle, at, params);
         return result;
     }
 
@@ -146,16 +145,13 @@ private:
         DrawSpace space;
     };
 
-    double offset(const Origin& origin, std::uint32_t triangle) const {
-        if (origin.draw < frame_.draws.size()) return 0;
-        return double(frame_.emitters[origin.draw - frame_.draws.size()].particles[triangle / 2].depth_offset);
-    }
-
     /// Cells are as large as a pixel on a surface that faces the eye there.
-    double threshold(const Origin& origin, double z, glm::uvec3 at, const StochasticParams& params) const {
+    double threshold(const Origin& origin, std::uint32_t triangle, glm::uvec3 at, const StochasticParams& params) const {
         const View& view = frame_.view;
         const glm::dvec2 pixel = glm::dvec2(at) + sample_position(view.samples, at.z);
-        const glm::dvec3 position = pixel_ray(frame_, pixel.x, pixel.y) * z;
+        const glm::dvec3 ray = pixel_ray(frame_, pixel.x, pixel.y);
+        const double z = 1 / TriangleRays(view_corners(frame_, origin.space, origin.draw, triangle)).inverse_z(ray);
+        const glm::dvec3 position = ray * z;
         const bool flat = std::abs(glm::determinant(origin.space.linear)) < 1e-30;
         const glm::dmat3 to_object = flat ? glm::transpose(origin.space.linear) : glm::inverse(origin.space.linear);
         const glm::dvec2 size(2 * z / (double(view.projection[0][0]) * view.width),

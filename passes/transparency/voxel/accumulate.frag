@@ -55,9 +55,8 @@ vec3 codes_at(ivec2 texel, uint slice) {
     return vec3(first, code_at(column_of(uvec2(texel), 1u), slice), code_at(column_of(uvec2(texel), 2u), slice));
 }
 
-// At a virtual slice: 0 in front of the volume, the last slice's behind.
-vec3 integral_at(Corners at, int slice) {
-    const int physical = physical_slice(slice);
+// 0 in front of the first slice.
+vec3 integral_at(Corners at, int physical) {
     const uint k = uint(max(physical, 0));
     vec3 sum = codes_at(at.low, k);
     if (filters != 0u)
@@ -81,21 +80,30 @@ float transmittance(float codes) {
     return codes >= full_share * float(full_integral()) ? 0.0 : exp(-codes / per_depth);
 }
 
+vec3 transmittance(vec3 codes) {
+    const float red = transmittance(codes.r);
+    return push.channels == 1u ? vec3(red) : vec3(red, transmittance(codes.g), transmittance(codes.b));
+}
+
+// At a place in virtual slices: behind the volume what is at its end.
 vec3 transmittance_at(float at) {
     const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
     const float first = sampling == sampling_bicubic ? k - 1.0 : k;
     const vec4 weight = weights(center - k);
     const Corners around = corners();
     vec3 codes = vec3(0.0);
-    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(around, int(first) + int(i));
-    const float red = transmittance(codes.r);
-    return push.channels == 1u ? vec3(red) : vec3(red, transmittance(codes.g), transmittance(codes.b));
+    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(around, physical_slice(int(first) + int(i)));
+    return transmittance(codes);
 }
+
+// Not filtered in depth: layers do not share slices.
+vec3 transmittance_before(uint layer) { return transmittance(integral_at(corners(), slice_of_layer(layer) - 1)); }
 
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
-    const vec3 through = transmittance_at(slice_of_depth(event.z) + push.bias);
+    const uint layer = interface_layer();
+    const vec3 through = layer > 0u ? transmittance_before(layer) : transmittance_at(slice_of_depth(event.z) + push.bias);
     if (through == vec3(0.0)) {  // adds nothing, optical depth included: whether it is culled makes no difference
         atomicAdd(counters.unseen, 1u);
         discard;

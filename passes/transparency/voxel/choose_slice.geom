@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/shaders/scene.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
@@ -40,7 +41,7 @@ void main() {
     for (uint i = 0u; i < 3u; ++i) depths[i] = in_position[i].z - in_emissive[i].w;
     for (uint i = 0u; i < 3u; ++i) {
         hand_on(i);
-        gl_Layer = slice_of_triangle(depths);
+        gl_Layer = slice_of_triangle(depths, draws[in_draw[0]].layer);
         EmitVertex();
     }
 }

@@ -22,6 +22,7 @@ void mark(uint first, uint last) {
 
 void main() {
     const DrawCommand command = commands[first_command + gl_WorkGroupID.y];
+    if (draws[command.first_instance].layer > 0u) return;  // interfaces have slices of their own
     const Rays image = rays_through(vec2(0.0), vec2(push.width, push.height));
     for (uint i = gl_GlobalInvocationID.x; i < command.index_count / 3u; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
         const Triangle triangle = triangle_of(command, i);

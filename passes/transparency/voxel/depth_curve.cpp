@@ -27,7 +27,7 @@ double linear_of_thickness(double slices, double range, double near_thickness) {
 }
 
 DepthRange voxel_range(const VoxelParams& params, const Frame& frame) {
-    return params.range == range_fixed ? DepthRange{0, params.farthest} : transparent_depth_range(frame);
+    return params.range == range_fixed ? DepthRange{0, params.farthest} : world_depth_range(frame);
 }
 
 DepthCurve depth_curve(const VoxelParams& params, DepthRange range) {

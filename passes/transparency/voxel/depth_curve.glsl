@@ -38,13 +38,21 @@ float thickness_at(float z) {
     return (z - push.nearest + 1.0 / push.per_linear) * log(2.0) / (push.slices_per_log2 * halved());
 }
 
-// The physical slice whose integral is that of a virtual one: its own or the last in front of it; -1 if there is none.
+// The physical slice whose integral is that of a virtual one: its own or the last in front of it, which may be an interface's; -1
+// if there is none.
 int physical_slice(int slice) {
-    const int inside = min(slice, int(virtual_slices()) - 1);
-    if (inside < 0) return -1;
-    return adaptive != 0u ? int(warp_entries[inside] & warp_count_mask) - 1 : inside;
+    const int inside = min(slice, int(virtual_slices()) - 1), interfaces = int(push.interfaces);
+    if (inside < 0) return interfaces - 1;
+    return interfaces + (adaptive != 0u ? int(warp_entries[inside] & warp_count_mask) - 1 : inside);
 }
 
-uint virtual_slice(uint physical) { return adaptive != 0u ? warp_entries[most_virtual_slices + physical] : physical; }
+// An interface layer has a slice of its own, which nothing else is added to, and reads the one in front of it.
+int slice_of_layer(uint layer) { return int(push.interfaces - layer); }
+
+// Of an interface's slice the world's first.
+uint virtual_slice(uint physical) {
+    const uint slice = max(physical, push.interfaces) - push.interfaces;
+    return adaptive != 0u ? warp_entries[most_virtual_slices + slice] : slice;
+}
 
 #endif

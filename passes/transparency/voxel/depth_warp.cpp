@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/reference/fragments.h"
+#include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
 
@@ -98,6 +99,7 @@ Coverage transparent_coverage(const Frame& frame, const DepthCurve& curve) {
     Coverage coverage(static_cast<std::uint32_t>(curve.slices));
     const RayRectangle image = whole_image(frame);
     for (const std::uint32_t draw : transparent_draws(frame)) {
+        if (layer_of(frame, draw) > 0) continue;
         const DrawSpace space = draw_space(frame, draw);
         for (std::uint32_t triangle = 0; triangle < triangle_count(frame, draw); ++triangle) {
             const auto depths = depths_within(view_corners(frame, space, draw, triangle), image, double(frame.view.near));

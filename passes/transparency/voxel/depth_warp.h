@@ -61,7 +61,8 @@ struct Depths {
 /// an edge tells on which side of it the rays pass, the triangle's own plane what depths they meet: nothing needs to be clipped.
 std::optional<Depths> depths_within(const Corners&, const RayRectangle&, double near);
 
-/// What the frame's transparent triangles cover of the curve's slices, each over as much of its depth as may be seen.
+/// What the frame's transparent triangles but those of interface layers cover of the curve's slices, each over as much of its
+/// depth as may be seen.
 Coverage transparent_coverage(const Frame&, const DepthCurve&);
 
 /// The warp that the parameters ask for.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
 #include "passes/transparency/function_model.h"
 #include "passes/transparency/function_prepass.h"
@@ -43,24 +44,35 @@ double rounding_of(const VoxelParams& params, std::span<const Origin> origins, c
     return random_rounding(texel, origin.draw, f.submission - origin.first_triangle);
 }
 
+/// Of a column's channel, by slice.
+using SumsOfSlices = std::function<double(std::size_t)>;
+
 /// Depth to virtual slices, these to physical ones.
 struct Slices {
     DepthCurve curve;
     DepthWarp warp;
+    std::uint32_t interfaces = 0;  ///< slices in front
 
     /// Slice coordinate within the volume.
     double place_of(double depth) const {
         const double s = curve.slice_of(std::max(depth, curve.nearest)) * std::exp2(-double(warp.halvings));
         return std::min(s, warp.virtual_slices() - double(end_margin));
     }
-    /// The physical slice of a virtual one, or the next in front that is there.
-    std::uint32_t physical(std::uint32_t slice) const {
-        return static_cast<std::uint32_t>(std::max(warp.physical(static_cast<int>(slice)), 0));
+    /// The physical slice of a virtual one, or the next in front that is there; -1: none is.
+    int physical(int slice) const { return warp.physical(slice) + static_cast<int>(interfaces); }
+    /// The first slice where there is none.
+    std::uint32_t splatted(double place) const {
+        return static_cast<std::uint32_t>(std::max(physical(static_cast<int>(place)), 0));
     }
-    double sampled(const std::function<double(std::size_t)>& integral, double at, std::uint32_t sampling) const {
+    std::uint32_t of_layer(std::uint32_t layer) const { return interfaces - layer; }
+    /// Of what is in front of an interface layer.
+    double before(const SumsOfSlices& integral, std::uint32_t layer) const {
+        return layer < interfaces ? integral(of_layer(layer) - 1) : 0;
+    }
+    double sampled(const SumsOfSlices& integral, double at, std::uint32_t sampling) const {
         const auto value = [&](int slice) {
-            const int physical = warp.physical(slice);
-            return physical < 0 ? 0 : integral(static_cast<std::size_t>(physical));
+            const int there = physical(slice);
+            return there < 0 ? 0 : integral(static_cast<std::size_t>(there));
         };
         return sampled_integral(value, at, sampling);
     }
@@ -68,7 +80,7 @@ struct Slices {
 
 Slices slices_of(const VoxelParams& params, const Frame& frame) {
     const DepthCurve curve = depth_curve(params, voxel_range(params, frame));
-    return {curve, depth_warp(params, frame, curve)};
+    return {curve, depth_warp(params, frame, curve), highest_layer(frame)};
 }
 
 /// All virtual slices are there, tile by tile.
@@ -105,8 +117,12 @@ double risen(std::span<const double> rises, std::size_t first, std::size_t last)
 /// By Fragment::submission, what each triangle is multiplied into.
 std::vector<std::uint32_t> slices_of_triangles(const Frame& frame, const Slices& slices) {
     std::vector<std::uint32_t> all;
-    for (const double depth : depths_of_triangles(frame))
-        all.push_back(slices.physical(static_cast<std::uint32_t>(slices.place_of(depth))));
+    for (const double depth : depths_of_triangles(frame)) all.push_back(slices.splatted(slices.place_of(depth)));
+    for (const Origin& origin : origins_of(frame)) {
+        const std::uint32_t layer = layer_of(frame, origin.draw);
+        if (layer > 0)
+            std::fill_n(all.begin() + origin.first_triangle, triangle_count(frame, origin.draw), slices.of_layer(layer));
+    }
     return all;
 }
 
@@ -119,9 +135,15 @@ struct Splatter {
     std::vector<Origin> origins;
     std::vector<std::uint32_t> of_triangles;  ///< with splat_multiply
 
-    SplitCode split(const ColumnFormat& format, const Fragment& f, glm::uvec2 texel, std::size_t channel) const {
+    SlicePlace place_of(const Fragment& f) const {
+        if (f.layer > 0) return {slices.of_layer(f.layer)};
         SlicePlace place = slice_place(slices.place_of(f.depth), slices.warp.virtual_slices(), params.splatting);
-        place.slice = slices.physical(place.slice);
+        place.slice = slices.splatted(place.slice);
+        return place;
+    }
+
+    SplitCode split(const ColumnFormat& format, const Fragment& f, glm::uvec2 texel, std::size_t channel) const {
+        const SlicePlace place = place_of(f);
         const double codes = format.codes(channel_depth(f, channel, channels));
         return split_code(format, place, codes, rounding_of(params, origins, f, texel));
     }
@@ -173,6 +195,22 @@ struct Splatter {
 
 }  // namespace
 
+VoxelParams voxel_params(const Settings& settings, const Frame& frame) {
+    auto params = settings.as<VoxelParams>();
+    if (params.volume == volume_sparse && highest_layer(frame) > 0) params.volume = volume_adaptive;
+    return params;
+}
+
+VoxelParams of_world(VoxelParams params, const Frame& frame) {
+    params.slices = std::min(params.slices, most_slices - highest_layer(frame));
+    return params;
+}
+
+VoxelParams of_volume(VoxelParams params, const Frame& frame) {
+    params.slices = of_world(params, frame).slices + highest_layer(frame);
+    return params;
+}
+
 std::uint32_t voxel_words(const VoxelParams& params, std::uint32_t channels) {
     const std::uint32_t words = column_format(params).words();
     return packs_colors(params, channels) ? params.slices + words : channels * words;
@@ -200,13 +238,14 @@ double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t trian
 }
 
 ImageSet voxel_model(const StageInput& input, const Settings& settings) {
-    auto params = settings.as<VoxelParams>();
+    const VoxelParams asked = voxel_params(settings, input.frame);
+    auto params = of_volume(asked, input.frame);
     const std::uint32_t channels = channel_count(params.channels, frame_features(input.frame));
     const Extent extent{input.frame.view.width, input.frame.view.height};
     const std::uint32_t divisor = voxel_divisor(params, extent, channels);
     const bool packs = packs_colors(params, channels), sparse = is_sparse(params);
     const Slices slices = sparse ? sparse_slices_of(params, input.frame, prepass_extent(extent, divisor), channels)
-                                 : slices_of(params, input.frame);
+                                 : slices_of(of_world(asked, input.frame), input.frame);
     if (sparse) params.slices = slices.warp.virtual_slices();
     const ColumnFormat format = packs ? color_format(params) : column_format(params);
     Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame), {}};
@@ -226,10 +265,12 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
                 const std::size_t first = channel * format.slices;
-                const auto integral = [&](std::size_t slice) {
+                const SumsOfSlices integral = [&](std::size_t slice) {
                     return sparse ? risen(integrals, first, first + slice) : integrals[first + slice];
                 };
-                through[static_cast<int>(channel)] = format.transmittance(slices.sampled(integral, at, params.sampling));
+                const double codes =
+                    f.layer > 0 ? slices.before(integral, f.layer) : slices.sampled(integral, at, params.sampling);
+                through[static_cast<int>(channel)] = format.transmittance(codes);
             }
             return channels == 1 ? glm::dvec3(through.x) : through;
         };

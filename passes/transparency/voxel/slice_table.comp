@@ -13,20 +13,22 @@ layout(set = 0, binding = 1, scalar) readonly buffer Counts { SliceCounts counts
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray numbers;
 
 vec4 row_of_slice(uint slice) {
-    return vec4(depth_of_slice(float(virtual_slice(slice))), counts[slice].tiles, counts[slice].overflowed, counts[slice].saturated);
+    const float begin = slice < push.interfaces ? 0.0 : depth_of_slice(float(virtual_slice(slice)));
+    return vec4(begin, counts[slice].tiles, counts[slice].overflowed, counts[slice].saturated);
 }
 
 // Slices that follow each other among the virtual ones, too.
 vec4 row_of_run(uint first, uint used) {
     const uint begin = virtual_slice(first);
-    if (first > 0u && virtual_slice(first - 1u) + 1u == begin) return vec4(uintBitsToFloat(0x7fc00000u));
+    const bool is_interface = first < push.interfaces;
+    if (is_interface || first > push.interfaces && virtual_slice(first - 1u) + 1u == begin) return vec4(uintBitsToFloat(0x7fc00000u));
     uint last = first;
     while (last + 1u < used && virtual_slice(last + 1u) == virtual_slice(last) + 1u) ++last;
     return vec4(depth_of_slice(float(begin)), depth_of_slice(float(virtual_slice(last)) + 1.0), first, last - first + 1u);
 }
 
 void main() {
-    const uint slice = gl_GlobalInvocationID.y, used = adaptive != 0u ? warp.used : physical_slices();
+    const uint slice = gl_GlobalInvocationID.y, used = adaptive != 0u ? push.interfaces + warp.used : physical_slices();
     if (slice >= uint(imageSize(numbers).y)) return;
     vec4 row = vec4(uintBitsToFloat(0x7fc00000u));
     if (slice < used) row = shows_runs != 0u ? row_of_run(slice, used) : row_of_slice(slice);

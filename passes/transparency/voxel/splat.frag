@@ -126,12 +126,13 @@ void main() {
     const uvec2 texel = uvec2(gl_FragCoord.xy);
     const float s = slice_of_depth(event.z), r = rounded_up_by(texel);
     const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(virtual_slices()) - 1.0);
-    const float share = center - floor(center);
-    if (!is_covered(int(center), share)) {
+    const bool in_world = interface_layer() == 0u;
+    const float share = in_world ? center - floor(center) : 0.0;
+    if (in_world && !is_covered(int(center), share)) {
         atomicAdd(counters.uncovered, 1u);
         return;
     }
-    const uint slice = uint(physical_slice(int(center)));
+    const uint slice = uint(in_world ? physical_slice(int(center)) : slice_of_layer(interface_layer()));
     const bool colored = packs_colors != 0u && source_of(in_draw) == source_color;
     const uint channels = packs_colors != 0u && !colored ? 1u : push.channels, full_code = colored ? color_full_code : push.full_code;
     const float per_depth = colored ? push.color_codes_per_depth : push.codes_per_depth;

@@ -18,6 +18,6 @@ void main() {
         const uint vertex = base + indices[first + i];
         depths[i] = view_position(vertex, gl_InstanceIndex).z - vertices[vertex].depth_offset;
     }
-    gl_Layer = slice_of_triangle(depths);
+    gl_Layer = slice_of_triangle(depths, draws[gl_InstanceIndex].layer);
     hand_on(base + indices[place], gl_InstanceIndex);
 }

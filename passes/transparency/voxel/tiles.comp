@@ -56,6 +56,11 @@ uvec2 slices_between(float nearest, float farthest) {
     return uvec2(max(ivec2(physical_slice(first), physical_slice(last)), 0));
 }
 
+uvec2 slices_of_layer(uint layer) {
+    const int slice = slice_of_layer(layer);
+    return uvec2(max(slice - 1, 0), slice);
+}
+
 // Returns how many words were not marked before.
 uint mark_words(uint base, uvec2 slices) {
     const uint first = slices.x / slices_per_word, last = slices.y / slices_per_word;
@@ -89,6 +94,7 @@ void mark(uvec2 tile, uint source, vec2 depths) {
 void main() {
     const DrawCommand command = commands[first_command + gl_WorkGroupID.y];
     const uint source = packs_colors != 0u ? source_of(command.first_instance) : source_grey;
+    const uint layer = draws[command.first_instance].layer;
     for (uint i = gl_WorkGroupID.x; i < command.index_count / 3u; i += gl_NumWorkGroups.x) {
         const Triangle triangle = triangle_of(command, i);
         if (!is_seen(triangle)) continue;
@@ -97,7 +103,9 @@ void main() {
         for (uint t = gl_LocalInvocationIndex; t < count.x * count.y; t += gl_WorkGroupSize.x) {
             const uvec2 tile = around.first + uvec2(t % count.x, t / count.x);
             const vec2 depths = depths_within(triangle, rays_of(tile)) - triangle.depth_offset;
-            if (depths.x <= depths.y) mark(tile, source, depths);
+            if (depths.x > depths.y) continue;
+            if (layer > 0u) mark_words(first_bits_of(tile, source), slices_of_layer(layer));
+            else mark(tile, source, depths);
         }
     }
 }

@@ -6,7 +6,8 @@
 #define PASSES_TRANSPARENCY_VOXEL_TRIANGLE_SLICE_GLSL
 #include "passes/transparency/voxel/depth_curve.glsl"
 
-int slice_of_triangle(vec3 depths) {
+int slice_of_triangle(vec3 depths, uint layer) {
+    if (layer > 0u) return slice_of_layer(layer);
     precise const float mean = (depths[0] + depths[1] + depths[2]) / 3.0;
     return max(physical_slice(int(slice_of_depth(mean))), 0);
 }

@@ -13,7 +13,7 @@ enum class Rows { slices, runs };
 
 template <Rows rows>
 Image table(Graph& graph, FrameImages& images, const Settings& settings) {
-    const auto params = settings.as<VoxelParams>();
+    const auto params = voxel_params(settings, *images.recorded);
     Volume volume = integrated_volume(graph, images, params);
     Buffer counts = graph.create("slice counts", volume.push.slices * sizeof(SliceCounts));
     graph.clear(counts, 0);
@@ -54,17 +54,17 @@ Image warp_view(Graph& graph, const FrameImages& images, const VoxelParams& para
 }
 
 std::vector<DebugTable> voxel_tables() {
-    return {
-        {.name = "slices",
-         .help = "the physical slices that hold something: where each begins, how many tiles use it, in how many columns it is "
-                 "the first to overflow or to be full",
-         .columns = {{"begins", "m"}, {"tiles", ""}, {"overflowed", "columns"}, {"saturated", "columns"}},
-         .add = table<Rows::slices>},
-        {.name = "runs",
-         .help = "what the depth warp leaves: stretches of depth with something in them, their first physical slice and how "
-                 "many they have",
-         .columns = {{"begins", "m"}, {"ends", "m"}, {"first slice", ""}, {"slices", ""}},
-         .add = table<Rows::runs>}};
+    return {{.name = "slices",
+             .help = "the physical slices that hold something: where each begins (an interface layer's at 0), how many tiles use "
+                     "it, in how many columns it is "
+                     "the first to overflow or to be full",
+             .columns = {{"begins", "m"}, {"tiles", ""}, {"overflowed", "columns"}, {"saturated", "columns"}},
+             .add = table<Rows::slices>},
+            {.name = "runs",
+             .help = "what the depth warp leaves: stretches of depth with something in them, their first physical slice and how "
+                     "many they have",
+             .columns = {{"begins", "m"}, {"ends", "m"}, {"first slice", ""}, {"slices", ""}},
+             .add = table<Rows::runs>}};
 }
 
 }  // namespace strata::transparency

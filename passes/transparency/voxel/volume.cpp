@@ -16,6 +16,7 @@
 namespace strata::transparency {
 namespace {
 
+/// All but the interfaces.
 VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Extent& low, std::uint32_t channels) {
     ColumnFormat format = column_format(params);
     if (is_sparse(params)) format.slices = static_cast<std::uint32_t>(curve.slices);
@@ -33,7 +34,8 @@ VoxelPush push_of(const VoxelParams& params, const DepthCurve& curve, const Exte
             .codes_per_depth = static_cast<float>(format.codes_per_depth()),
             .bias = static_cast<float>(sampling_bias(params.sampling)) + params.shift,
             .color_codes_per_depth = static_cast<float>(color_format(params).codes_per_depth()),
-            .color_scale = color_scale(format)};
+            .color_scale = color_scale(format),
+            .interfaces = 0};
 }
 
 std::uint32_t flag(bool set) { return set ? 1u : 0u; }
@@ -132,14 +134,18 @@ void give_blocks(Graph& graph, const VoxelParams& params, Volume& volume) {
 /// All but images and buffers.
 Volume described(const FrameImages& images, const VoxelParams& params) {
     const std::uint32_t channels = channel_count(params.channels, *images.features);
-    const std::uint32_t divisor = voxel_divisor(params, images.extent, channels);
+    const Frame& frame = *images.recorded;
+    const VoxelParams all = of_volume(params, frame), world = of_world(params, frame);
+    const std::uint32_t divisor = voxel_divisor(all, images.extent, channels);
     const Extent columns = prepass_extent(images.extent, divisor);
-    const DepthRange range = voxel_range(params, *images.recorded);
-    const DepthCurve curve = is_sparse(params) ? sparse_curve(params, range, columns) : depth_curve(params, range);
-    return {.divisor = divisor,
-            .field_bits = column_format(params).field_bits,
-            .packs = packs_colors(params, channels),
-            .push = push_of(params, curve, columns, channels)};
+    const DepthRange range = voxel_range(params, frame);
+    const DepthCurve curve = is_sparse(params) ? sparse_curve(params, range, columns) : depth_curve(world, range);
+    Volume volume{.divisor = divisor,
+                  .field_bits = column_format(params).field_bits,
+                  .packs = packs_colors(params, channels),
+                  .push = push_of(all, curve, columns, channels)};
+    volume.push.interfaces = all.slices - world.slices;
+    return volume;
 }
 
 void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
@@ -199,7 +205,7 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     // A frame's history moves on once, however many volumes are made to be looked at.
     if (params.hysteresis > 0) volume.warp = graph.find_buffer(warp_name);
     const bool finds = is_adaptive(params) && !volume.warp;
-    create_parts(graph, params, volume);
+    create_parts(graph, of_volume(params, *images.recorded), volume);
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (finds) find_slices(graph, images, params, volume);

@@ -31,7 +31,7 @@ constexpr std::string_view preparations[] = {"after_opaque", "before_opaque"};
 constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_screen"};
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
-    const auto params = settings.as<VoxelParams>();
+    const auto params = voxel_params(settings, *images.recorded);
     const bool earlier = is_made_before_opaque(params, *images.features);
     const Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
@@ -45,7 +45,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
 
 /// Before the opaque draws: from which depth on nothing is seen of them, either.
 void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
-    const auto params = settings.as<VoxelParams>();
+    const auto params = voxel_params(settings, *images.recorded);
     if (!is_made_before_opaque(params, *images.features)) return;
     images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
 }
@@ -54,7 +54,7 @@ std::vector<Param> code_params() {
     return {
         param<&VoxelParams::slices>({.name = "slices",
                                      .low = 32,
-                                     .high = 1024,
+                                     .high = most_slices,
                                      .fallback = 128,
                                      .help = "of the volume in depth; within one nothing hides anything",
                                      .scale = Scale::logarithmic}),
@@ -235,12 +235,12 @@ std::vector<Counter> counters() {
 
 template <std::uint32_t shown>
 Image picture(Graph& graph, FrameImages& images, const Settings& settings) {
-    return volume_view(graph, images, settings.as<VoxelParams>(), shown);
+    return volume_view(graph, images, voxel_params(settings, *images.recorded), shown);
 }
 
 template <Image (*view)(Graph&, const FrameImages&, const VoxelParams&)>
 Image voxel_picture(Graph& graph, FrameImages& images, const Settings& settings) {
-    return view(graph, images, settings.as<VoxelParams>());
+    return view(graph, images, voxel_params(settings, *images.recorded));
 }
 
 std::vector<DebugView> views() {

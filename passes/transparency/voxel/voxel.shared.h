@@ -96,7 +96,7 @@ struct VoxelPush {
     float per_linear;       // 1 / a, per metre: depth is divided evenly up to a behind that, logarithmically beyond
     float slices_per_log2;  // n / log2(1 + range / a), of the finest virtual slices
     uint finest_slices;     // n: a power of two where slices are adaptive, at most most_virtual_slices
-    uint slices;            // physical
+    uint slices;            // physical, those of interface layers among them
     uint words;             // of a column
     uint width;             // columns
     uint height;
@@ -106,6 +106,7 @@ struct VoxelPush {
     float bias;                   // in slices
     float color_codes_per_depth;  // of words of three channels
     uint color_scale;             // codes to those of words of three channels, in color_scale_one
+    uint interfaces;              // layers: physical slices in front of the world's, the highest layer's first
 };
 
 // What warp.comp and blocks.comp find out, in front of their tables.
@@ -116,6 +117,8 @@ struct WarpHeader {
     uint fitting;         // halvings that this frame needs; more are held of those before it
 };
 const uint most_virtual_slices = 8192u;
+// Of a volume, those of interface layers among them: nobody may ask for more.
+const uint most_slices = 1024u;
 // An entry of the table: the number of used slices up to and with this one, whether it is used, and first or last of a run.
 const uint warp_count_mask = 0xffffu;
 const uint warp_used = 1u << 16u;

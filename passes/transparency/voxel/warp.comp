@@ -107,7 +107,7 @@ void main() {
     barrier();
     Resolution at = Resolution(0u, push.finest_slices, used_word(thread, push.finest_slices));
     sum_up(thread, at.used);
-    while (counts[threads - 1u] > push.slices) halve(thread, at);
+    while (counts[threads - 1u] > push.slices - push.interfaces) halve(thread, at);
     const uint fitting = at.halvings;
     if (thread == 0u) kept = kept_halvings(fitting);
     barrier();

@@ -76,7 +76,8 @@ Image counted_events(Graph& graph, const FrameImages& images, const std::string&
 }  // namespace
 
 Image culled_depth(Graph& graph, const FrameImages& images, const Volume& volume, const VoxelParams& params) {
-    if (params.culling == culling_off || drawn_at(images, Resolution::full).empty()) return images.depth;
+    const bool has_interfaces = images.features->has(Feature::interface_layers);
+    if (params.culling == culling_off || has_interfaces || drawn_at(images, Resolution::full).empty()) return images.depth;
     const ZeroTiles zero = zero_tiles(graph, images, volume, params);
     Image depth = graph.create(culling_depth_name, graph.shape(images.depth));
     graph.copy(images.depth, depth);
@@ -86,7 +87,8 @@ Image culled_depth(Graph& graph, const FrameImages& images, const Volume& volume
 
 bool is_made_before_opaque(const VoxelParams& params, const Features& features) {
     return params.prepared == prepared_before_opaque && params.culling != culling_off && params.splat != splat_multiply &&
-           !features.has(Feature::soft_particles) && !features.has(Feature::distortion);
+           !features.has(Feature::soft_particles) && !features.has(Feature::distortion) &&
+           !features.has(Feature::interface_layers);
 }
 
 Image depth_to_draw_opaque_into(Graph& graph, const FrameImages& images, const Volume& volume, const VoxelParams& params) {

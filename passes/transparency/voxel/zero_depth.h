@@ -9,12 +9,13 @@
 
 namespace strata::transparency {
 
-/// The frame's opaque depth, nearer where nothing is seen in front of it: a copy, or images.depth itself with culling_off and
-/// where nothing is drawn at the frame's extent.
+/// The frame's opaque depth, nearer where nothing is seen in front of it: a copy, or images.depth itself with culling_off, where
+/// nothing is drawn at the frame's extent, and where interfaces would be hidden, which are tested behind what they are seen
+/// before.
 Image culled_depth(Graph&, const FrameImages&, const Volume&, const VoxelParams&);
 
-/// Whether the volume is made before the opaque draws: where that is asked for, something is culled, and no particle fades by
-/// opaque depth nor shows distortion what is opaque elsewhere.
+/// Whether the volume is made before the opaque draws: where that is asked for, something is culled, no particle fades by opaque
+/// depth nor shows distortion what is opaque elsewhere, and no interface is tested against what was hidden.
 bool is_made_before_opaque(const VoxelParams&, const Features&);
 
 /// The same depth before the opaque draws: they go into it, and where nothing is seen of them they are not shaded, either.

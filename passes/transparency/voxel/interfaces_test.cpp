@@ -1,0 +1,51 @@
+// Facts about the slices of interface layers (transparency chapter 6.13).
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/depth_warp.h"
+#include "passes/transparency/voxel/model.h"
+#include "tests/support/one_pixel.h"
+
+namespace strata::transparency {
+namespace {
+
+/// A particle at 4 m, and with a layer another at 2 m in it.
+Frame particle_and(std::uint32_t layer) {
+    Frame frame = one_pixel(1);
+    frame.emitters.push_back({.particles = {{.center = {0, 0, 4}}}});
+    if (layer > 0) frame.emitters.push_back({.layer = layer, .particles = {{.center = {0, 0, 2}}}});
+    return frame;
+}
+
+TEST(VoxelInterfaces, HaveSlicesInFrontOfTheWorlds) {
+    const VoxelParams params{.slices = 128};
+    EXPECT_EQ(of_volume(params, particle_and(0)).slices, 128u);
+    EXPECT_EQ(of_volume(params, particle_and(3)).slices, 131u);
+    EXPECT_EQ(of_world(params, particle_and(3)).slices, 128u);
+    const VoxelParams most{.slices = most_slices};
+    EXPECT_EQ(of_volume(most, particle_and(255)).slices, most_slices);
+    EXPECT_EQ(of_world(most, particle_and(255)).slices, most_slices - 255);
+}
+
+TEST(VoxelInterfaces, AreNotInTheRangeThatTheCurveCuts) {
+    const VoxelParams params{.range = range_frame};
+    const Frame alone = particle_and(0), both = particle_and(1);
+    EXPECT_EQ(voxel_range(params, both).nearest, voxel_range(params, alone).nearest);
+    EXPECT_EQ(voxel_range(params, both).nearest, 4);
+    EXPECT_EQ(transparent_depth_range(both).nearest, both.view.near / 2) << "ordering begins at the layer";
+    EXPECT_EQ(transparent_depth_range(both).farthest, transparent_depth_range(alone).farthest);
+}
+
+TEST(VoxelInterfaces, CoverNoSliceOfTheWorlds) {
+    const DepthCurve curve{.slices = 64, .farthest = 8};
+    const auto used = [&](const Frame& frame) { return transparent_coverage(frame, curve).used(splatting_linear); };
+    EXPECT_EQ(used(particle_and(7)), used(particle_and(0)));
+    Frame interface_alone = particle_and(7);
+    interface_alone.emitters.erase(interface_alone.emitters.begin());
+    EXPECT_EQ(std::ranges::count(used(interface_alone), true), 0);
+}
+
+}  // namespace
+}  // namespace strata::transparency
