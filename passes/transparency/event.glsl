@@ -21,7 +21,7 @@ layout(location = 6) flat in uint in_draw;
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
-layout(constant_id = 6) const uint has_interfaces = 0u;  // 1: the frame has interface layers
+layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {

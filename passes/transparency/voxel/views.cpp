@@ -1,5 +1,6 @@
 #include "passes/transparency/voxel/views.h"
 
+#include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/volume.h"
 
 namespace strata::transparency {
