@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
@@ -33,12 +34,14 @@ void main() {
     const ivec2 column = column_of(texel, gl_GlobalInvocationID.z);
     uint cleared = 0u;
     for (uint block = 0u; block < (push.words + 31u) / 32u; ++block)
-        for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u) 
+        for (uint bits = used_words(gl_WorkGroupID.xy, block); bits != 0u; bits &= bits - 1u)
             cleared += cleared_of(column, 32u * block + uint(findLSB(bits)));
     const uint planes = packs_colors != 0u ? 1u + push.channels : 1u;
     if (splat == splat_overflow_minimum)
         for (uint plane = 0u; plane < planes; ++plane)
             nearest_overflow[index_of(ivec2(column.x, column.y + plane * push.height))] = no_overflow;
-    if (sparse == 0u) atomicAdd(counters.voxels, push.words * slices_per_word + (packs_colors != 0u ? push.slices : 0u));
-    if (cleared > 0u) atomicAdd(counters.cleared, cleared);
+    const uint columns = subgroupAdd(1u), cleared_together = subgroupAdd(cleared);
+    if (!subgroupElect()) return;
+    if (sparse == 0u) atomicAdd(counters.voxels, columns * (push.words * slices_per_word + (packs_colors != 0u ? push.slices : 0u)));
+    if (cleared_together > 0u) atomicAdd(counters.cleared, cleared_together);
 }

@@ -14,6 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray zero_slices;  // the first full one of each column
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+#include "passes/transparency/voxel/count_column.glsl"
 
 uint zero_slice = no_overflow;
 
@@ -45,8 +46,5 @@ void main() {
             if (!full) integrated += slices_per_word;
         }
     imageStore(zero_slices, ivec3(column, 0), uvec4(zero_slice));
-    atomicAdd(counters.columns, 1u);
-    if (integrated > 0u) atomicAdd(counters.integrated, integrated);
-    if (overflow != no_overflow) atomicAdd(counters.overflowed, 1u);
-    if (sum == push.full_code) atomicAdd(counters.saturated, 1u);
+    count_column(integrated, overflow != no_overflow, sum == push.full_code);
 }

@@ -13,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2DArray zero_slices;  // the first full one of each column and channel
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+#include "passes/transparency/voxel/count_column.glsl"
 
 struct Sums {
     uint grey;    // in codes of push.full_code
@@ -58,8 +59,5 @@ void main() {
         }
     for (uint channel = 0u; channel < 3u; ++channel)
         imageStore(zero_slices, ivec3(column_of(texel, channel), 0), uvec4(zero_slice[channel]));
-    atomicAdd(counters.columns, 1u);
-    if (integrated > 0u) atomicAdd(counters.integrated, integrated);
-    if (any(notEqual(overflow, uvec3(no_overflow)))) atomicAdd(counters.overflowed, 1u);
-    if (is_full(total(sums))) atomicAdd(counters.saturated, 1u);
+    count_column(integrated, any(notEqual(overflow, uvec3(no_overflow))), is_full(total(sums)));
 }
