@@ -13,6 +13,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer Counts { SliceCounts counts
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray numbers;
 
 vec4 row_of_slice(uint slice) {
+    if (sparse != 0u && counts[slice].tiles == 0u) return vec4(uintBitsToFloat(0x7fc00000u));
     const float begin = slice < push.interfaces ? 0.0 : depth_of_slice(float(virtual_slice(slice)));
     return vec4(begin, counts[slice].tiles, counts[slice].overflowed, counts[slice].saturated);
 }
