@@ -88,6 +88,7 @@ std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, c
         const bool soft = emitter.soft_depth_fade > 0 && opaque_depth > 0;
         const double fade = soft ? std::clamp(room / double(emitter.soft_depth_fade), 0.0, 1.0) : 1.0;
         fragment = particle_event(emitter.alpha_mode, particle.alpha, surface, fade);
+        fragment.soft_fade = double(emitter.soft_depth_fade);
         depth_offset = particle.depth_offset;
     }
     fog(frame, z, fragment);

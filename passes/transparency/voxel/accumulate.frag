@@ -8,6 +8,7 @@
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/voxels.glsl"
+#include "passes/transparency/voxel/segment.glsl"
 
 layout(early_fragment_tests) in;
 layout(constant_id = 12) const uint sampling = sampling_linear;
@@ -85,14 +86,31 @@ vec3 transmittance(vec3 codes) {
     return push.channels == 1u ? vec3(red) : vec3(red, transmittance(codes.g), transmittance(codes.b));
 }
 
-// At a place in virtual slices: behind the volume what is at its end.
-vec3 transmittance_at(float at) {
+// An integral up to a virtual slice, less what the event itself added to it. What is full stays full: who filled it is not known.
+vec3 without_own(vec3 sum, Segment segment, int slice, vec3 codes, float r) {
+    vec3 own = vec3(0.0);
+    for (uint channel = 0u; channel < push.channels; ++channel)
+        own[channel] = float(code_behind(segment, segment.first, codes[channel], r) - code_behind(segment, slice + 1, codes[channel], r));
+    if (packs_colors != 0u) own *= push.color_codes_per_depth / push.codes_per_depth;
+    return mix(max(sum - own, 0.0), sum, greaterThanEqual(sum, vec3(full_share * float(full_integral()))));
+}
+
+// Behind the volume what is at its end.
+vec3 transmittance_at(Event event) {
+    const float at = slice_of_depth(event.z) + push.bias;
+    const Segment segment = segment_at(event.z);
+    const vec3 own = grey_codes(event);
+    const float r = rounded_up_by(texel_under(uvec2(push.width, push.height)));
     const float center = sampling == sampling_point ? at : at - 0.5, k = floor(center);
     const float first = sampling == sampling_bicubic ? k - 1.0 : k;
     const vec4 weight = weights(center - k);
     const Corners around = corners();
     vec3 codes = vec3(0.0);
-    for (uint i = 0u; i < values_read; ++i) codes += weight[i] * integral_at(around, physical_slice(int(first) + int(i)));
+    for (uint i = 0u; i < values_read; ++i) {
+        const int slice = int(first) + int(i);
+        const vec3 sum = integral_at(around, physical_slice(slice));
+        codes += weight[i] * (segment.metres > 0.0 ? without_own(sum, segment, slice, own, r) : sum);
+    }
     return transmittance(codes);
 }
 
@@ -103,7 +121,7 @@ void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     const uint layer = interface_layer();
-    const vec3 through = layer > 0u ? transmittance_before(layer) : transmittance_at(slice_of_depth(event.z) + push.bias);
+    const vec3 through = layer > 0u ? transmittance_before(layer) : transmittance_at(event);
     if (through == vec3(0.0)) {  // adds nothing, optical depth included: whether it is culled makes no difference
         atomicAdd(counters.unseen, 1u);
         discard;

@@ -7,6 +7,7 @@
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/coverage.glsl"
+#include "passes/transparency/voxel/thickness.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 3, scalar) buffer Halves { uint halves[]; };
@@ -23,12 +24,13 @@ void mark(uint first, uint last) {
 void main() {
     const DrawCommand command = commands[first_command + gl_WorkGroupID.y];
     if (draws[command.first_instance].layer > 0u) return;  // interfaces have slices of their own
+    const float half_deep = 0.5 * thickness_of(command.first_instance);
     const Rays image = rays_through(vec2(0.0), vec2(push.width, push.height));
     for (uint i = gl_GlobalInvocationID.x; i < command.index_count / 3u; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
         const Triangle triangle = triangle_of(command, i);
         if (!is_seen(triangle)) continue;
         const vec2 depths = depths_within(triangle, image);
         if (depths.x <= depths.y)
-            mark(half_of_depth(depths.x - triangle.depth_offset), half_of_depth(depths.y - triangle.depth_offset));
+            mark(half_of_depth(depths.x - triangle.depth_offset - half_deep), half_of_depth(depths.y - triangle.depth_offset + half_deep));
     }
 }

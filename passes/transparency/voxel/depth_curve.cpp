@@ -1,6 +1,10 @@
 #include "passes/transparency/voxel/depth_curve.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "passes/reference/fragments.h"
+#include "passes/transparency/voxel/segment.h"
 
 namespace strata::transparency {
 
@@ -27,7 +31,12 @@ double linear_of_thickness(double slices, double range, double near_thickness) {
 }
 
 DepthRange voxel_range(const VoxelParams& params, const Frame& frame) {
-    return params.range == range_fixed ? DepthRange{0, params.farthest} : world_depth_range(frame);
+    if (params.range == range_fixed) return {0, params.farthest};
+    double deepest = 0;
+    for (const std::uint32_t draw : transparent_draws(frame)) deepest = std::max(deepest, thickness_of(params, frame, draw));
+    const DepthRange range = world_depth_range(frame);
+    const auto half = static_cast<float>(deepest / 2);
+    return {std::max(range.nearest - half, std::min(range.nearest, frame.view.near)), range.farthest + half};
 }
 
 DepthCurve depth_curve(const VoxelParams& params, DepthRange range) {

@@ -25,7 +25,8 @@ struct DepthCurve {
 /// where slices are even to 5 % and thinner ones than asked for: n of them would reach farther.
 double linear_of_thickness(double slices, double range, double near_thickness);
 
-/// The frame's transparent depths but those of interface layers, or from the eye to `farthest`.
+/// The frame's transparent depths but those of interface layers, wider by half of its deepest event; or from the eye to
+/// `farthest`.
 DepthRange voxel_range(const VoxelParams&, const Frame&);
 
 /// Cut into `slices`; or, where they are adaptive, into as many as 8192 of these that are not thinner than `thinnest`: halves,

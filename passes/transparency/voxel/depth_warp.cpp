@@ -8,6 +8,7 @@
 #include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
+#include "passes/transparency/voxel/segment.h"
 
 namespace strata::transparency {
 namespace {
@@ -95,18 +96,19 @@ DepthWarp unwarped(std::uint32_t slices) {
     return warp;
 }
 
-Coverage transparent_coverage(const Frame& frame, const DepthCurve& curve) {
+Coverage transparent_coverage(const VoxelParams& params, const Frame& frame, const DepthCurve& curve) {
     Coverage coverage(static_cast<std::uint32_t>(curve.slices));
     const RayRectangle image = whole_image(frame);
     for (const std::uint32_t draw : transparent_draws(frame)) {
         if (layer_of(frame, draw) > 0) continue;
         const DrawSpace space = draw_space(frame, draw);
+        const double half_deep = thickness_of(params, frame, draw) / 2;
         for (std::uint32_t triangle = 0; triangle < triangle_count(frame, draw); ++triangle) {
             const auto depths = depths_within(view_corners(frame, space, draw, triangle), image, double(frame.view.near));
             if (!depths) continue;
             const double offset = attributes_at(frame, draw, triangle, glm::dvec3(1, 0, 0)).depth_offset;
             const auto slice = [&](double z) { return curve.slice_of(std::max(z - offset, curve.nearest)); };
-            coverage.take(slice(depths->nearest), slice(depths->farthest));
+            coverage.take(slice(depths->nearest - half_deep), slice(depths->farthest + half_deep));
         }
     }
     return coverage;
@@ -114,7 +116,7 @@ Coverage transparent_coverage(const Frame& frame, const DepthCurve& curve) {
 
 DepthWarp depth_warp(const VoxelParams& params, const Frame& frame, const DepthCurve& curve) {
     if (params.volume == volume_dense) return unwarped(params.slices);
-    return depth_warp(transparent_coverage(frame, curve), params.slices, params.splatting);
+    return depth_warp(transparent_coverage(params, frame, curve), params.slices, params.splatting);
 }
 
 }  // namespace strata::transparency

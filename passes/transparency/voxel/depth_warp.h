@@ -63,7 +63,7 @@ std::optional<Depths> depths_within(const Corners&, const RayRectangle&, double 
 
 /// What the frame's transparent triangles but those of interface layers cover of the curve's slices, each over as much of its
 /// depth as may be seen.
-Coverage transparent_coverage(const Frame&, const DepthCurve&);
+Coverage transparent_coverage(const VoxelParams&, const Frame&, const DepthCurve&);
 
 /// The warp that the parameters ask for.
 DepthWarp depth_warp(const VoxelParams&, const Frame&, const DepthCurve&);

@@ -40,7 +40,7 @@ TEST(VoxelInterfaces, AreNotInTheRangeThatTheCurveCuts) {
 
 TEST(VoxelInterfaces, CoverNoSliceOfTheWorlds) {
     const DepthCurve curve{.slices = 64, .farthest = 8};
-    const auto used = [&](const Frame& frame) { return transparent_coverage(frame, curve).used(splatting_linear); };
+    const auto used = [&](const Frame& frame) { return transparent_coverage({}, frame, curve).used(splatting_linear); };
     EXPECT_EQ(used(particle_and(7)), used(particle_and(0)));
     Frame interface_alone = particle_and(7);
     interface_alone.emitters.erase(interface_alone.emitters.begin());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
@@ -13,6 +14,7 @@
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
 #include "passes/transparency/voxel/factors.h"
+#include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/sparse.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
@@ -69,12 +71,14 @@ struct Slices {
     double before(const SumsOfSlices& integral, std::uint32_t layer) const {
         return layer < interfaces ? integral(of_layer(layer) - 1) : 0;
     }
-    double sampled(const SumsOfSlices& integral, double at, std::uint32_t sampling) const {
-        const auto value = [&](int slice) {
-            const int there = physical(slice);
-            return there < 0 ? 0 : integral(static_cast<std::size_t>(there));
-        };
-        return sampled_integral(value, at, sampling);
+    double up_to(const SumsOfSlices& integral, int slice) const {
+        const int there = physical(slice);
+        return there < 0 ? 0 : integral(static_cast<std::size_t>(there));
+    }
+    DepthCurve curve_of_virtual() const {
+        DepthCurve halved = curve;
+        halved.slices = warp.virtual_slices();
+        return halved;
     }
 };
 
@@ -131,6 +135,7 @@ struct Splatter {
     const Frame* frame;
     VoxelParams params;
     std::size_t channels;
+    bool packs;  ///< colors, three to a word
     Slices slices;
     std::vector<Origin> origins;
     std::vector<std::uint32_t> of_triangles;  ///< with splat_multiply
@@ -148,12 +153,46 @@ struct Splatter {
         return split_code(format, place, codes, rounding_of(params, origins, f, texel));
     }
 
+    std::optional<Segment> segment_of(const Fragment& f) const {
+        return segment_at(slices.curve_of_virtual(), f.depth, thickness_of(params, f), params.splatting);
+    }
+
+    /// Thick events are grey.
+    double grey_codes(const Fragment& f, std::size_t channel) const {
+        return column_format(params).codes(channel_depth(f, channel, channels));
+    }
+
+    void add(Column& column, const Fragment& f, glm::uvec2 texel, std::size_t channel) const {
+        const std::optional<Segment> segment = segment_of(f);
+        if (!segment) return column.add(split(column.format(), f, texel, channel));
+        std::uint32_t slice = slices.splatted(segment->first);
+        for (const std::uint32_t code : segment->codes_of_slices(grey_codes(f, channel), rounding_of(params, origins, f, texel)))
+            column.add(slice++, code);
+    }
+
+    /// What is in front of an event, of a channel's integral.
+    double codes_before(const Fragment& f, glm::uvec2 texel, std::size_t channel, const SumsOfSlices& integral) const {
+        if (f.layer > 0) return slices.before(integral, f.layer);
+        const std::optional<Segment> segment = segment_of(f);
+        const ColumnFormat grey = column_format(params), format = packs ? color_format(params) : grey;
+        const double codes = grey_codes(f, channel), rounding = rounding_of(params, origins, f, texel);
+        const auto value = [&](int slice) {
+            const double sum = slices.up_to(integral, slice);
+            if (!segment) return sum;
+            const std::uint32_t own =
+                segment->code_behind(segment->first, codes, rounding) - segment->code_behind(slice + 1, codes, rounding);
+            return without_own(format, sum, own * format.codes_per_depth() / grey.codes_per_depth());
+        };
+        const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
+        return sampled_integral(value, at, params.sampling);
+    }
+
     Column column_of(std::span<const Fragment> fragments, glm::uvec2 texel, std::size_t channel) const {
         const ColumnFormat format = column_format(params);
         if (params.splat == splat_multiply)
             return column_of_factors(format, multiplications(fragments, of_triangles, channel, channels), params.bits);
         Column column(format);
-        for (const Fragment& f : fragments) column.add(split(format, f, texel, channel));
+        for (const Fragment& f : fragments) add(column, f, texel, channel);
         return column;
     }
 
@@ -173,7 +212,7 @@ struct Splatter {
         ColorColumn colors(color_format(params));
         for (const Fragment& f : fragments) {
             if (source_of(*frame, origin_of(origins, f).draw) == source_grey) {
-                grey.add(split(column_format(params), f, texel, 0));
+                add(grey, f, texel, 0);
                 continue;
             }
             glm::uvec3 nearer, farther;
@@ -248,7 +287,7 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
                                  : slices_of(of_world(asked, input.frame), input.frame);
     if (sparse) params.slices = slices.warp.virtual_slices();
     const ColumnFormat format = packs ? color_format(params) : column_format(params);
-    Splatter splatter{&input.frame, params, channels, slices, origins_of(input.frame), {}};
+    Splatter splatter{&input.frame, params, channels, packs, slices, origins_of(input.frame), {}};
     if (params.splat == splat_multiply) splatter.of_triangles = slices_of_triangles(input.frame, slices);
 
     PrepassModel prepass{
@@ -259,18 +298,15 @@ ImageSet voxel_model(const StageInput& input, const Settings& settings) {
         if (sparse) return rises_of(splatter.planes(fragments, texel), format.slices);
         return packs ? splatter.packed(fragments, texel) : splatter.planes(fragments, texel);
     };
-    prepass.function = [=](std::span<const double> integrals, glm::uvec2) -> Transmittance {
-        return [=](const Fragment& f) {
-            const double at = slices.place_of(f.depth) + sampling_bias(params.sampling) + double(params.shift);
+    prepass.function = [=, &splatter](std::span<const double> integrals, glm::uvec2 texel) -> Transmittance {
+        return [=, &splatter](const Fragment& f) {
             glm::dvec3 through(0);
             for (std::size_t channel = 0; channel < channels; ++channel) {
                 const std::size_t first = channel * format.slices;
                 const SumsOfSlices integral = [&](std::size_t slice) {
                     return sparse ? risen(integrals, first, first + slice) : integrals[first + slice];
                 };
-                const double codes =
-                    f.layer > 0 ? slices.before(integral, f.layer) : slices.sampled(integral, at, params.sampling);
-                through[static_cast<int>(channel)] = format.transmittance(codes);
+                through[static_cast<int>(channel)] = format.transmittance(splatter.codes_before(f, texel, channel, integral));
             }
             return channels == 1 ? glm::dvec3(through.x) : through;
         };

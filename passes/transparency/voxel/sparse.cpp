@@ -8,6 +8,7 @@
 #include "passes/reference/shade.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_warp.h"
+#include "passes/transparency/voxel/segment.h"
 
 namespace strata::transparency {
 namespace {
@@ -93,7 +94,13 @@ struct Tile {
     TileWords words;
 };
 
-void take_draw(std::vector<Tile>& tiles, const Frame& frame, const DepthCurve& curve, std::uint32_t draw) {
+struct MarkedDraw {
+    std::uint32_t draw = 0;
+    double half_deep = 0;  ///< metres by which its events reach out of its triangles
+};
+
+void take_draw(std::vector<Tile>& tiles, const Frame& frame, const DepthCurve& curve, const MarkedDraw& marked) {
+    const auto [draw, half_deep] = marked;
     const DrawSpace space = draw_space(frame, draw);
     const double near = double(frame.view.near);
     for (std::uint32_t triangle = 0; triangle < triangle_count(frame, draw); ++triangle) {
@@ -104,7 +111,7 @@ void take_draw(std::vector<Tile>& tiles, const Frame& frame, const DepthCurve& c
         for (Tile& tile : tiles) {
             if (!overlap(around, tile.rays)) continue;
             if (const auto depths = depths_within(corners, tile.rays, near))
-                tile.words.take({slice(depths->nearest), slice(depths->farthest)});
+                tile.words.take({slice(depths->nearest - half_deep), slice(depths->farthest + half_deep)});
         }
     }
 }
@@ -151,7 +158,8 @@ std::uint32_t sparse_halvings(const VoxelParams& params, const Frame& frame, Ext
     const std::vector<std::uint32_t> slices = resolutions(params, static_cast<std::uint32_t>(curve.slices));
     std::vector<Tile> tiles;
     for (const RayRectangle& rays : rays_of_tiles(frame, columns)) tiles.push_back({rays, TileWords(params, slices)});
-    for (const std::uint32_t draw : transparent_draws(frame)) take_draw(tiles, frame, curve, draw);
+    for (const std::uint32_t draw : transparent_draws(frame))
+        take_draw(tiles, frame, curve, {draw, thickness_of(params, frame, draw) / 2});
     std::uint32_t halvings = 0;
     const auto words = [&] {
         std::uint64_t sum = 0;

@@ -3,26 +3,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/hash.shared.h"
-#include "passes/transparency/optical_depth.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/sources.glsl"
 #include "passes/transparency/voxel/voxels.glsl"
+#include "passes/transparency/voxel/segment.glsl"
 
 layout(early_fragment_tests) in;
-layout(constant_id = 12) const uint splatting = splatting_linear;
-layout(constant_id = 13) const uint rounding = rounding_nearest;
 layout(set = 0, binding = 10, r32ui) uniform uimage2DArray voxels;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
-
-// Pairs of triangles share a number: the halves of a particle meet without a seam.
-float rounded_up_by(uvec2 texel) {
-    if (rounding == rounding_nearest) return 0.5;
-    const uint key = hashed(hashed(0u, uvec3(texel, draws[in_draw].submission)) ^ (uint(gl_PrimitiveID) / 2u));
-    return float(key >> 8u) / 16777216.0;
-}
 
 uint saturated(uint word, uint shift, uint code) { return word + (min(code, field_mask - field(word, shift)) << shift); }
 
@@ -120,10 +110,37 @@ bool is_covered(int slice, float share) {
     return physical > physical_slice(slice - 1) && (share == 0.0 || physical_slice(slice + 1) > physical);
 }
 
+bool is_covered(Segment segment) {
+    const int first = physical_slice(segment.first);
+    return first > physical_slice(segment.first - 1) && physical_slice(segment.last) - first == segment.last - segment.first;
+}
+
+// Two slices at a time: they are most often in one word.
+void add_segment(Segment segment, uvec2 texel, Event event) {
+    const vec3 codes = grey_codes(event);
+    const float r = rounded_up_by(texel);
+    const uint first = uint(physical_slice(segment.first));
+    for (uint channel = 0u; channel < (packs_colors != 0u ? 1u : push.channels); ++channel) {
+        uint behind = code_behind(segment, segment.first, codes[channel], r);
+        for (int slice = segment.first; slice <= segment.last; slice += 2) {
+            const uint next = min(code_behind(segment, slice + 1, codes[channel], r), behind);
+            const uint rest = min(code_behind(segment, slice + 2, codes[channel], r), next);
+            add(column_of(texel, channel), first + uint(slice - segment.first), uvec2(behind - next, next - rest));
+            behind = rest;
+        }
+    }
+}
+
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     const uvec2 texel = uvec2(gl_FragCoord.xy);
+    const Segment segment = segment_at(event.z);
+    if (segment.metres > 0.0) {
+        if (is_covered(segment)) add_segment(segment, texel, event);
+        else atomicAdd(counters.uncovered, 1u);
+        return;
+    }
     const float s = slice_of_depth(event.z), r = rounded_up_by(texel);
     const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(virtual_slices()) - 1.0);
     const bool in_world = interface_layer() == 0u;

@@ -8,6 +8,7 @@
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/coverage.glsl"
 #include "passes/transparency/voxel/sources.glsl"
+#include "passes/transparency/voxel/thickness.glsl"
 #include "passes/transparency/voxel/tiles.glsl"
 
 layout(local_size_x = 32) in;
@@ -95,6 +96,7 @@ void main() {
     const DrawCommand command = commands[first_command + gl_WorkGroupID.y];
     const uint source = packs_colors != 0u ? source_of(command.first_instance) : source_grey;
     const uint layer = draws[command.first_instance].layer;
+    const float half_deep = 0.5 * thickness_of(command.first_instance);
     for (uint i = gl_WorkGroupID.x; i < command.index_count / 3u; i += gl_NumWorkGroups.x) {
         const Triangle triangle = triangle_of(command, i);
         if (!is_seen(triangle)) continue;
@@ -105,7 +107,7 @@ void main() {
             const vec2 depths = depths_within(triangle, rays_of(tile)) - triangle.depth_offset;
             if (depths.x > depths.y) continue;
             if (layer > 0u) mark_words(first_bits_of(tile, source), slices_of_layer(layer));
-            else mark(tile, source, depths);
+            else mark(tile, source, depths + vec2(-half_deep, half_deep));
         }
     }
 }

@@ -11,6 +11,7 @@
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/factors.h"
 #include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/sparse.h"
 
 namespace strata::transparency {
@@ -93,7 +94,10 @@ ComputePass over_triangles(Graph& graph, const FrameImages& images, const char* 
 
 void find_slices(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
     Buffer halves = zeros(graph, "voxel coverage", 2 * most_virtual_slices / 32);
-    over_triangles(graph, images, "transparency/voxel/coverage.comp", 64).updates("Halves", halves).push(volume.push);
+    over_triangles(graph, images, "transparency/voxel/coverage.comp", 64)
+        .updates("Halves", halves)
+        .fixes("thickness", volume.thickness)
+        .push(volume.push);
     constexpr std::uint64_t bytes = sizeof(VoxelHistory);
     Buffer history = params.hysteresis > 0 ? graph.remember("voxel history", bytes) : graph.create("no history", bytes);
     graph.compute("transparency/voxel/warp.comp")
@@ -110,6 +114,7 @@ void find_tiles(Graph& graph, const FrameImages& images, const VoxelParams& para
     ComputePass pass = over_triangles(graph, images, "transparency/voxel/tiles.comp", 1);
     bind_warp(volume, params, bind_format(volume, pass))
         .updates("Tiles", volume.tiles)
+        .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
         .fixes("sampling", params.sampling);
 }
@@ -145,6 +150,8 @@ Volume described(const FrameImages& images, const VoxelParams& params) {
                   .packs = packs_colors(params, channels),
                   .push = push_of(all, curve, columns, channels)};
     volume.push.interfaces = all.slices - world.slices;
+    const bool is_thick = has_segments(params) && images.features->has(Feature::soft_particles);
+    volume.thickness = is_thick ? thickness_segment : thickness_point;
     return volume;
 }
 
@@ -187,6 +194,7 @@ DrawPass events_of_columns(Graph& graph, const FrameImages& images, std::uint32_
 void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
     bind_warp(volume, params, bind_columns(volume, params, events_of_columns(graph, images, volume.divisor)))
         .updates("voxels", volume.voxels)
+        .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
         .fixes("rounding", params.rounding);
 }
@@ -227,7 +235,10 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
 DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& params) {
     return bind_warp(volume, params, bind_format(volume, draw))
         .samples("voxels", volume.voxels)
-        .fixes("sampling", params.sampling);
+        .fixes("sampling", params.sampling)
+        .fixes("thickness", volume.thickness)
+        .fixes("splatting", params.splatting)
+        .fixes("rounding", params.rounding);
 }
 
 ComputePass& read_slices(ComputePass& pass, const Volume& volume, const VoxelParams& params) {

@@ -17,7 +17,8 @@ struct Volume {
     Image
         zero_slices;  ///< r32ui, of each column and channel: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;
-    bool packs = false;  ///< colors, three to a word
+    bool packs = false;           ///< colors, three to a word
+    std::uint32_t thickness = 0;  ///< thickness_segment where any event is thick
     VoxelPush push;
 };
 

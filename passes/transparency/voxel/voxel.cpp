@@ -22,6 +22,7 @@ constexpr std::string_view packings[] = {"planes", "rgb10"};
 constexpr std::string_view splattings[] = {"point", "linear"};
 constexpr std::string_view samplings[] = {"point", "linear", "bicubic"};
 constexpr std::string_view roundings[] = {"nearest", "stochastic"};
+constexpr std::string_view thicknesses[] = {"point", "segment"};
 constexpr std::string_view curves[] = {"slices", "thickness", "linear"};
 constexpr std::string_view volumes[] = {"dense", "adaptive", "sparse"};
 constexpr std::string_view skippings[] = {"off", "on"};
@@ -129,6 +130,13 @@ std::vector<Param> params() {
                                         .fallback = splatting_linear,
                                         .help = "into the slice a fragment is in, or shared with the nearer neighbour",
                                         .choices = splattings}),
+        param<&VoxelParams::thickness>(
+            {.name = "thickness",
+             .low = 0,
+             .high = 1,
+             .fallback = thickness_point,
+             .help = "of soft particles: none; or as deep as they fade before opaque surfaces, in every slice they cross",
+             .choices = thicknesses}),
         param<&VoxelParams::sampling>({.name = "sampling",
                                        .low = 0,
                                        .high = 2,
@@ -299,6 +307,7 @@ Technique voxel() {
                    "channels=mono tint=corrected",
                    "curve=thickness",
                    "rounding=stochastic",
+                   "thickness=segment",
                    "resolution=half",
                    "resolution=quarter",
                    "resolution=eighth",

@@ -30,6 +30,10 @@ const uint sampling_point = 0u;
 const uint sampling_linear = 1u;
 const uint sampling_bicubic = 2u;
 
+// An event is at its depth; or lies evenly around it, as deep as its emitter fades before opaque surfaces.
+const uint thickness_point = 0u;
+const uint thickness_segment = 1u;
+
 const uint rounding_nearest = 0u;
 const uint rounding_stochastic = 1u;
 
@@ -87,6 +91,7 @@ struct VoxelParams {
     uint prepared;
     uint hysteresis;  // frames for which a coarser adaptive volume is held
     uint tint;
+    uint thickness;
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and

@@ -1,0 +1,15 @@
+// How deep a draw's events are along the view: nothing, or what its emitter says by how far it fades before opaque surfaces
+// (transparency chapter 6.5, last line).
+#ifndef PASSES_TRANSPARENCY_VOXEL_THICKNESS_GLSL
+#define PASSES_TRANSPARENCY_VOXEL_THICKNESS_GLSL
+#include "passes/shaders/scene.glsl"
+#include "passes/transparency/voxel/voxel.shared.h"
+
+layout(constant_id = 24) const uint thickness = thickness_point;
+
+// In metres; 0 is a point.
+float thickness_of(uint draw) {
+    return thickness == thickness_segment && draws[draw].layer == 0u ? draws[draw].soft_fade : 0.0;
+}
+
+#endif

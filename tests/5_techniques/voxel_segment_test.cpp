@@ -1,0 +1,66 @@
+// Thick events of transparency/voxel on a device (transparency chapter 6.5, last line).
+#include <gtest/gtest.h>
+
+#include "passes/registry.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+const std::string voxel = "transparency/voxel";
+const char* const soft_scenarios[] = {"smoke_grenade", "glass_and_smoke", "explosion", "interface_layers"};
+
+Request thick(std::string_view scenario, std::vector<std::string> sets, std::uint32_t samples = 1) {
+    Request request = on_scenario(scenario, samples);
+    request.uses = {voxel}, request.sets = std::move(sets), request.outputs = {"color"};
+    request.sets.emplace_back("thickness=segment");
+    return request;
+}
+
+std::vector<std::byte> color_of(const Request& request) {
+    return must(session_of_scenarios().run(request)).images.at("color").texels;
+}
+
+TEST(VoxelSegmentOnDevice, IsWhatTheModelSays) {
+    const Technique& technique = *must(find_technique(voxel));
+    const std::vector<std::string> combinations[] = {
+        {"sampling=linear"},
+        {"splatting=point", "sampling=point", "volume=dense"},
+        {"bits=16", "sampling=bicubic", "resolution=half", "rounding=stochastic"},
+        {"packing=rgb10", "channels=rgb", "slices=500", "splat=saturating"},
+        {"splat=multiply"},
+    };
+    for (const char* scenario : soft_scenarios)
+        for (const std::vector<std::string>& sets : combinations) {
+            Request request = thick(scenario, sets);
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
+            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << sets.front();
+            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << sets.front();
+        }
+}
+
+TEST(VoxelSegmentOnDevice, IsCoveredAndKeptWhereItReaches) {
+    for (const char* scenario : soft_scenarios)
+        for (const char* splatting : {"splatting=linear", "splatting=point"}) {
+            const std::vector<std::string> sets = {splatting, "sampling=bicubic", "slices=200", "resolution=half"};
+            Request skipping = thick(scenario, sets, 4), plain = skipping;
+            plain.sets.emplace_back("skipping=off");
+            EXPECT_EQ(color_of(skipping), color_of(plain)) << scenario << splatting;
+            EXPECT_EQ(counted(must(session_of_scenarios().run(skipping)), "uncovered"), 0u) << scenario << splatting;
+        }
+}
+
+TEST(VoxelSegmentOnDevice, IsCulledWithoutATrace) {
+    for (const char* scenario : soft_scenarios)
+        EXPECT_EQ(color_of(thick(scenario, {"culling=quads_16"})), color_of(thick(scenario, {"culling=off"}))) << scenario;
+}
+
+TEST(VoxelSegmentOnDevice, IsAPointWhereNoParticleIsSoft) {
+    Request points = thick("particle_storm", {});
+    const auto as_segments = color_of(points);
+    points.sets = {"thickness=point"};
+    EXPECT_EQ(color_of(points), as_segments);
+}
+
+}  // namespace
+}  // namespace strata
