@@ -34,6 +34,14 @@ Run sparse_run(std::string_view scenario, const Sets& sets, std::uint32_t sample
     return must(session_of_scenarios().run(sparse_request(scenario, sets, samples)));
 }
 
+/// Of the stage, without those that have interface layers: there it would be adaptive.
+std::vector<std::string_view> sparse_scenarios() {
+    std::vector<std::string_view> scenarios;
+    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        if (!frame_features(scenario_frames(scenario).front()).has(Feature::interface_layers)) scenarios.push_back(scenario);
+    return scenarios;
+}
+
 /// A curve that the number of slices does not bend.
 const Sets unbent{"curve=linear", "linear=3"};
 
@@ -60,7 +68,7 @@ TEST(VoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
     };
     for (const Sets& sets : combinations) {
         std::size_t compared = 0;
-        for (const std::string_view scenario : info(Stage::transparency).scenarios)
+        for (const std::string_view scenario : sparse_scenarios())
             compared += expect_dense(scenario, both(unbent, sets), {"slices=64", "thinnest=0.005"}) ? 1 : 0;
         EXPECT_GE(compared, 5u) << testing::PrintToString(sets);
     }
@@ -68,7 +76,7 @@ TEST(VoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
 
 TEST(VoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
     std::size_t halved = 0;
-    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
+    for (const std::string_view scenario : sparse_scenarios()) {
         const Sets sets = both(unbent, {"thinnest=0.002", "channels=rgb"});
         const auto large = sparse_run(scenario, both(sets, {"pool=256"})), small = sparse_run(scenario, both(sets, {"pool=1"}));
         EXPECT_LE(counted(small, "blocks"), 4096u) << scenario;
@@ -82,7 +90,7 @@ TEST(VoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
 }
 
 TEST(VoxelSparse, NeverTakesMoreThanThePool) {
-    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+    for (const std::string_view scenario : sparse_scenarios())
         for (const char* pool : {"pool=1", "pool=4", "pool=16"})
             for (const char* splatting : {"splatting=linear", "splatting=point"}) {
                 const auto run = sparse_run(scenario, {pool, splatting, "thinnest=1e-5"}, 4);
@@ -105,7 +113,7 @@ TEST(VoxelSparse, TakesNothingOfThePoolWhereNothingIsSeen) {
 
 TEST(VoxelSparse, HalvesAsOftenAsTheModel) {
     const Settings settings(must(find_technique(voxel))->params);
-    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+    for (const std::string_view scenario : sparse_scenarios())
         for (const std::uint32_t pool : {1u, 4u, 16u}) {
             const Request request = sparse_request(scenario, {"thinnest=1e-5", fmt::format("pool={}", pool)});
             Frame frame = must(session_of_scenarios().frame(request.frame));
@@ -140,6 +148,12 @@ TEST(VoxelSparse, IsWhatTheModelSaysInCombinations) {
     }
 }
 
+TEST(VoxelSparse, IsAdaptiveWhereInterfacesWantSlices) {
+    const auto run = sparse_run("interface_layers", {});
+    EXPECT_EQ(counted(run, "blocks"), 0u);
+    EXPECT_GT(counted(run, "slices used"), 0u);
+}
+
 // The order in which tiles get their blocks is chance.
 TEST(VoxelSparse, IsTheSameInEveryRun) {
     const auto session = scenario_session("particle_storm", 1);
@@ -155,7 +169,7 @@ TEST(VoxelSparse, IsTheSameInEveryRun) {
 }
 
 TEST(VoxelSparse, IsCulledWithoutChangingAPixel) {
-    for (const std::string_view scenario : info(Stage::transparency).scenarios)
+    for (const std::string_view scenario : sparse_scenarios())
         for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
             const auto all = sparse_run(scenario, {resolution, "culling=off"});
             const auto culled = sparse_run(scenario, {resolution, "culling=quads_16"});

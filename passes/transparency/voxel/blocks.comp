@@ -66,6 +66,7 @@ void main() {
     if (thread > 0u || tile != uvec2(0u)) return;
     warp = WarpHeader(r.halvings, r.slices, tile_bits[r.halvings], r.halvings);
     counters.virtual_slices = r.slices;
+    counters.halvings = r.halvings;
     counters.blocks = tile_bits[r.halvings] * push.channels;
     counters.voxels = pool_blocks * tile_size * tile_size * slices_per_word;
 }

@@ -99,20 +99,15 @@ void add_color(ivec2 column, uint slice, uvec2 codes[3]) {
     }
 }
 
-// Whether a virtual slice, and where a share goes there the one behind it, is in the volume: coverage.glsl says so of every triangle.
-bool is_covered(int slice, float share) {
-    if (sparse != 0u) {
-        const uvec2 tile = uvec2(gl_FragCoord.xy) / tile_size;
-        return is_in_pool(tile, uint(slice) / slices_per_word) &&
-               (share == 0.0 || is_in_pool(tile, (uint(slice) + 1u) / slices_per_word));
+// Whether virtual slices, the last included, are in the volume: coverage.glsl says so of every triangle.
+bool is_covered(int first, int last) {
+    if (sparse == 0u) {
+        const int physical = physical_slice(first);
+        return physical > physical_slice(first - 1) && physical_slice(last) - physical == last - first;
     }
-    const int physical = physical_slice(slice);
-    return physical > physical_slice(slice - 1) && (share == 0.0 || physical_slice(slice + 1) > physical);
-}
-
-bool is_covered(Segment segment) {
-    const int first = physical_slice(segment.first);
-    return first > physical_slice(segment.first - 1) && physical_slice(segment.last) - first == segment.last - segment.first;
+    for (uint word = uint(first) / slices_per_word; word <= uint(last) / slices_per_word; ++word)
+        if (!is_in_pool(uvec2(gl_FragCoord.xy) / tile_size, word)) return false;
+    return true;
 }
 
 // Two slices at a time: they are most often in one word.
@@ -137,7 +132,7 @@ void main() {
     const uvec2 texel = uvec2(gl_FragCoord.xy);
     const Segment segment = segment_at(event.z);
     if (segment.metres > 0.0) {
-        if (is_covered(segment)) add_segment(segment, texel, event);
+        if (is_covered(segment.first, segment.last)) add_segment(segment, texel, event);
         else atomicAdd(counters.uncovered, 1u);
         return;
     }
@@ -145,7 +140,7 @@ void main() {
     const float center = clamp(splatting == splatting_linear ? s - 0.5 : floor(s), 0.0, float(virtual_slices()) - 1.0);
     const bool in_world = interface_layer() == 0u;
     const float share = in_world ? center - floor(center) : 0.0;
-    if (in_world && !is_covered(int(center), share)) {
+    if (in_world && !is_covered(int(center), int(ceil(center)))) {
         atomicAdd(counters.uncovered, 1u);
         return;
     }
