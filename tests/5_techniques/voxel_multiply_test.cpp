@@ -54,7 +54,7 @@ TEST(VoxelMultiply, RoundsEveryBlendAsTheModelDoes) {
     constexpr std::uint32_t size = 256;
     constexpr std::pair<std::uint32_t, Format> stored[] = {{transparency::bits_8, Format::r8_unorm},
                                                            {transparency::bits_16, Format::r16_unorm}};
-    for (const auto [bits, format] : stored) {
+    for (const auto& [bits, format] : stored) {
         TestFrame frame;
         frame.shader("across.frag", R"(
             layout(location = 0) out float stored;
