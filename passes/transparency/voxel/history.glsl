@@ -9,7 +9,7 @@ layout(constant_id = 1) const uint hysteresis = 0u;
 layout(set = 0, binding = 4, scalar) buffer History { VoxelHistory history; };
 
 // Of the finest slices to those that are as thick as the frame before had them: its range may have been another. 0 in the first.
-uint held_halvings(float finest_thickness) {
+uint halvings_held(float finest_thickness) {
     if (history.thickness <= 0.0) return 0u;
     const float halvings = round(log2(history.thickness / finest_thickness));
     return uint(clamp(halvings, 0.0, float(findMSB(push.finest_slices))));
@@ -20,7 +20,7 @@ uint held_halvings(float finest_thickness) {
 uint kept_halvings(uint fitting) {
     if (hysteresis == 0u) return fitting;
     const float finest_thickness = log(2.0) / (push.per_linear * push.slices_per_log2);
-    const uint held = held_halvings(finest_thickness);
+    const uint held = halvings_held(finest_thickness);
     uint kept = max(fitting, held);
     history.finer_frames = fitting < held ? history.finer_frames + 1u : 0u;
     if (history.finer_frames > hysteresis) {

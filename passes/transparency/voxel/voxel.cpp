@@ -232,7 +232,7 @@ std::vector<Counter> counters() {
         counter<&VoxelCounters::zero_tiles>({.name = "zero tiles", .help = "tiles of pixels behind which nothing is seen"}),
         counter<&VoxelCounters::unseen>({.name = "unseen", .help = "fragments shaded of which nothing is seen"}),
         counter<&VoxelCounters::halvings>({.name = "halvings", .help = "of the finest slices' number, to that of virtual ones"}),
-        counter<&VoxelCounters::held_halvings>(
+        counter<&VoxelCounters::halvings_held>(
             {.name = "halvings held", .help = "of these, such as only frames before this one needed: hysteresis"}),
         counter<&VoxelCounters::blocks>(
             {.name = "blocks", .help = "of a sparse volume's pool that something is in: 8 x 8 columns by a word, 256 bytes"}),

@@ -152,7 +152,7 @@ struct VoxelCounters {
     uint zero_tiles;
     uint unseen;
     uint halvings;
-    uint held_halvings;
+    uint halvings_held;
     uint blocks;
 };
 

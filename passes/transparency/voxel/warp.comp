@@ -120,5 +120,5 @@ void main() {
     counters.slices_used = counts[threads - 1u];
     counters.virtual_slices = at.slices;
     counters.halvings = at.halvings;
-    counters.held_halvings = at.halvings - fitting;
+    counters.halvings_held = at.halvings - fitting;
 }
