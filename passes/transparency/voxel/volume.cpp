@@ -86,11 +86,15 @@ ComputePass over_triangles(Graph& graph, const FrameImages& images, const char* 
 void find_slices(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
     Buffer halves = zeros(graph, "voxel coverage", 2 * most_virtual_slices / 32);
     over_triangles(graph, images, "transparency/voxel/coverage.comp", 64).updates("Halves", halves).push(volume.push);
+    constexpr std::uint64_t bytes = sizeof(VoxelHistory);
+    Buffer history = params.hysteresis > 0 ? graph.remember("voxel history", bytes) : graph.create("no history", bytes);
     graph.compute("transparency/voxel/warp.comp")
         .stores("DepthWarp", volume.warp)
         .push(volume.push)
         .loads("Halves", halves)
+        .updates("History", history)
         .fixes("splatting", params.splatting)
+        .fixes("hysteresis", params.hysteresis)
         .groups({1, 1, 1});
 }
 
@@ -130,7 +134,7 @@ void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     };
     volume.voxels = graph.create(voxels_name, words_of(planes, voxel_words(params, push.channels) / planes));
     volume.overflow = graph.create("nearest overflow", noted * sizeof(std::uint32_t));
-    volume.warp = zeros(graph, warp_name, warp);
+    if (!volume.warp) volume.warp = zeros(graph, warp_name, warp);
     volume.tiles = zeros(graph, "voxel tiles", skips(params) ? marks : 1);
     volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
@@ -165,10 +169,13 @@ Volume earlier_volume(const Graph& graph, const FrameImages& images, const Voxel
 
 Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelParams& params) {
     Volume volume = described(images, params);
+    // A frame's history moves on once, however many volumes are made to be looked at.
+    if (params.hysteresis > 0) volume.warp = graph.find_buffer(warp_name);
+    const bool finds = params.volume == volume_adaptive && !volume.warp;
     create_parts(graph, params, volume);
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
-    if (params.volume == volume_adaptive) find_slices(graph, images, params, volume);
+    if (finds) find_slices(graph, images, params, volume);
     if (skips(params)) find_tiles(graph, images, params, volume);
     ComputePass clear = graph.compute("transparency/voxel/clear.comp");
     bind_tiles(volume, params, clear).stores("voxels", volume.voxels).over(columns);

@@ -184,6 +184,12 @@ std::vector<Param> params() {
                  "when the volume is made; before opaque draws they are culled, too, unless soft particles or distortion need "
                  "what is behind",
              .choices = preparations}),
+        param<&VoxelParams::hysteresis>(
+            {.name = "hysteresis",
+             .low = 0,
+             .high = 100,
+             .fallback = 0,
+             .help = "frames for which thicker slices are held, with volume=adaptive: thinner ones must have fitted so long"}),
     };
     rows.insert(rows.end(), places.begin(), places.end());
     return rows;
@@ -208,6 +214,9 @@ std::vector<Counter> counters() {
             {.name = "virtual slices", .help = "that cut all of the range where slices are adaptive"}),
         counter<&VoxelCounters::zero_tiles>({.name = "zero tiles", .help = "tiles of pixels behind which nothing is seen"}),
         counter<&VoxelCounters::unseen>({.name = "unseen", .help = "fragments shaded of which nothing is seen"}),
+        counter<&VoxelCounters::halvings>({.name = "halvings", .help = "of the finest slices' number, to that of virtual ones"}),
+        counter<&VoxelCounters::held_halvings>(
+            {.name = "halvings held", .help = "of these, such as only frames before this one needed: hysteresis"}),
     };
     rows.insert(rows.end(), own.begin(), own.end());
     return rows;

@@ -82,6 +82,7 @@ struct VoxelParams {
     uint accumulation;
     uint culling;
     uint prepared;
+    uint hysteresis;  // frames for which a coarser adaptive volume is held
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
@@ -108,6 +109,7 @@ struct WarpHeader {
     uint halvings;        // of the finest slices until their number fits
     uint virtual_slices;  // that are left: finest_slices >> halvings
     uint used;            // of these, slices with something in them
+    uint fitting;         // halvings that this frame needs; more are held of those before it
 };
 const uint most_virtual_slices = 8192u;
 // An entry of the table: the number of used slices up to and with this one, whether it is used, and first or last of a run.
@@ -115,6 +117,12 @@ const uint warp_count_mask = 0xffffu;
 const uint warp_used = 1u << 16u;
 const uint warp_begin = 1u << 17u;
 const uint warp_end = 1u << 18u;
+
+// What warp.comp leaves to the next frame.
+struct VoxelHistory {
+    float thickness;    // metres, of the nearest slice; 0: there was no frame
+    uint finer_frames;  // in a row, that would have fitted into thinner ones
+};
 
 struct VoxelCounters {
     FunctionCounters function;
@@ -131,6 +139,8 @@ struct VoxelCounters {
     uint virtual_slices;
     uint zero_tiles;
     uint unseen;
+    uint halvings;
+    uint held_halvings;
 };
 
 // What slice_counts.comp counts over all columns.

@@ -1,11 +1,12 @@
 // The table that packs slices with something in them (transparency chapter 6.10), at the finest resolution at which there are no more
-// than the volume has (6.11). One group; a thread for each 32 slices.
+// than the volume has, or a coarser one that is held (6.11). One group; a thread for each 32 slices.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
+#include "passes/transparency/voxel/history.glsl"
 
 layout(local_size_x = 256) in;
 layout(constant_id = 0) const uint splatting = splatting_linear;
@@ -19,6 +20,7 @@ layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; 
 const uint threads = most_virtual_slices / 32u;
 shared uint covered[2u * threads];  // halves of slices
 shared uint counts[threads];        // of slices used in the words up to each
+shared uint kept;                   // halvings
 
 // Every second bit, from the lowest on.
 uint even_bits(uint bits) {
@@ -66,12 +68,19 @@ void sum_up(uint thread, uint used) {
     }
 }
 
-void halve(uint thread) {
+// Neighbouring slices become one. Leaves what its thread's word uses of them.
+struct Resolution {
+    uint halvings, slices, used;
+};
+void halve(uint thread, inout Resolution at) {
     const uvec2 words = uvec2(coarser_word(thread), coarser_word(thread + threads));
     barrier();
     covered[thread] = words.x;
     covered[thread + threads] = words.y;
     barrier();
+    const uint slices = at.slices / 2u;
+    at = Resolution(at.halvings + 1u, slices, used_word(thread, slices));
+    sum_up(thread, at.used);
 }
 
 // `before` and `after`: whether the slices beside the word are used.
@@ -96,20 +105,20 @@ void main() {
     covered[thread] = halves[thread];
     covered[thread + threads] = halves[thread + threads];
     barrier();
-    uint halvings = 0u, slices = push.finest_slices, used = used_word(thread, slices);
-    sum_up(thread, used);
-    while (counts[threads - 1u] > push.slices) {
-        halve(thread);
-        ++halvings;
-        slices /= 2u;
-        used = used_word(thread, slices);
-        sum_up(thread, used);
-    }
-    const uint before = thread > 0u ? used_word(thread - 1u, slices) >> 31u : 0u;
-    const uint after = used_word(thread + 1u, slices) & 1u;
-    write_entries(thread, used, before, after);
+    Resolution at = Resolution(0u, push.finest_slices, used_word(thread, push.finest_slices));
+    sum_up(thread, at.used);
+    while (counts[threads - 1u] > push.slices) halve(thread, at);
+    const uint fitting = at.halvings;
+    if (thread == 0u) kept = kept_halvings(fitting);
+    barrier();
+    while (at.halvings < kept) halve(thread, at);
+    const uint before = thread > 0u ? used_word(thread - 1u, at.slices) >> 31u : 0u;
+    const uint after = used_word(thread + 1u, at.slices) & 1u;
+    write_entries(thread, at.used, before, after);
     if (thread > 0u) return;
-    warp = WarpHeader(halvings, slices, counts[threads - 1u]);
+    warp = WarpHeader(at.halvings, at.slices, counts[threads - 1u], fitting);
     counters.slices_used = counts[threads - 1u];
-    counters.virtual_slices = slices;
+    counters.virtual_slices = at.slices;
+    counters.halvings = at.halvings;
+    counters.held_halvings = at.halvings - fitting;
 }
