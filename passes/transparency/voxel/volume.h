@@ -5,6 +5,7 @@
 
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
+#include "passes/reference/fragments.h"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 namespace strata::transparency {
@@ -18,6 +19,7 @@ struct Volume {
         zero_slices;  ///< r32ui, of each column and channel: the first slice that is full, by its physical number, or no_overflow
     std::uint32_t divisor = 8, field_bits = 8;
     bool packs = false;  ///< colors, three to a word
+    Image least_read;    ///< r32ui, where a view asks for it: the bits of the optical depth that a pixel's nearest event reads
     VoxelPush push;
 };
 
@@ -29,7 +31,7 @@ Volume integrated_volume(Graph&, const FrameImages&, const VoxelParams&);
 Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 
 /// To a step that reads the integral at fragments' depths, and to one that knows slices' depths.
-DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&);
+DrawPass& read_volume(DrawPass&, Volume&, const VoxelParams&, Resolution drawn);
 ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
 
 /// From the integral being full in a slice to all that a filtered read weighs being full, in slices (transparency chapter 6.9).

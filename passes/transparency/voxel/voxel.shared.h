@@ -54,12 +54,6 @@ const uint culling_full_screen = 3u;
 const uint prepared_after_opaque = 0u;
 const uint prepared_before_opaque = 1u;
 
-// What view.comp shows.
-const uint view_saturation_depth = 0u;
-const uint view_overflow = 1u;
-const uint view_thickness = 2u;
-const uint view_occupancy = 3u;
-
 struct VoxelParams {
     uint slices;  // there is memory for
     uint volume;
@@ -82,7 +76,8 @@ struct VoxelParams {
     uint accumulation;
     uint culling;
     uint prepared;
-    uint hysteresis;  // frames for which a coarser adaptive volume is held
+    uint hysteresis;   // frames for which a coarser adaptive volume is held
+    uint shown_slice;  // of views, physical
 };
 
 // Push constants of the steps. Slices that are adaptive have two numbers: among those that cut all of the range ("virtual"), and
@@ -141,13 +136,6 @@ struct VoxelCounters {
     uint unseen;
     uint halvings;
     uint held_halvings;
-};
-
-// What slice_counts.comp counts over all columns.
-struct SliceCounts {
-    uint tiles;
-    uint overflowed;
-    uint saturated;
 };
 
 // Columns of a tile, each way.
