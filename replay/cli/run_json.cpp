@@ -1,7 +1,11 @@
 #include "replay/cli/run_json.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <nlohmann/json.hpp>
 
+#include "passes/registry.h"
 #include "replay/cli/revision.h"
 
 namespace strata {
@@ -65,6 +69,31 @@ ordered_json json_of(const NumberTable& table) {
     return json;
 }
 
+/// "stage/technique:view", or null.
+const DebugView* find_view(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    const auto technique = find_technique(name.substr(0, colon));
+    if (colon == name.npos || !technique) return nullptr;
+    const auto view = std::ranges::find((*technique)->views, name.substr(colon + 1), &DebugView::name);
+    return view == (*technique)->views.end() ? nullptr : &*view;
+}
+
+/// Legend and numbers: of red, green and blue.
+ordered_json json_of(const DebugView& view, const HostImage& image) {
+    const ReferenceImage picture = in_double(image);
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most = -least, mean(0);
+    for (const glm::dvec4& texel : picture.texels) {
+        const glm::dvec3 shown(texel);
+        least = glm::min(least, shown), most = glm::max(most, shown);
+        mean += shown / static_cast<double>(picture.texels.size());
+    }
+    ordered_json json{{"help", view.help}, {"unit", view.unit}, {"black", view.low}, {"white", view.high}};
+    json["least"] = {least.x, least.y, least.z};
+    json["mean"] = {mean.x, mean.y, mean.z};
+    json["most"] = {most.x, most.y, most.z};
+    return json;
+}
+
 ordered_json json_of(const RunMemory& memory) {
     ordered_json json{{"plan_bytes", memory.plan},
                       {"scene_bytes", memory.scene},
@@ -121,6 +150,8 @@ ordered_json json_of(const Metadata& provenance, const Run& run, const Expectati
     for (const SkippedStage& skipped : run.skipped)
         json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
     for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
+    for (const auto& [name, image] : run.images)
+        if (const DebugView* view = find_view(name)) json["views"][name] = json_of(*view, image);
     for (const auto& [name, table] : run.tables) json["tables"][name] = json_of(table);
     for (const std::string& note : run.notes) json["notes"].push_back(note);
     json["image_bytes"] = run.image_bytes;

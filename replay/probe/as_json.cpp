@@ -47,6 +47,7 @@ ordered_json curve_json(const ProbeCurve& curve) {
     json["total"] = rgb(curve.total);
     json["T"] = rgb(curve.through);
     json["T_at_fragments"] = rgb(curve.at_events);
+    for (const DepthSpan& slice : curve.slices) json["slices"].push_back({slice.from, slice.to});
     json["notes"] = curve.notes;
     return json;
 }

@@ -58,6 +58,7 @@ public:
         depth_axis();
         value_axes();
         fragments();
+        slices();
         curves();
         steps();
         legend();
@@ -126,6 +127,27 @@ private:
             if (f.transmittance.x != f.transmittance.y || f.transmittance.y != f.transmittance.z) light = f.transmittance;
             drawing_.line({x(f.depth), y_alpha(0)}, {x(f.depth), y_alpha(alpha)}, {.color = "#666", .css = "ink"});
             drawing_.dot({x(f.depth), y_alpha(alpha)}, probe_.fragments.size() > 60 ? 2.5 : 4, shown(light));
+        }
+    }
+
+    /// Under T(z), a comb for each method that cuts depth into slices: low along a slice, high where there is none.
+    void slices() {
+        std::vector<std::size_t> sliced;
+        for (std::size_t i = 0; i < order_.size(); ++i)
+            if (!order_[i]->slices.empty()) sliced.push_back(i);
+        if (sliced.empty()) return;
+        const Box strip{through_box.left, through_box.bottom(), through_box.width, error_box.top - through_box.bottom()};
+        const double step = std::min(strip.height / double(sliced.size()), 12.);
+        drawing_.text({strip.left - 6, strip.top + 12}, "slices", Anchor::end, 10);
+        for (std::size_t row = 0; row < sliced.size(); ++row) {
+            const double top = strip.top + (double(row) + .25) * step, bottom = top + .5 * step;
+            std::vector<glm::dvec2> comb;
+            for (const DepthSpan& slice : order_[sliced[row]]->slices) {
+                if (slice.to < probe_.from || slice.from > probe_.to) continue;
+                const double left = x(slice.from), right = x(slice.to);
+                comb.insert(comb.end(), {{left, top}, {left, bottom}, {right, bottom}, {right, top}});
+            }
+            drawing_.polyline(comb, strip, {pen_of(sliced[row]).color, "curve", .8});
         }
     }
 

@@ -23,6 +23,9 @@ constexpr double disturbance_noted = 2e-3;
 // Off the steps: farther from every one than this share of the axis.
 constexpr double off_steps = .01;
 
+/// Technique::tables, of methods that cut depth into slices: the first two columns are where each begins and ends.
+constexpr std::string_view slices_table = "slices";
+
 struct Method {
     std::string name;
     const Technique* technique = nullptr;
@@ -41,6 +44,8 @@ Result<Method> parse_method(const std::string& text) {
         return fail(Fault::usage, "{} is of the stage {}; a probe measures methods of {}", technique, name((*found)->stage),
                     name(Stage::transparency));
     Method method{technique, *found, {.uses = {technique}, .outputs = {"color"}}};
+    if (std::ranges::find((*found)->tables, slices_table, &DebugTable::name) != (*found)->tables.end())
+        method.request.outputs.push_back(fmt::format("{}:{}", technique, slices_table));
     for (std::string set; words >> set;) {
         method.request.sets.push_back(technique + ":" + set);
         method.name += " " + set;
@@ -109,38 +114,47 @@ ProbeFigures figures_of(const Probe& probe, const ProbeCurve& curve) {
 
 using Row = std::vector<glm::dvec3>;
 
-/// What the device makes of one frame by each of several methods: the row of pixels.
-Result<std::vector<Row>> rows_of(Session& session, const ProbeScene& scene, std::span<const Method> methods) {
+struct Picture {
+    Row row;
+    std::vector<DepthSpan> slices;
+};
+
+/// What the device makes of one frame by each of several methods: the row of pixels, and the slices of those that have some.
+Result<std::vector<Picture>> pictures_of(Session& session, const ProbeScene& scene, std::span<const Method> methods) {
     std::vector<Request> requests;
     for (const Method& method : methods) requests.push_back(method.request);
     const auto runs = session.run(probe_frame(scene), requests);
     if (!runs) return runs.error();
-    std::vector<Row> rows;
+    std::vector<Picture> pictures;
     for (const Run& run : *runs) {
         const HostImage& color = run.images.at("color");
-        Row& row = rows.emplace_back();
-        for (std::uint32_t x = 0; x < run.width; ++x) row.push_back(texel(color, x, 0));
+        Picture& picture = pictures.emplace_back();
+        for (std::uint32_t x = 0; x < run.width; ++x) picture.row.push_back(texel(color, x, 0));
+        for (const auto& [name, table] : run.tables)
+            for (const std::vector<double>& slice : table.rows) picture.slices.push_back({slice[0], slice[1]});
     }
-    return rows;
+    return pictures;
 }
 
 /// T at every probe's depth, and behind everything.
 struct Measured {
     Row through;
     glm::dvec3 total{0};
-    double disturbance = 0;  ///< the most a probe changed of the total
+    double disturbance = 0;         ///< the most a probe changed of the total
+    std::vector<DepthSpan> slices;  ///< while it was probed
+    std::size_t own_slices = 0;     ///< that there are without a probe
 };
 
 /// Methods that take the same kind of probe, measured together: a frame is uploaded once for all.
 Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const Method> methods) {
     const bool is_additive = scene.kind == ProbeKind::additive;
-    std::vector<std::vector<Row>> pictures;
+    std::vector<std::vector<Picture>> pictures;
     const auto take = [&](ProbeKind kind, float background) -> Result<void> {
         scene.kind = kind;
         scene.background = background;
-        auto rows = rows_of(session, scene, methods);
-        if (!rows) return rows.error();
-        pictures.push_back(*std::move(rows));
+        auto made = pictures_of(session, scene, methods);
+        if (!made) return made.error();
+        pictures.push_back(*std::move(made));
         return {};
     };
     const std::pair<ProbeKind, float> additive[] = {
@@ -152,7 +166,9 @@ Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::s
 
     std::vector<Measured> all(methods.size());
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        const Row &behind = pictures[0][m], &lit = pictures[1][m], &other = pictures[2][m];
+        const Row &behind = pictures[0][m].row, &lit = pictures[1][m].row, &other = pictures[2][m].row;
+        all[m].slices = pictures[1][m].slices;
+        all[m].own_slices = pictures[0][m].slices.size();
         for (std::size_t i = 0; i < lit.size(); ++i) {
             all[m].total += behind[i] / static_cast<double>(lit.size());
             all[m].through.push_back(is_additive ? lit[i] : (lit[i] - other[i]) / thin_probe_alpha);
@@ -163,14 +179,19 @@ Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::s
 }
 
 std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind) {
+    std::vector<std::string> notes;
     if (kind != ProbeKind::additive)
-        return {fmt::format("it cannot do additive light: probed by cards of alpha 1/{:.0f}, which hide as much",
-                            1 / thin_probe_alpha)};
-    if (measured.disturbance < disturbance_noted) return {};
-    return {
-        fmt::format("the probe disturbs the method: T behind everything changes by up to {:.2g}, where the probe takes a layer "
-                    "of its own or other random numbers are drawn",
-                    measured.disturbance)};
+        notes.push_back(fmt::format("it cannot do additive light: probed by cards of alpha 1/{:.0f}, which hide as much",
+                                    1 / thin_probe_alpha));
+    else if (measured.disturbance >= disturbance_noted)
+        notes.push_back(fmt::format(
+            "the probe disturbs the method: T behind everything changes by up to {:.2g}, where the probe takes a layer "
+            "of its own or other random numbers are drawn",
+            measured.disturbance));
+    if (measured.slices.size() != measured.own_slices)
+        notes.push_back(fmt::format("the probe's cards take slices, too: {} are in use, {} without them", measured.slices.size(),
+                                    measured.own_slices));
+    return notes;
 }
 
 /// Fills Probe::curves, in the order of the methods.
@@ -205,6 +226,7 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
             curves[i]->at_events.assign(samples, of.through.end());
             curves[i]->total = of.total;
             curves[i]->notes = notes_of(of, kind);
+            curves[i]->slices = std::move(of.slices);
             curves[i]->figures = figures_of(probe, *curves[i]);
         }
     }

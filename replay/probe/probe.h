@@ -35,6 +35,11 @@ struct ProbeFigures {
     double total = 0;           ///< T^ - T behind everything
 };
 
+/// From one depth to another, metres.
+struct DepthSpan {
+    double from = 0, to = 0;
+};
+
 struct ProbeCurve {
     std::string method;                 ///< as asked for
     std::string not_supported;          ///< why there is no curve, where the technique cannot do these fragments
@@ -42,6 +47,8 @@ struct ProbeCurve {
     std::vector<glm::dvec3> at_events;  ///< T^ a millionth in front of each of Probe::fragments
     glm::dvec3 total{1};                ///< T^ behind everything
     ProbeFigures figures;
+    /// Where a method cuts depth into slices: its table "slices", whose first columns are where each begins and ends.
+    std::vector<DepthSpan> slices;
     std::vector<std::string> notes;
 };
 

@@ -172,6 +172,27 @@ TEST(Probe, OfAnExactMethodIsTheExactStepFunction) {
     EXPECT_GT(exact_methods, 0u);
 }
 
+TEST(Probe, TellsTheSlicesOfAMethodThatHasSome) {
+    const ProbeOptions options{.methods = {"transparency/voxel volume=dense slices=64", "transparency/voxel", table[0].method},
+                               .samples = 64,
+                               .from = nearest,
+                               .to = farthest};
+    const Probe made = must(probe(session_of_scenarios(), stack_of(five_cards()), options));
+    const std::vector<DepthSpan>& even = made.curves[0].slices;
+    ASSERT_EQ(even.size(), 64u);
+    EXPECT_NEAR(even.front().from, nearest, 1e-5);
+    EXPECT_NEAR(even.back().to, farthest, 1e-3);
+    for (std::size_t i = 1; i < even.size(); ++i) EXPECT_EQ(even[i].from, even[i - 1].to);
+    EXPECT_TRUE(made.curves[0].notes.empty());
+    // Where there is something, and the probe's cards are something, too: five cards would take two slices or three each.
+    EXPECT_LE(made.curves[1].slices.size(), 128u);
+    ASSERT_EQ(made.curves[1].notes.size(), 1u);
+    EXPECT_NE(made.curves[1].notes[0].find("slices"), std::string::npos);
+    EXPECT_TRUE(made.curves[2].slices.empty());
+    EXPECT_NE(as_json(made).find("\"slices\":[["), std::string::npos);
+    EXPECT_NE(as_svg(made).find(">slices<"), std::string::npos);
+}
+
 TEST(Probe, ACaptureIsTheSameAfterwards) {
     const Request request = on_scenario("three_panes");
     const strata::Run before = must(session_of_scenarios().run(request));

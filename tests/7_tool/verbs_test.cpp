@@ -107,6 +107,29 @@ TEST(Replay, RepeatsAreBitIdentical) {
     EXPECT_THAT(repeated.err, HasSubstr("bit for bit"));
 }
 
+TEST(Replay, SaysWhatViewsShowInNumbers) {
+    record_panes();
+    for (const Technique* technique : techniques_of(Stage::transparency)) {
+        if (technique->tables.empty()) continue;
+        std::string outputs;
+        for (const DebugView& view : technique->views) outputs += fmt::format(",{}:{}", technique->name, view.name);
+        for (const DebugTable& table : technique->tables) outputs += fmt::format(",{}:{}", technique->name, table.name);
+        const Finished made =
+            strata(fmt::format("replay panes.strata --use {} --outputs '{}' -o out --json", technique->name, outputs.substr(1)));
+        ASSERT_EQ(made.code, 0) << made.err;
+        const json frame = json::parse(made.out)["frames"][0];
+        for (const DebugView& view : technique->views) {
+            const json& shown = frame["views"][fmt::format("{}:{}", technique->name, view.name)];
+            EXPECT_EQ(shown["unit"], std::string(view.unit)) << view.name;
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_LE(shown["least"][c], shown["mean"][c].get<double>() + 1e-9) << view.name;
+                EXPECT_LE(shown["mean"][c], shown["most"][c].get<double>() + 1e-9) << view.name;
+            }
+        }
+        EXPECT_EQ(frame["tables"].size(), technique->tables.size());
+    }
+}
+
 TEST(Replay, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
     for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures",

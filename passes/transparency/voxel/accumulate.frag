@@ -15,6 +15,9 @@ layout(constant_id = 12) const uint sampling = sampling_linear;
 layout(constant_id = 13) const uint filters = 1u;  // 0 where columns are pixels
 layout(set = 0, binding = 10) uniform usampler2DArray voxels;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };
+// For a view: the bits of the least optical depth in front of a pixel's events. T never rises, so it is the nearest's.
+layout(constant_id = 14) const uint keeps_least = 0u;
+layout(set = 0, binding = 21, r32ui) uniform uimage2DArray least_read;
 
 // The columns around a pixel's center, two by two, and their weights.
 struct Corners {
@@ -117,11 +120,18 @@ vec3 transmittance_at(Event event) {
 // Not filtered in depth: layers do not share slices.
 vec3 transmittance_before(uint layer) { return transmittance(integral_at(corners(), slice_of_layer(layer) - 1)); }
 
+void note(vec3 through) {
+    const float t = min(through.r, min(through.g, through.b));
+    const float depth = t > 0.0 ? abs(log(t)) : log(float(full_integral()));
+    imageAtomicMin(least_read, ivec3(drawn_place() * vec2(imageSize(least_read).xy), 0), floatBitsToUint(depth));
+}
+
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
     const uint layer = interface_layer();
     const vec3 through = layer > 0u ? transmittance_before(layer) : transmittance_at(event);
+    if (keeps_least != 0u) note(through);
     if (through == vec3(0.0)) {  // adds nothing, optical depth included: whether it is culled makes no difference
         atomicAdd(counters.unseen, 1u);
         discard;

@@ -4,17 +4,21 @@
 #include <vector>
 
 #include "passes/technique.h"
+#include "passes/transparency/voxel/views.shared.h"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 namespace strata::transparency {
 
-/// One of view_occupancy, view_saturation_depth, view_overflow, view_thickness.
+/// One of the constants view_... of views.shared.h.
 Image volume_view(Graph&, const FrameImages&, const VoxelParams&, std::uint32_t shown);
 
 /// The depth warp as a curve.
 Image warp_view(Graph&, const FrameImages&, const VoxelParams&);
 
-/// Slices, and the runs of slices that the warp leaves.
+/// What the nearest fragment of a pixel reads in front of itself.
+Image self_occlusion_view(Graph&, const FrameImages&, const VoxelParams&);
+
+/// Slices, the runs that the warp leaves, what is in virtual ones, overflows, and how coarse all that is.
 std::vector<DebugTable> voxel_tables();
 
 }  // namespace strata::transparency

@@ -34,13 +34,12 @@ constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_sc
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = voxel_params(settings, *images.recorded);
     const bool earlier = is_made_before_opaque(params, *images.features);
-    const Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
+    Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
     drawn_before.depth = earlier ? earlier_culled_depth(graph) : culled_depth(graph, images, volume, params);
     FunctionSums drawn = create_sums(graph, images, {params.accumulation, voxel_tint(params, *images.features), offsets});
-    draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn, [&](DrawPass& draw, Resolution resolution) {
-        read_volume(draw, volume, params).fixes("filters", volume.divisor == 1 && resolution == Resolution::full ? 0u : 1u);
-    });
+    draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn,
+              [&](DrawPass& draw, Resolution resolution) { read_volume(draw, volume, params, resolution); });
     return drawn;
 }
 
@@ -207,6 +206,11 @@ std::vector<Param> params() {
              .high = 100,
              .fallback = 0,
              .help = "frames for which thicker slices are held, with volume=adaptive: thinner ones must have fitted so long"}),
+        param<&VoxelParams::shown_slice>({.name = "shown_slice",
+                                          .low = 0,
+                                          .high = 1023,
+                                          .fallback = 0,
+                                          .help = "physical slice of the views 'slice' and 'slice integral'"}),
     };
     rows.insert(rows.end(), places.begin(), places.end());
     return rows;
@@ -265,10 +269,21 @@ std::vector<DebugView> views() {
          picture<view_occupancy>},
         {"warp",
          "across: depth in virtual slices; upwards: physical slices up to there; light where one is used, a run begins at a "
-         "green line and ends at a red one",
+         "green line and ends at a red one; how much coarser than the finest they are is in the table divider",
          "", 0, 1, voxel_picture<warp_view>},
-        {"overflow", "the nearest slice that overflowed, or all slices if none did", "slices", 0, 128, picture<view_overflow>},
-        {"thickness", "of the nearest slice that holds something", "m", 0, 1, picture<view_thickness>},
+        {"overflow", "the nearest slice that overflowed in each channel, or all slices if none did", "slices", 0, 128,
+         picture<view_overflow>},
+        {"thickness", "of the nearest slice that holds something in any channel: at the depth under the pixel; 0 where none does",
+         "m", 0, 1, picture<view_thickness>},
+        {"slice", "what the physical slice shown_slice holds, by channel", "optical depth", 0, 1, picture<view_slice>},
+        {"slice integral",
+         "what is in front of the end of the physical slice shown_slice, by channel; ln M where nothing is seen", "optical depth",
+         0, 6, picture<view_slice_integral>},
+        {"self-occlusion",
+         "what the pixel's nearest fragment reads in front of itself, where nothing is: its own, and that of what is beside it "
+         "in "
+         "the column; 0 without fragments",
+         "optical depth", 0, 1, voxel_picture<self_occlusion_view>},
         normalization_row<sums>(),
         motion_row<sums>(),
     };

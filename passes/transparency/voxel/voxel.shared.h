@@ -60,12 +60,6 @@ const uint culling_full_screen = 3u;
 const uint prepared_after_opaque = 0u;
 const uint prepared_before_opaque = 1u;
 
-// What view.comp shows.
-const uint view_saturation_depth = 0u;
-const uint view_overflow = 1u;
-const uint view_thickness = 2u;
-const uint view_occupancy = 3u;
-
 struct VoxelParams {
     uint slices;  // there is memory for
     uint volume;
@@ -89,7 +83,8 @@ struct VoxelParams {
     uint accumulation;
     uint culling;
     uint prepared;
-    uint hysteresis;  // frames for which a coarser adaptive volume is held
+    uint hysteresis;   // frames for which a coarser adaptive volume is held
+    uint shown_slice;  // of views, physical
     uint tint;
     uint thickness;
 };
@@ -154,13 +149,6 @@ struct VoxelCounters {
     uint halvings;
     uint halvings_held;
     uint blocks;
-};
-
-// What slice_counts.comp counts over all columns.
-struct SliceCounts {
-    uint tiles;
-    uint overflowed;
-    uint saturated;
 };
 
 // Columns of a tile, each way.
