@@ -75,12 +75,13 @@ uint mark_words(uint base, uvec2 slices) {
 
 // What fragments between these depths add to at every resolution: which one fits the pool is known when all are counted.
 void mark_resolutions(uvec2 tile, vec2 depths) {
-    const vec2 ends = vec2(finest_slice_of_depth(depths.x), finest_slice_of_depth(depths.y));
-    const vec2 splatted = splatting == splatting_linear ? vec2(-0.5, 0.5) : vec2(0.0);
+    const float from = finest_slice_of_depth(depths.x), to = finest_slice_of_depth(depths.y);
+    const float splatted = splatting == splatting_linear ? 0.5 : 0.0;
     Resolution r = finest_resolution();
     while (true) {
-        const vec2 slices = ends * exp2(-float(r.halvings)) + splatted;
-        const uint marked = mark_words(first_mark_of(r, tile), uvec2(clamp(slices, 0.0, float(r.slices) - 1.0)));
+        const float scale = exp2(-float(r.halvings));
+        const vec2 slices = clamp(vec2(from * scale - splatted, to * scale + splatted), 0.0, float(r.slices) - 1.0);
+        const uint marked = mark_words(first_mark_of(r, tile), uvec2(slices));
         if (marked > 0u) atomicAdd(tile_bits[r.halvings], marked);
         if (is_coarsest(r)) return;
         r = coarser(r);
