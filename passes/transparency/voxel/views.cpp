@@ -1,6 +1,6 @@
 #include "passes/transparency/voxel/views.h"
 
-#include "passes/transparency/function_draw.h"
+#include "passes/transparency/event_draw.h"
 #include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/volume.h"
 
@@ -57,16 +57,15 @@ Image warp_view(Graph& graph, const FrameImages& images, const VoxelParams& para
 }
 
 Image self_occlusion_view(Graph& graph, const FrameImages& images, const VoxelParams& params) {
-    Volume volume = integrated_volume(graph, images, params);
-    volume.least_read = graph.create("least read", Shape{.extent = images.extent, .format = Format::r32ui});
-    graph.clear(volume.least_read, {{double(reads_nothing)}});
-    FunctionSums sums = create_sums(graph, images, {params.accumulation});
+    const Volume volume = integrated_volume(graph, images, params);
+    Image least = graph.create("least read", Shape{.extent = images.extent, .format = Format::r32ui});
+    graph.clear(least, {{double(reads_nothing)}});
     // Against the depth of what is opaque: nothing is culled, what is wholly hidden by itself counts.
-    draw_into(graph, "transparency/voxel/accumulate", images, sums,
-              [&](DrawPass& draw, Resolution drawn) { read_volume(draw, volume, params, drawn); });
+    DrawPass draw = draw_events(graph, "transparency/voxel/least_read", images.transparent, images);
+    read_volume(draw, volume, params, Resolution::full).updates("least_read", least).drops_other_colors();
     Image picture = picture_of(graph, images);
     graph.compute("transparency/voxel/self_occlusion_view.comp")
-        .samples("least_read", volume.least_read)
+        .samples("least_read", least)
         .stores("picture", picture)
         .over(images.extent);
     return picture;

@@ -232,11 +232,9 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     return volume;
 }
 
-DrawPass& read_volume(DrawPass& draw, Volume& volume, const VoxelParams& params, Resolution drawn) {
+DrawPass& read_volume(DrawPass& draw, const Volume& volume, const VoxelParams& params, Resolution drawn) {
     return bind_warp(volume, params, bind_format(volume, draw))
         .samples("voxels", volume.voxels)
-        .updates("least_read", volume.least_read)
-        .fixes("keeps_least", flag(bool(volume.least_read)))
         .fixes("filters", flag(volume.divisor > 1 || drawn == Resolution::low))
         .fixes("sampling", params.sampling)
         .fixes("thickness", volume.thickness)

@@ -20,7 +20,6 @@ struct Volume {
     std::uint32_t divisor = 8, field_bits = 8;
     bool packs = false;           ///< colors, three to a word
     std::uint32_t thickness = 0;  ///< thickness_segment where any event is thick
-    Image least_read;  ///< r32ui, where a view asks for it: the bits of the optical depth that a pixel's nearest event reads
     VoxelPush push;
 };
 
@@ -32,7 +31,7 @@ Volume integrated_volume(Graph&, const FrameImages&, const VoxelParams&);
 Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 
 /// To a step that reads the integral at fragments' depths, and to one that knows slices' depths.
-DrawPass& read_volume(DrawPass&, Volume&, const VoxelParams&, Resolution drawn);
+DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&, Resolution drawn);
 ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
 
 /// From the integral being full in a slice to all that a filtered read weighs being full, in slices (transparency chapter 6.9).
