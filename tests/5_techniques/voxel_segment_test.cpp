@@ -28,7 +28,6 @@ TEST(VoxelSegmentOnDevice, IsWhatTheModelSays) {
         {"splatting=point", "sampling=point", "volume=dense"},
         {"bits=16", "sampling=bicubic", "resolution=half", "rounding=stochastic"},
         {"packing=rgb10", "channels=rgb", "slices=500", "splat=saturating"},
-        {"splat=multiply"},
     };
     for (const char* scenario : soft_scenarios)
         for (const std::vector<std::string>& sets : combinations) {

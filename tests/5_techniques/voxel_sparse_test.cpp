@@ -182,7 +182,7 @@ TEST(VoxelSparse, IsCulledWithoutChangingAPixel) {
 }
 
 TEST(VoxelSparse, ShowsTheSliceThatOverflowsAsADenseVolumeDoes) {
-    Request request = sparse_request("three_cards", both(unbent, {"thinnest=0.05", "slices=64"}));
+    Request request = sparse_request("three_cards", both(unbent, {"range=fixed", "thinnest=0.05", "slices=64"}));
     request.outputs = {voxel + ":overflow", voxel + ":saturation depth", voxel + ":thickness"};
     const auto sparse = must(session_of_scenarios().run(request));
     request.sets.front() = "volume=dense";
