@@ -182,8 +182,8 @@ TEST(VoxelSparse, IsCulledWithoutChangingAPixel) {
 }
 
 TEST(VoxelSparse, ShowsTheSliceThatOverflowsAsADenseVolumeDoes) {
-    Request request = sparse_request("three_cards", both(unbent, {"range=fixed", "thinnest=0.05", "slices=64"}));
-    request.outputs = {voxel + ":overflow", voxel + ":saturation depth", voxel + ":thickness"};
+    Request request = sparse_request("three_cards", both(unbent, {"range=fixed", "thinnest=10", "slices=64"}));
+    request.outputs = {"color", voxel + ":overflow", voxel + ":saturation depth", voxel + ":thickness"};
     const auto sparse = must(session_of_scenarios().run(request));
     request.sets.front() = "volume=dense";
     request.sets.back() = "slices=" + std::to_string(counted(sparse, "virtual slices"));
