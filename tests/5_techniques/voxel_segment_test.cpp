@@ -54,11 +54,15 @@ TEST(VoxelSegmentOnDevice, IsCulledWithoutATrace) {
         EXPECT_EQ(color_of(thick(scenario, {"culling=quads_16"})), color_of(thick(scenario, {"culling=off"}))) << scenario;
 }
 
-TEST(VoxelSegmentOnDevice, IsAPointWhereNoParticleIsSoft) {
-    Request points = thick("particle_storm", {});
-    const auto as_segments = color_of(points);
-    points.sets = {"thickness=point"};
-    EXPECT_EQ(color_of(points), as_segments);
+void expect_points(Request request) {
+    const auto as_segments = color_of(request);
+    request.sets.back() = "thickness=point";
+    EXPECT_EQ(color_of(request), as_segments);
+}
+
+TEST(VoxelSegmentOnDevice, IsAPointWhereNoParticleIsSoftAndWhereTrianglesAreMultiplied) {
+    expect_points(thick("particle_storm", {}));
+    expect_points(thick("explosion", {"splat=multiply"}));
 }
 
 }  // namespace
