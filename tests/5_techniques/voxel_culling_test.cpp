@@ -55,16 +55,16 @@ TEST(VoxelCulling, ChangesNoPixelOfAnyScenario) {
     const std::string_view samplings[] = {"point", "linear", "bicubic"}, resolutions[] = {"full", "quarter"};
     std::size_t turn = 0;
     for (const std::string_view scenario : info(Stage::transparency).scenarios)
-        for (const std::string_view resolution : resolutions)
-            for (const std::uint32_t samples : {1u, 4u}) {
-                const std::string_view sampling = samplings[turn++ % 3];
-                SCOPED_TRACE(scenario);
-                expect_equal(
-                    session_of_scenarios(), on_scenario(scenario, samples),
-                    {fmt::format("sampling={}", sampling), fmt::format("splatting={}", sampling == "point" ? "point" : "linear"),
-                     fmt::format("resolution={}", resolution)},
-                    cullings);
-            }
+        for (const std::string_view resolution : resolutions) {
+            const std::uint32_t samples = (turn / 2 + turn) % 2 == 0 ? 1 : 4;  // of either resolution in every other scenario
+            const std::string_view sampling = samplings[turn++ % 3];
+            SCOPED_TRACE(scenario);
+            expect_equal(
+                session_of_scenarios(), on_scenario(scenario, samples),
+                {fmt::format("sampling={}", sampling), fmt::format("splatting={}", sampling == "point" ? "point" : "linear"),
+                 fmt::format("resolution={}", resolution)},
+                cullings);
+        }
 }
 
 /// The grenade's smoke so dense that little is seen through it, with edges where it meets what is opaque: soft ones need what is
