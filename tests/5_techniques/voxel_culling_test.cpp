@@ -105,8 +105,8 @@ TEST(VoxelSkipping, ChangesNoPixelAlongACameraPath) {
     const auto session = dense_smoke(1);
     for (int frame = 0; frame < 64; ++frame) {
         const Request request{.extent_divisor = 2, .eye = {.dolly = .02 * frame, .pan = .004 * frame}};
-        const Run all = run_of(*session, request, {"skipping=off"}, "culling=quads_16");
-        const Run used = run_of(*session, request, {"skipping=on"}, "culling=quads_16");
+        const auto all = run_of(*session, request, {"skipping=off"}, "culling=quads_16");
+        const auto used = run_of(*session, request, {"skipping=on"}, "culling=quads_16");
         EXPECT_EQ(differing_pixels(used.images.at("color"), all.images.at("color")), 0u) << frame;
         EXPECT_LT(counted(used, "cleared"), counted(all, "cleared")) << frame;
     }
