@@ -13,5 +13,9 @@ layout(set = 1, binding = 4, scalar) readonly buffer Textures { TextureRecord te
 layout(set = 1, binding = 5, scalar) readonly buffer Texels { uint texels[]; };
 layout(set = 1, binding = 6, scalar) readonly buffer Lights { LightRecord lights[]; };
 layout(set = 1, binding = 7, scalar) readonly buffer Shadows { ShadowRecord shadows[]; };
+layout(set = 1, binding = 8, scalar) readonly buffer Blockers { BlockerRecord blockers[]; };
+layout(set = 1, binding = 9, scalar) readonly buffer LightBlockers { LightBlockerRecord light_blockers[]; };
+layout(set = 1, binding = 10, scalar) readonly buffer BlockerPortals { BlockerPortalRecord blocker_portals[]; };
+layout(set = 1, binding = 11, scalar) readonly buffer ClipPlanes { ClipPlaneRecord clip_planes[]; };
 
 #endif
