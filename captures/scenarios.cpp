@@ -49,6 +49,16 @@ constexpr auto table = std::to_array<Scenario>({
      scenario::particle_storm},
     {"interface_layers", "Are interfaces blended by layer in front of the world, wherever in it their surfaces are?", 96, 54,
      scenario::interface_layers},
+    {"agents_hq", "Of 200 lights of every type behind walls with doors and windows, what does each tile have to shade?", 96, 54,
+     scenario::agents_hq},
+    {"hall_of_lights_1", "What does finding out cost where one light reaches everything?", 96, 54, scenario::hall_of_lights_1},
+    {"hall_of_lights_64", "What do as many lights cost as a tile keeps?", 96, 54, scenario::hall_of_lights_64},
+    {"hall_of_lights_65", "And one more?", 96, 54, scenario::hall_of_lights_65},
+    {"hall_of_lights_512", "Does time grow with the lights, or with those that reach a pixel?", 96, 54,
+     scenario::hall_of_lights_512},
+    {"hall_of_lights_4096", "Does culling itself stay cheap at 4096 lights?", 96, 54, scenario::hall_of_lights_4096},
+    {"pair_overflow", "Are 272 pairs of lights and blockers in a tile that keeps 256 the same picture?", 96, 54,
+     scenario::pair_overflow},
 });
 
 }  // namespace

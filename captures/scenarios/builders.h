@@ -41,5 +41,13 @@ Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
 Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
+// many lights
+Frame agents_hq(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_1(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_64(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_65(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_512(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_4096(std::uint32_t frame, const ScenarioOptions&);
+Frame pair_overflow(std::uint32_t frame, const ScenarioOptions&);
 
 }  // namespace strata::scenario
