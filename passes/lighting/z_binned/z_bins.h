@@ -12,7 +12,7 @@ namespace strata::lighting {
 /// What the passes leave to shading.
 struct ZBins {
     ZBinsPush push{};
-    Buffer sorted, header, bins, masks;
+    Buffer sorted = {}, header = {}, bins = {}, masks = {};
 };
 
 /// Declares the steps up to the masks. Needs a G-buffer.
