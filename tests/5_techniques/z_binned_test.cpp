@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "captures/scenarios.h"
 #include "passes/lighting/submitted_lights.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/reference/shade.h"
