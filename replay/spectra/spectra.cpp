@@ -47,18 +47,32 @@ lighting::Histogram summed(std::span<const FrameSpectra> frames) {
     return sum;
 }
 
-/// What the frames cost with the modes they were replayed with, as far as tiles used them.
-double cost_as_replayed(std::span<const FrameSpectra> frames, const lighting::ModeCost& cost, const SpectraWish& wish) {
-    std::set<std::uint32_t> modes;
-    for (const FrameSpectra& frame : frames)
-        for (const lighting::SpectrumRow& row : frame.rows) modes.insert(row.mode);
+/// What frames cost, by the wish's aim, whose tiles are shaded as the rows say and that dispatch so many modes.
+double cost_of_rows(std::span<const std::vector<lighting::SpectrumRow>> frames, std::size_t modes, const lighting::ModeCost& cost,
+                    const SpectraWish& wish) {
     double aimed = 0;
-    for (const FrameSpectra& frame : frames) {
-        double sum = wish.dispatch * double(modes.size());
-        for (const lighting::SpectrumRow& row : frame.rows) sum += double(row.tiles) * cost(row.features);
+    for (const std::vector<lighting::SpectrumRow>& rows : frames) {
+        double sum = wish.dispatch * double(modes);
+        for (const lighting::SpectrumRow& row : rows) sum += double(row.tiles) * cost(row.features);
         aimed = wish.aim == lighting::Aim::sum ? aimed + sum : std::max(aimed, sum);
     }
     return aimed;
+}
+
+double cost_as_replayed(std::span<const FrameSpectra> frames, const lighting::ModeCost& cost, const SpectraWish& wish) {
+    std::vector<std::vector<lighting::SpectrumRow>> rows;
+    std::set<std::uint32_t> modes;
+    for (const FrameSpectra& frame : frames) {
+        rows.push_back(frame.rows);
+        for (const lighting::SpectrumRow& row : frame.rows) modes.insert(row.mode);
+    }
+    return cost_of_rows(rows, modes.size(), cost, wish);
+}
+
+/// The modes by what a tile chooses among them on the device: the weights, whatever they were found by.
+std::vector<lighting::Mode> as_chosen(std::vector<lighting::Mode> modes) {
+    for (lighting::Mode& mode : modes) mode.cost = lighting::weighted_cost(mode.features);
+    return modes;
 }
 
 }  // namespace
@@ -142,8 +156,7 @@ Result<ModeCosts> weighted_costs(const CostQuestion&) {
 
 std::span<const CostSource> cost_sources() {
     static constexpr CostSource table[] = {
-        {"weights", "1 and a weight per feature, the lighting chapter's example: takes no time, models no machine",
-         weighted_costs},
+        {"weights", "1 and an example's weight per feature: takes no time, models no machine", weighted_costs},
         {"measured", "timed here, on the first frame of every capture", measured_costs},
     };
     return table;
@@ -157,10 +170,13 @@ SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, cons
                                         .aim = wish.aim,
                                         .waves = costs.waves};
     SpectraReport report{.wish = wish, .found = lighting::best_modes(problem)};
-    report.rows = lighting::sorted_rows(summed(frames), report.found.modes);
+    const std::vector<lighting::Mode> chosen = as_chosen(report.found.modes);
+    report.rows = lighting::sorted_rows(summed(frames), chosen);
+    std::vector<std::vector<lighting::SpectrumRow>> rows;
+    for (const FrameSpectra& frame : frames) rows.push_back(lighting::sorted_rows(frame.tiles, chosen));
     report.full = lighting::cost_of(problem, {});
     report.as_replayed = cost_as_replayed(frames, costs.cost, wish);
-    report.by_modes = report.found.cost;
+    report.by_modes = cost_of_rows(rows, chosen.size(), costs.cost, wish);
     report.ideal = lighting::ideal_cost(problem);
     report.costs = std::move(costs);
     report.frames = std::move(frames);

@@ -83,7 +83,7 @@ struct SpectraReport {
     std::vector<FrameSpectra> frames = {};
     lighting::ModeSet found = {};
     std::vector<lighting::SpectrumRow> rows = {};               ///< of all frames, with the modes that were found
-    double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs, by the wish's aim, of all frames
+    double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs of all frames, by the wish's aim
 };
 SpectraReport find_modes(std::vector<FrameSpectra>, ModeCosts, const SpectraWish&);
 
