@@ -160,6 +160,18 @@ TEST(MeasuredCosts, OfACaptureThatDoesNotOpenAreItsError) {
     EXPECT_EQ(costs.error().sentence, "it is gone");
 }
 
+TEST(Predictions, AreOfTheModesThatTilesChooseByTheirWeightsWhateverCostsFoundThem) {
+    constexpr std::uint32_t portals = blockers_portals, shadows = feature_blockers | feature_shadows;
+    FrameSpectra frame;
+    frame.tiles = {{feature_blockers, 10}, {portals, 1000}, {shadows, 1000}};
+    // By weights portals cost less than shadows, by these costs more.
+    const lighting::ModeCost cost = lighting::completed_cost({{portals, 4}, {shadows, 2}, {every_light_feature, 9}});
+    const SpectraReport report = find_modes({frame}, {.cost = cost, .unit = "ms"}, {.modes = 3});
+    ASSERT_EQ(report.found.modes.size(), 3u);
+    EXPECT_EQ(report.found.cost, 10 * 2 + 1000 * 4 + 1000 * 2);
+    EXPECT_EQ(report.by_modes, 10 * 4 + 1000 * 4 + 1000 * 2);
+}
+
 TEST(SpectraText, ListsModesPredictionsTheReadoutAndALineToPaste) {
     SpectraReport report = find_modes(gathered(), {.cost = lighting::weighted_cost, .unit = "tiles"}, {.modes = 3});
     report.technique = "lighting/some";
