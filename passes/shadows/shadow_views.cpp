@@ -187,12 +187,12 @@ std::vector<ShadowView> shadow_views(const Frame& frame, Allocation allocation) 
         for (const std::uint32_t draw : caster_draws(frame)) casters.push_back(bounding_sphere(frame, draw));
         add_cascades(frame, casters, views);
     }
-    const std::uint32_t first_local = sun_shines(frame) ? 1 : 0;
-    for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
-        if (!has_map(frame.lights[i])) continue;
+    const std::vector<Light> lights = shadow_lights(frame);
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (!has_map(lights[i])) continue;
         const std::size_t first = views.size();
-        add_local(frame, frame.lights[i], allocation, views);
-        for (std::size_t view = first; view < views.size(); ++view) views[view].light = first_local + i;
+        add_local(frame, lights[i], allocation, views);
+        for (std::size_t view = first; view < views.size(); ++view) views[view].light = i;
     }
     place_maps(views, allocation);
     return views;
