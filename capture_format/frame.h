@@ -118,6 +118,7 @@ struct ShadowUse {
     bool casts = false;
     std::uint32_t map_size = 1024;
     float bias = 0.02f;  ///< metres along the light's rays
+    bool soft = false;   ///< wants penumbrae as wide as its source_radius, the sun's angular_radius, makes them
 };
 
 /// Keeps what lies on the side dot(normal, p) + distance >= 0, world space.

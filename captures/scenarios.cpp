@@ -34,6 +34,8 @@ constexpr auto table = std::to_array<Scenario>({
     {"one_sphere", "Does a sphere in uniform light reflect its albedo and no more?", 64, 36, scenario::one_sphere},
     {"sun_and_boxes", "Where do the cascades of the sun's shadow meet, and does it show?", 160, 90, scenario::sun_and_boxes},
     {"spot_and_box", "Is the shadow of one box in one spot light where it should be?", 96, 54, scenario::spot_and_box},
+    {"soft_shadows", "Are the penumbrae of a spot, a globe and a hazy sun as wide as their sources make them?", 64, 36,
+     scenario::soft_shadows},
     {"materials", "Do the lighting models differ where they should, roughness by roughness?", 160, 90, scenario::materials},
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
     {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},

@@ -106,7 +106,7 @@ std::vector<StageInfo> made_table() {
          .outputs = {"visibility", "shadow_maps"},
          .truth = shadows_truth,
          .judge = shadows_judge,
-         .scenarios = {"sun_and_boxes", "spot_and_box"}},
+         .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows"}},
         {.stage = Stage::extinction,
          .name = "extinction",
          .purpose = "from which depth on nothing shows through what is transparent",

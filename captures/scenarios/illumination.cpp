@@ -73,6 +73,42 @@ Frame spot_and_box(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
+/// A post on the left under a wide spot, a ball on the right beside a glowing globe, a bar over both in a hazy sun, whose
+/// penumbra is .19 m wide across its rays: 2 tan(.06) times 1.3 m times 1.19 along them.
+Frame soft_shadows(std::uint32_t frame, const ScenarioOptions& options) {
+    FrameBuilder builder(frame, options);
+    builder.look({.eye = {0, 2.6, 4.2}, .target = {0, 0.3, 0}});
+    builder.draw(builder.add(box({4, 0.1f, 4})), builder.add(lambert("floor", glm::vec3(0.6f))), {.position = {0, -0.1, 0}});
+    const std::uint32_t stone = builder.add(lambert("stone", {0.6f, 0.5f, 0.4f}));
+    builder.draw(builder.add(box({0.12f, 0.5f, 0.12f})), stone, {.position = {-1.1, 0.5, 0.2}, .yaw = 0.5});
+    builder.draw(builder.add(sphere(0.3f, 24)), stone, {.position = {1.2, 0.45, 0.3}});
+    builder.draw(builder.add(box({1.4f, 0.06f, 0.06f})), stone, {.position = {0, 1.3, -0.9}, .yaw = 0.2});
+    Light spot = lamp("soft spot", {-1.9, 2.6, 1.1}, glm::vec3(8, 7, 5));
+    spot.type = LightType::round_spot;
+    spot.direction = glm::normalize(glm::vec3(0.8f, -2.4f, -0.9f));
+    spot.axis_u = glm::normalize(glm::cross(spot.direction, glm::vec3(0, 0, 1)));
+    spot.range = 7;
+    spot.inner_angle = 0.4f;
+    spot.outer_angle = 0.6f;
+    spot.source_radius = 0.12f;
+    spot.shadow = {.casts = true, .map_size = 256, .soft = true};
+    builder.frame.lights.push_back(spot);
+    Light globe = lamp("soft globe", {0.3, 0.9, 0.5}, glm::vec3(0.6f, 0.9f, 1.4f));
+    globe.range = 5;
+    globe.source_radius = 0.1f;
+    globe.shadow = {.casts = true, .map_size = 128, .soft = true};
+    builder.frame.lights.push_back(globe);
+    Sun& sun = builder.frame.sun;
+    sun.direction = glm::normalize(glm::vec3(0.4f, -1, 0.5f));
+    sun.irradiance = {0.9f, 0.8f, 0.6f};
+    sun.angular_radius = 0.06f;
+    sun.shadow = {.casts = true, .map_size = 256, .soft = true};
+    sun.cascades = 2;
+    sun.shadow_distance = 9;
+    builder.frame.hemisphere = {.sky = glm::vec3(0.06f), .ground = glm::vec3(0.04f)};
+    return std::move(builder.frame);
+}
+
 Frame lights_room(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 1.7, 4.5}, .target = {0, 1.2, -2}, .swing = 0.15});

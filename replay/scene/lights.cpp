@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "passes/reference/shade.h"
+#include "passes/shaders/light_features.shared.h"
 #include "passes/shadows/shadow_views.h"
 #include "replay/scene/scene_records.h"
 
@@ -22,6 +23,21 @@ LightRecord record(const Frame& frame, const Light& light) {
         .shadow = no_index,
         .shadow_slots = 0,
         .visibility_layer = no_index,
+    };
+}
+
+ShadowRecord record(const ShadowView& view) {
+    return {
+        .view_to_map = glm::mat4(view.view_to_map),
+        .light = view.light,
+        .size = view.size,
+        .bias = float(view.bias),
+        .range_begin = float(view.range_begin),
+        .range_end = float(view.range_end),
+        .texel = float(view.texel),
+        .source_width = float(view.source_width),
+        .offset = view.offset,
+        .layer = view.layer,
     };
 }
 
@@ -60,26 +76,21 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
     for (const Light& light : shadow_lights(frame)) scene.lights.push_back(record(frame, light));
 
     std::uint32_t shadowed = 0;
-    for (const ShadowView& view : shadow_views(frame)) {
+    const std::vector<ShadowView> views = shadow_views(frame);
+    for (const ShadowView& view : views) {
         LightRecord& light = scene.lights[view.light];
         if (light.shadow == no_index) {
-            light.shadow = static_cast<uint>(scene.shadows.size());
+            light.shadow = static_cast<uint>(&view - views.data());
+            light.features |= feature_shadows | (view.soft ? feature_soft_shadows : 0u);
             light.visibility_layer = shadowed++ * frame.view.samples;
         }
         ++light.shadow_slots;
-        scene.shadows.push_back({
-            .view_to_map = glm::mat4(view.view_to_map),
-            .light = view.light,
-            .size = view.size,
-            .bias = float(view.bias),
-            .range_begin = float(view.range_begin),
-            .range_end = float(view.range_end),
-            .texel = float(view.texel),
-        });
+        scene.shadows.push_back(record(view));
     }
+    for (const ShadowView& view : shadow_views(frame, Allocation::need)) scene.shadows.push_back(record(view));
     scene.view = view_record(frame);
     scene.view.light_count = static_cast<uint>(scene.lights.size());
-    scene.view.shadow_count = static_cast<uint>(scene.shadows.size());
+    scene.view.shadow_count = static_cast<uint>(views.size());
 }
 
 SceneRecords scene_records(const Frame& frame) {

@@ -137,7 +137,10 @@ std::vector<Record> light_records() {
               {"bias", offsetof(S, bias)},
               {"range_begin", offsetof(S, range_begin)},
               {"range_end", offsetof(S, range_end)},
-              {"texel", offsetof(S, texel)}}}};
+              {"texel", offsetof(S, texel)},
+              {"source_width", offsetof(S, source_width)},
+              {"offset", offsetof(S, offset)},
+              {"layer", offsetof(S, layer)}}}};
 }
 
 std::map<std::string_view, Record> scene_records() {
