@@ -11,8 +11,4 @@ namespace strata::lighting {
 /// The sun first when it shines, then Frame::lights: the order of the device's light list.
 std::vector<Light> submitted_lights(const Frame&);
 
-/// Bits of passes/shaders/light_features.shared.h that any light or surface of the frame may need: nothing that a tile finds is
-/// outside them.
-std::uint32_t frame_spectrum(const Frame&);
-
 }  // namespace strata::lighting

@@ -1,5 +1,5 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
-#include "passes/lighting/submitted_lights.h"
+#include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/technique.h"
 
