@@ -22,14 +22,13 @@ double alpha_of(double roughness) { return std::max(roughness * roughness, small
 
 /// The cosines between normal n, light l, eye v and h halfway between these.
 struct Cosines {
-    Cosines(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v)
-        : n_l(glm::dot(n, l)), n_v(glm::dot(n, v)), l_v(std::clamp(glm::dot(l, v), -1.0, 1.0)) {
+    Cosines(const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v) : n_l(glm::dot(n, l)), n_v(glm::dot(n, v)) {
         const double size = glm::length(l + v);
         if (size == 0) return;
         n_h = saturate((n_l + n_v) / size);
-        l_h = saturate((1 + l_v) / size);
+        l_h = saturate(size / 2);
     }
-    double n_l, n_v, l_v, n_h = 0, l_h = 0;
+    double n_l, n_v, n_h = 0, l_h = 0;
 };
 
 glm::dvec3 fresnel(const glm::dvec3& f0, double cosine) { return f0 + (1.0 - f0) * std::pow(1 - saturate(cosine), 5); }
@@ -105,16 +104,17 @@ double normal_distribution(double x, double deviation) {
     return std::exp(-0.5 * std::pow(x / deviation, 2)) / (deviation * std::sqrt(2 * pi));
 }
 
-/// Kajiya and Kay 1989 with the highlights of Scheuermann 2004; here n is the fibre, so that n_l and n_v are sines of
-/// inclinations.
-glm::dvec3 hair(const SurfacePoint& surface, const Cosines& c) {
-    const double sine_l = std::clamp(c.n_l, -1.0, 1.0), sine_v = std::clamp(c.n_v, -1.0, 1.0);
-    const double across = std::cos(std::asin(sine_l)) * std::cos(std::asin(sine_v));
-    const double azimuth = std::acos(std::clamp((c.l_v - sine_l * sine_v) / std::max(across, smallest_cosine), -1.0, 1.0));
+/// Kajiya and Kay 1989 with the highlights of Scheuermann 2004. The angle around the fibre is made from what is across it: near
+/// pi its cosine would hold half the digits.
+glm::dvec3 hair(const SurfacePoint& surface, const glm::dvec3& to_light, const glm::dvec3& to_eye) {
+    const glm::dvec3& fibre = surface.normal;
+    const double sine_l = glm::dot(fibre, to_light), sine_v = glm::dot(fibre, to_eye);
+    const glm::dvec3 light_across = to_light - sine_l * fibre, eye_across = to_eye - sine_v * fibre;
+    const double azimuth = std::atan2(glm::length(glm::cross(light_across, eye_across)), glm::dot(light_across, eye_across));
     const double around = std::cos(azimuth / 2) / 4, deviation = std::max(surface.roughness * surface.roughness, 0.01);
     const double white = normal_distribution(sine_l + sine_v + 0.07, deviation);
     const double colored = normal_distribution(sine_l + sine_v - 0.14, 2 * deviation);
-    const glm::dvec3 mirrored = fresnel(glm::dvec3(hair_f0), std::cos(std::acos(c.l_v) / 2));
+    const glm::dvec3 mirrored = fresnel(glm::dvec3(hair_f0), glm::length(to_light + to_eye) / 2);
     const double inside = 0.25 * colored * around, diffuse = 0.75 / (pi * pi);
     return mirrored * white * around + (1.0 - mirrored) * surface.base_color * (inside + diffuse);
 }
@@ -153,7 +153,7 @@ glm::dvec3 brdf(const SurfacePoint& surface, glm::dvec3 to_light, glm::dvec3 to_
         case LightingModel::skin:
             return skin(surface, cosines);
         case LightingModel::hair:
-            return hair(surface, cosines);
+            return hair(surface, to_light, to_eye);
         case LightingModel::burley:
         case LightingModel::ggx:
         case LightingModel::plain_burley:

@@ -48,7 +48,7 @@ vec3 brdf(MaterialPoint m, vec3 l, vec3 v, uint features) {
 float brdf_cosine(MaterialPoint m, vec3 l, uint features) {
     const float cosine = dot(m.normal, l);
     if (is_special(m, feature_skin, features)) return skin_cosine(cosine);
-    if (is_special(m, feature_hair, features)) return sqrt(max(1.0 - cosine * cosine, 0.0));
+    if (is_special(m, feature_hair, features)) return length(cross(m.normal, l));
     return clamp(cosine, 0.0, 1.0);
 }
 

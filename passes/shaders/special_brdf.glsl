@@ -87,7 +87,7 @@ vec3 cloth(MaterialPoint m, Directions d) {
 }
 
 // The cosine by which the color that wraps farthest is lit.
-float skin_cosine(float n_l) { return max(n_l + skin_wrap.r, 0.0) / (1.0 + skin_wrap.r); }
+float skin_cosine(float n_l) { return max(n_l + skin_wrap.x, 0.0) / (1.0 + skin_wrap.x); }
 
 // Two GGX lobes of 0.75 and 1.3 times the roughness, 85 % and 15 % (Unreal Engine's subsurface profile), over diffuse light that
 // wraps around, divided by (1 + wrap)^2 so that it adds up to the base color (McAuley, Energy-Conserving Wrapped Diffuse, 2011),
@@ -106,18 +106,24 @@ vec3 skin(MaterialPoint m, Directions d) {
 
 float gauss(float x, float width) { return exp(-0.5 * x * x / (width * width)) / (width * sqrt(2.0 * pi)); }
 
+// Where a direction points around the fibre. The cosine of half the angle phi between two of them is half the length of their sum,
+// also where phi is nearly pi, and cos(phi) all but -1.
+vec3 across_fibre(vec3 direction, vec3 along) {
+    const vec3 across = direction - along * dot(direction, along);
+    return across / max(length(across), smallest_cosine);
+}
+
 // Kajiya & Kay's cylinder (1989) with the two highlights of Marschner et al. 2003 as Scheuermann (Practical Real-Time Hair
 // Rendering and Shading, 2004) draws them, the white one towards the tip and the colored one towards the root, their shape from
 // Karis, Tafuri (Physically Based Hair Shading in Unreal, 2016). m.normal is the fibre, towards its tip. Both lobes are
 // normalised along the fibre (in sines) and around it (cos(phi / 2) / 4), the cylinder by pi^2.
 vec3 hair(MaterialPoint m, Directions d) {
-    const float s_l = clamp(dot(d.normal, d.l), -1.0, 1.0), s_v = clamp(dot(d.normal, d.v), -1.0, 1.0);
-    const float across = sqrt((1.0 - s_l * s_l) * (1.0 - s_v * s_v)), l_v = clamp(dot(d.l, d.v), -1.0, 1.0);
-    const float around = 0.25 * sqrt(0.5 + 0.5 * clamp((l_v - s_l * s_v) / max(across, smallest_cosine), -1.0, 1.0));
+    const float s_l = dot(d.normal, d.l), s_v = dot(d.normal, d.v);
+    const float around = 0.125 * length(across_fibre(d.l, d.normal) + across_fibre(d.v, d.normal));
     const float width = max(m.roughness * m.roughness, 0.01);
     const float white = gauss(s_l + s_v + 0.07, width) * around;
     const float colored = gauss(s_l + s_v - 0.14, 2.0 * width) * around;
-    const vec3 mirrored = schlick(vec3(hair_f0), sqrt(0.5 + 0.5 * l_v));
+    const vec3 mirrored = schlick(vec3(hair_f0), 0.5 * length(d.l + d.v));
     return mirrored * white + (1.0 - mirrored) * m.base_color * (hair_inside * colored + (1.0 - hair_inside) / (pi * pi));
 }
 
