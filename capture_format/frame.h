@@ -69,7 +69,7 @@ struct Material {
     LightingModel lighting_model = LightingModel::ggx;
     AlphaMode alpha_mode = AlphaMode::opaque;
     glm::vec4 base_color{1};  ///< linear, unpremultiplied; a is coverage
-    float metallic = 0;  ///< of models that have metals
+    float metallic = 0;       ///< of models that have metals
     float roughness = 1;
     glm::vec3 emissive{0};  ///< radiance
     float normal_scale = 1;

@@ -121,7 +121,7 @@ Frame lighting_models(std::uint32_t frame, const ScenarioOptions& options) {
     builder.frame.lights.push_back(lamp);
     lamp.name = "lamp behind";
     lamp.position = {3, 2, -5};
-    lamp.intensity = {40, 50, 70};
+    lamp.intensity = {12, 15, 20};
     builder.frame.lights.push_back(lamp);
     builder.frame.hemisphere = {.sky = {0.2f, 0.25f, 0.3f}, .ground = glm::vec3(0.1f)};
     builder.frame.background = glm::vec3(0.05f);

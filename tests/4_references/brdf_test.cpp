@@ -113,8 +113,8 @@ TEST(Brdf, TheFitOfGgxLiesAboveT07ByLessThanOnePercent) {
         }
 }
 
-// Half vectors drawn as D cos distributes them: then even the narrowest lobe needs few.
-double ggx_albedo(double cosine, double alpha) {
+// With a Fresnel term of (1 - l.h)^power. Half vectors drawn as D cos distributes them: then even the narrowest lobe needs few.
+double ggx_albedo(double cosine, double alpha, int power = 0) {
     constexpr int polar = 1500, azimuthal = 100;
     const double sine = std::sqrt(1 - cosine * cosine), a2 = alpha * alpha;
     double sum = 0;
@@ -124,7 +124,7 @@ double ggx_albedo(double cosine, double alpha) {
             const double v_h = sine * aside * std::cos(pi * (j + 0.5) / azimuthal) + cosine * n_h, n_l = 2 * v_h * n_h - cosine;
             if (v_h <= 0 || n_l <= 0) continue;
             const double smith = n_l * std::sqrt(cosine * cosine * (1 - a2) + a2) + cosine * std::sqrt(n_l * n_l * (1 - a2) + a2);
-            sum += 2 * n_l * v_h / (n_h * smith);
+            sum += 2 * n_l * v_h / (n_h * smith) * std::pow(1 - v_h, power);
         }
     }
     return sum / (double(polar) * azimuthal);
@@ -138,6 +138,13 @@ TEST(Brdf, TheFitOfGgxLiesAboveItsAlbedoByLessThanOnePercentEverywhere) {
             EXPECT_GE(ratio, 0.9995) << "alpha " << alpha << ", cosine " << cosine;
             EXPECT_LE(ratio, 1.009) << "alpha " << alpha << ", cosine " << cosine;
         }
+}
+
+TEST(Brdf, TheFitOfWhatFresnelAddsToGgxIsWithinOneHalfPercentOfALight) {
+    for (const double roughness : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0})
+        for (const double cosine : {0.002, 0.01, 0.05, 0.2, 0.5, 0.8, 1.0})
+            EXPECT_NEAR(fitted_ggx_grazing(cosine, roughness), ggx_albedo(cosine, roughness * roughness, 5), 0.0055)
+                << roughness << ", " << cosine;
 }
 
 TEST(Brdf, AfterManyBouncesWhiteMetalIsWhite) {
