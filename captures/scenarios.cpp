@@ -37,6 +37,8 @@ constexpr auto table = std::to_array<Scenario>({
     {"soft_shadows", "Are the penumbrae of a spot, a globe and a hazy sun as wide as their sources make them?", 64, 36,
      scenario::soft_shadows},
     {"materials", "Do the lighting models differ where they should, roughness by roughness?", 160, 90, scenario::materials},
+    {"lighting_models", "Does every lighting model shine, from in front and from behind, as its formulas say?", 160, 90,
+     scenario::lighting_models},
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
     {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},
     {"foggy_panes", "Is fog between the layers, rather than over the picture?", 96, 54, scenario::foggy_panes},

@@ -45,15 +45,16 @@ Incident incident_light(LightRecord light, vec3 position) {
 // L_o = f E cos towards the eye, which is the origin.
 vec3 reflected(MaterialPoint m, LightRecord light) {
     const Incident incident = incident_light(light, m.position);
-    const float cosine = dot(m.normal, incident.to_light);
+    const float cosine = brdf_cosine(m, incident.to_light, every_light_feature);
     if (cosine <= 0.0 || incident.irradiance == vec3(0.0)) return vec3(0.0);
-    return brdf(m, incident.to_light, normalize(-m.position)) * incident.irradiance * min(cosine, 1.0);
+    return brdf(m, incident.to_light, normalize(-m.position), every_light_feature) * incident.irradiance * cosine;
 }
 
 // Diffuse light of sky and ground. The material's own occlusion is in it; traced or screen-space occlusion is not.
 vec3 hemisphere_light(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return vec3(0.0);
-    const float up = 0.5 + 0.5 * (view.to_world * m.normal).y;
+    const vec3 normal = facing_normal(m.lighting_model, m.normal, m.position);
+    const float up = 0.5 + 0.5 * (view.to_world * normal).y;
     return m.base_color * (1.0 - m.metallic) * mix(view.ground, view.sky, up) * m.occlusion;
 }
 
