@@ -67,7 +67,7 @@ glm::dvec4 light_point(const Frame&, const Light&);
 glm::dvec3 off_surface(const glm::dvec3& position, const glm::dvec3& normal);
 
 /// Where the way from the light to a point passes through the blocker's plane, in its (u, v); nothing where it does not: the
-/// light must be more than 2 cm off the plane (directional: a cosine of 1e-3) and the point more than 1 cm behind it.
+/// light must be more than 2 cm off the plane (directional: a cosine of 1e-3) and the point more than 5 mm behind it.
 std::optional<glm::dvec2> crossing(const PlacedBlocker&, const glm::dvec4& light, const glm::dvec3& position);
 
 /// Whether no blocker stops the light on its way to a position off the surface.

@@ -6,10 +6,10 @@
 namespace strata {
 #endif
 
-const float point_behind_blocker = 0.01f;      // how far a point must lie behind a blocker's plane to be in its shadow
+const float point_behind_blocker = 5e-3f;       // how far a point must lie behind a plane to be in its shadow: half of ...
 const float light_before_blocker = 0.02f;      // how far a light must be from that plane to be stopped
 const float direction_before_blocker = 1e-3f;  // the same of a directional light: cosine to the normal
-const float least_surface_offset = 0.01f;      // surfaces are asked about this far along their normal ...
+const float least_surface_offset = 0.01f;      // ... how far surfaces are asked about along their normal: this far ...
 const float surface_offset_per_metre = 5e-4f;  // ... or so much per metre of view depth
 
 // What a rounded distance from a shadow's plane may be off: a share of the size of the numbers in it (measured: 2e-6 fails once in
