@@ -40,6 +40,7 @@ Frame materials(std::uint32_t frame, const ScenarioOptions&);
 Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
 Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
+Frame blocker_rooms(std::uint32_t frame, const ScenarioOptions&);
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
 
 }  // namespace strata::scenario

@@ -1,17 +1,24 @@
 // Why the reference of light blockers and portals can be believed (lighting chapter 2.10 and 7). The eye is at the origin and
 // looks along +z, so that world and view are one.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
+#include "captures/scenarios.h"
 #include "passes/reference/blockers.h"
-#include "tests/support/blocker_cases.h"
+#include "passes/reference/fragments.h"
+#include "passes/reference/shade.h"
 
 namespace strata {
 namespace {
+
+Frame must_build(std::string_view name) {
+    const Scenario& scenario = **find_scenario(name);
+    return scenario.build(0, {.width = scenario.width, .height = scenario.height});
+}
 
 /// A blocker of half size 1 in the plane z = 0 that faces +z, and a light 1 m before it.
 struct Wall {
@@ -255,57 +262,6 @@ TEST(Blockers, TheSmallestOf33IsDroppedAndCounted) {  // N17
     for (std::uint32_t i = 0; i < 32; ++i) EXPECT_EQ(kept.blockers[i].blocker, 31 - i) << "in the light's order";
 }
 
-/// A blocker as the device gets it, in float.
-BlockerRecord record(const PlacedBlocker& b) {
-    return {
-        .normal = b.normal, .half_u = float(b.half_u), .center = b.center, .half_v = float(b.half_v), .u = b.u, .one_sided = 0};
-}
-
-/// Two halves of a rectangle somewhere, a light before it, and of `points` behind them every other seen across the seam.
-struct Halves {
-    BlockerCases grown, bare;  ///< as they are uploaded, and as wide as they were recorded
-    LightRecord light{};
-    std::vector<glm::vec3> points;
-
-    Halves(std::mt19937& random, int count) {
-        std::uniform_real_distribution<double> within(-.99, .99), beyond(.05, 30);
-        const auto somewhere = [&] { return glm::dvec3(within(random), within(random), within(random)); };
-        const glm::vec3 n = glm::normalize(somewhere()), u = glm::normalize(glm::cross(glm::dvec3(n), somewhere()));
-        const glm::vec3 v = glm::cross(n, u);
-        const glm::dvec3 center = 10. * somewhere(), from = center + glm::dvec3(n) + .5 * glm::dvec3(u) * within(random);
-        for (const double side : {-.5, .5}) {
-            const Blocker half{.center = center + side * glm::dvec3(u), .u = u, .v = v, .half_u = .5f, .half_v = 1};
-            grown.blockers.push_back(record(placed_blocker({}, half)));
-            grown.light_blockers.push_back({static_cast<std::uint32_t>(grown.light_blockers.size()), 0});
-        }
-        bare = grown;
-        for (BlockerRecord& b : bare.blockers) b.half_u = .5f;
-        light.position = from;
-        for (int i = 0; i < count; ++i) {
-            const double across = i % 2 == 0 ? 0 : within(random);
-            const glm::dvec3 crossed = center + across * glm::dvec3(u) + within(random) * glm::dvec3(v);
-            points.emplace_back(crossed + (crossed - from) * beyond(random));
-        }
-    }
-    std::size_t cracks(const BlockerCases& cases) const {
-        return static_cast<std::size_t>(std::ranges::count_if(points, [&](const glm::vec3& p) {
-            return blockers_pass(cases, light, p, {3, 0});
-        }));
-    }
-};
-
-TEST(Blockers, TwoThatShareAnEdgeLeaveNoCrack) {  // T2.9
-    std::mt19937 random(29);
-    std::size_t cracks = 0, bare_cracks = 0;
-    for (int i = 0; i < 500; ++i) {
-        const Halves halves(random, 2000);
-        cracks += halves.cracks(halves.grown);
-        bare_cracks += halves.cracks(halves.bare);
-    }
-    EXPECT_EQ(cracks, 0u) << "of a million points";
-    EXPECT_GT(bare_cracks, 100u) << "no point needed that blockers grow by 1e-5";
-}
-
 TEST(Blockers, AnEmittersPointsAreStoppedOneByOne) {
     Wall wall;
     wall.light.position = {0, 0, .01};  // in the plane: as a point it is not stopped at all
@@ -314,6 +270,42 @@ TEST(Blockers, AnEmittersPointsAreStoppedOneByOne) {
     EXPECT_FALSE(clear_between(all, {0, 0, -1}, {0, .1, .5}));
     EXPECT_TRUE(clear_between(all, {0, 0, -1}, {0, .1, -.5}));
     EXPECT_TRUE(clear_between(all, {0, 3, -1}, {0, 3, .5}));
+}
+
+TEST(Blockers, LetTheLightOfARoomLeaveItByTheDoorAlone) {
+    const Frame frame = must_build("blocker_rooms");
+    const Light& warm = frame.lights[0];
+    const LightBlockers all = light_blockers(frame, warm);
+    const glm::dvec4 from = light_point(frame, warm);
+    int lit = 0, dark = 0;
+    for (int x = 1; x < 40; ++x)
+        for (int z = 1; z < 40; ++z) {  // the right room's floor, and where it sees the lamp through the wall at x = 0
+            const glm::dvec3 p(.1 * x + .003, .01, -.1 * z - .003);
+            const glm::dvec3 at = p + (warm.position - p) * (p.x / (p.x - warm.position.x));
+            const bool through_door = std::abs(at.z + 2) < .4 && at.y < 2;
+            ASSERT_EQ(lets_through(all, from, to_view(frame, p)), through_door) << p.x << " " << p.z;
+            (through_door ? lit : dark)++;
+        }
+    EXPECT_GT(lit, 100);
+    EXPECT_GT(dark, 800);
+}
+
+TEST(Blockers, HoldLightOffTransparentSurfaces) {  // 2.8
+    Frame frame = must_build("blocker_rooms");
+    const ReferenceImage nothing_opaque(frame.view.width, frame.view.height);
+    const FragmentLists held = transparent_fragments(frame, nothing_opaque);
+    for (Light& light : frame.lights) light.blockers.clear();
+    const FragmentLists free = transparent_fragments(frame, nothing_opaque);
+    int same = 0, darker = 0;
+    for (std::uint32_t y = 0; y < frame.view.height; ++y)
+        for (std::uint32_t x = 0; x < frame.view.width; ++x) {
+            if (held.at(x, y).empty()) continue;
+            const double before = held.at(x, y)[0].color.x, after = free.at(x, y)[0].color.x;
+            ASSERT_LE(before, after);
+            (before < after ? darker : same)++;
+        }
+    EXPECT_GT(darker, 50) << "of the curtain, in the shadow of the wall";
+    EXPECT_GT(same, 20) << "of the curtain, behind the door";
 }
 
 TEST(SoftBlockers, WithoutARadiusAreTheHardOnes) {  // 2.2
