@@ -42,6 +42,7 @@ Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
 Frame soft_shadows(std::uint32_t frame, const ScenarioOptions&);
 Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
+Frame blocker_rooms(std::uint32_t frame, const ScenarioOptions&);
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
 // many lights
 Frame agents_hq(std::uint32_t frame, const ScenarioOptions&);

@@ -10,7 +10,9 @@ EveryLight::EveryLight(const StageInput& input)
       normal_(&input.before.at("surface_normal")),
       color_(&input.before.at("surface_color")),
       material_(&input.before.at("surface_material")) {
-    for (const Light& light : shadow_lights(input.frame)) lights_.push_back({.light = light});
+    for (const Light& light : shadow_lights(input.frame))
+        lights_.push_back(
+            {.light = light, .from = light_point(input.frame, light), .blockers = light_blockers(input.frame, light)});
     const auto visibility = input.before.find("visibility");
     if (visibility == input.before.end()) return;
     visibility_ = &visibility->second;
@@ -29,7 +31,9 @@ glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample
     if (normal_->at(x, y, sample).w <= 0) return glm::dvec3(0);
     const SurfacePoint p = surface(x, y, sample);
     glm::dvec3 sum(0);
+    const glm::dvec3 off = off_surface(p.position, p.normal);
     for (const ShadowedLight& l : lights_) {
+        if (!lets_through(l.blockers, l.from, off)) continue;
         const double visible = l.visibility_layer == no_index ? 1 : visibility_->at(x, y, l.visibility_layer + sample).x;
         if (visible > 0) sum += visible * reflected(*frame_, p, l.light);
     }

@@ -74,6 +74,7 @@ ViewRecord view_record(const Frame& frame) {
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
     for (const Light& light : shadow_lights(frame)) scene.lights.push_back(record(frame, light));
+    add_blockers(frame, scene);
 
     std::uint32_t shadowed = 0;
     const std::vector<ShadowView> views = shadow_views(frame);

@@ -38,7 +38,7 @@ Technique brute_force() {
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
         .counter_bytes = sizeof(BruteForceCounters),
-        .cannot = {Feature::area_lights, Feature::projected_textures, Feature::blockers, Feature::portals, Feature::clip_planes},
+        .cannot = {Feature::area_lights, Feature::projected_textures, Feature::clip_planes},
         .add = add,
         .model = brute_force_model,
         .tolerance = {.rmse = 1e-3,
