@@ -172,7 +172,7 @@ std::vector<Counter> counters() {
 
 std::vector<TimeRatio> ratios() {
     const std::vector<std::string_view> steps = {"culling:", "gbuffer:"};
-    return {{.name = "culling and G-buffer: two phases, against the view's sides alone",
+    return {{.name = "culling and G-buffer: two phases, against the sides of the view alone",
              .of = "",
              .against = "frustum",
              .steps = steps,
