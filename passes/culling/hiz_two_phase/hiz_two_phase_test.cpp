@@ -267,17 +267,15 @@ TEST(hiz_two_phase, the_back_of_a_one_sided_wall_hides_nothing) {
 
 TEST(hiz_two_phase, a_gap_at_a_single_sample_of_four_keeps_what_is_behind_it) {
     // The wall ends at x = 40.5: of the pixels before it all samples are covered, of pixel 40 two of four.
-    const auto behind = [](std::uint32_t samples, double x) -> bool {
-        Frame frame = view_of_90_degrees(samples);
+    const auto behind = [](double x) -> bool {
+        Frame frame = view_of_90_degrees(4);
         add_square(frame, {-11.5, 0, 10}, 14.15625);  // from far left to 32 + 32 * 2.65625 / 10 = 40.5
         add_square(frame, {20 * (x - 32) / 32, 0, 20}, 0.2);
         return drawn(frame)[1];
     };
-    EXPECT_FALSE(behind(4, 39.5));
-    EXPECT_TRUE(behind(4, 40.0));
-    EXPECT_TRUE(behind(4, 40.5));
-    EXPECT_FALSE(behind(1, 39.5));
-    EXPECT_FALSE(behind(1, 40.04));  // the last center it can reach is that of pixel 39
+    EXPECT_FALSE(behind(39.5));
+    EXPECT_TRUE(behind(40.0));
+    EXPECT_TRUE(behind(40.5));
 }
 
 TEST(hiz_two_phase, sizes_are_told_apart_by_an_eighth_of_an_octave) {
