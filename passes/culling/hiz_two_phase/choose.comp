@@ -1,5 +1,5 @@
 // Draws of phase 1: what was visible the last time, and where nothing is known (or in one phase) the largest. Their order does
-// not matter, for depth alone is drawn: commands are packed, and what is not drawn costs nothing.
+// not matter, for depth alone is drawn: commands are packed, and empty ones follow them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
