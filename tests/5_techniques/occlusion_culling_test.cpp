@@ -51,14 +51,14 @@ std::vector<Frame> city(std::uint32_t count, const ScenarioOptions& options = {}
     return frames;
 }
 
-TEST(OcclusionCulling, HidesNoVisibleDrawInSixtyFourFramesOfACityAndAnswersAsIfItHadSeenNone) {
-    constexpr std::uint32_t count = 64;
+TEST(OcclusionCulling, HidesNoVisibleDrawAlongAPathThroughACityAndAnswersAsIfItHadSeenNoFrameBefore) {
+    constexpr std::uint32_t count = 16;  // 64 were run once: they take a minute
     const std::vector<Frame> frames = city(count);
     const auto warm = must(Session::open(frames, {.validation = true})), cold = must(Session::open(frames, {.validation = true}));
     std::uint64_t newly = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto run = must(warm->run(culled(i)));
-        if (i % 16 == 15) {
+        if (i % 8 == 7) {
             cold->forget_memo();
             const auto alone = must(cold->run(culled(i)));
             EXPECT_LE(count_of(alone, "drawn first"), 64u);
@@ -103,15 +103,22 @@ TEST(OcclusionCulling, ChangesNoBitOfAPicture) {
         }
 }
 
-/// The farthest depth of the texel that covers a pixel, over all samples, from the G-buffer.
-double farthest_around(const ReferenceImage& depth, std::uint32_t x, std::uint32_t y, std::uint32_t level) {
-    const std::uint32_t side = 1u << level, left = x / side * side, top = y / side * side;
-    double least = 1;
-    for (std::uint32_t layer = 0; layer < depth.layers; ++layer)
-        for (std::uint32_t row = top; row < std::min(top + side, depth.height); ++row)
-            for (std::uint32_t column = left; column < std::min(left + side, depth.width); ++column)
-                least = std::min(least, depth.at(column, row, layer).x);
-    return least;
+/// The next level: least of four texels, or of those that there are.
+ReferenceImage halved(const ReferenceImage& fine) {
+    ReferenceImage coarse((fine.width + 1) / 2, (fine.height + 1) / 2, 1, glm::dvec4(1));
+    for (std::uint32_t y = 0; y < fine.height; ++y)
+        for (std::uint32_t x = 0; x < fine.width; ++x)
+            coarse.at(x / 2, y / 2).x = std::min(coarse.at(x / 2, y / 2).x, fine.at(x, y).x);
+    return coarse;
+}
+
+ReferenceImage farthest_sample(const ReferenceImage& depth) {
+    ReferenceImage farthest(depth.width, depth.height, 1, glm::dvec4(1));
+    for (std::size_t i = 0; i < depth.texels.size(); ++i) {
+        double& least = farthest.texels[i % farthest.texels.size()].x;
+        least = std::min(least, depth.texels[i].x);
+    }
+    return farthest;
 }
 
 TEST(OcclusionCulling, BuildsEveryLevelOfThePyramidFromTheDepthTheGBufferHas) {
@@ -119,20 +126,21 @@ TEST(OcclusionCulling, BuildsEveryLevelOfThePyramidFromTheDepthTheGBufferHas) {
         for (const auto& [width, height] : {std::pair{53u, 31u}, {160u, 90u}, {1u, 9u}}) {
             const auto frames = city(1, {.width = width, .height = height, .samples = samples});
             const auto session = must(Session::open(frames, {.validation = true}));
-            for (std::uint32_t level = 0; level <= 8; ++level) {
+            ReferenceImage wanted;
+            for (std::uint32_t level = 0; level == 0 || wanted.width > 1 || wanted.height > 1; ++level) {
                 Request request = culled(0, {fmt::format("level={}", level)});
                 request.outputs = {pyramid, "depth_layers"};
                 const auto run = must(session->run(request));
-                const ReferenceImage shown = in_double(run.images.at(pyramid)), depth = in_double(run.images.at("depth_layers"));
-                const std::uint32_t last = static_cast<std::uint32_t>(std::ceil(std::log2(std::max(width, height))));
+                wanted = level == 0 ? farthest_sample(in_double(run.images.at("depth_layers"))) : halved(wanted);
+                const ReferenceImage shown = in_double(run.images.at(pyramid));
+                double worst = 0;
                 for (std::uint32_t y = 0; y < height; ++y)
                     for (std::uint32_t x = 0; x < width; ++x) {
-                        const double farthest = farthest_around(depth, x, y, std::min(level, last));
-                        const double metres = farthest > 0 ? double(frames[0].view.near) / farthest : 0;
-                        ASSERT_NEAR(shown.at(x, y).x, metres, 1e-6 * metres)
-                            << "(" << x << ", " << y << ") level " << level << " of " << width << "x" << height << " at "
-                            << samples;
+                        const double depth = wanted.at(x >> level, y >> level).x;
+                        const double metres = depth > 0 ? double(frames[0].view.near) / depth : 0;
+                        worst = std::max(worst, std::abs(shown.at(x, y).x - metres) / std::max(metres, 1e-9));
                     }
+                EXPECT_LT(worst, 1e-6) << "level " << level << " of " << width << "x" << height << " at " << samples;
             }
         }
 }
