@@ -16,6 +16,8 @@ std::function<Result<void>()> declare_bench(CLI::App&);
 std::function<Result<void>()> declare_spectra(CLI::App&);
 std::function<Result<void>()> declare_diff(CLI::App&);
 std::function<Result<void>()> declare_probe(CLI::App&);
+std::function<Result<void>()> declare_isa(CLI::App&);
+std::function<Result<void>()> declare_isa_compile(CLI::App&);
 
 std::span<const Verb> verbs() {
     static constexpr Verb table[] = {
@@ -33,6 +35,8 @@ std::span<const Verb> verbs() {
         {"spectra", "what lit tiles need, and the shading modes that serve them at the least cost", declare_spectra},
         {"diff", "two captures, settings, devices or images: what differs, where, by how much", declare_diff},
         {"probe", "one pixel: its fragments in order, and T(z) of every method beside the exact steps", declare_probe},
+        {"isa", "what a GPU's compiler makes of every pipeline: registers, waves and what limits them, modelled times", declare_isa},
+        {"isa-compile", "compile what strata isa asks for", declare_isa_compile},
     };
     return table;
 }
