@@ -149,8 +149,7 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     const vec3 offset = light.position - position;
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
-    const float tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    const float slope = min(tangent, shadow_slope_limit);
+    const float slope = min(sqrt(1.0 - cosine * cosine) / cosine, shadow_slope_limit);
     const float w = (map.view_to_map * vec4(position, 1.0)).w;
     const float radius = soft ? 0.5 : 0.70710678 * float(shadow_kernel) + 0.5;
     float towards = map.bias + radius * map.texel * w * slope;
@@ -162,8 +161,8 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return 1.0;
     const bool at_seams = !sun && light.shadow_slots > 1u;
     if (!soft) return fixed_kernel(MapPoint(record, u, at.z / at.w, vec2(0.0), at_seams));
-    const vec2 gradient = plane_gradient(map, at, normal) * (slope / max(tangent, 1e-6));
-    return soft_kernel(MapPoint(record, u, at.z / at.w, gradient, at_seams), sun, first_direction(position));
+    const MapPoint point = MapPoint(record, u, at.z / at.w, plane_gradient(map, at, normal), at_seams);
+    return soft_kernel(point, sun, first_direction(position));
 }
 
 // +x, -x, +y, -y, +z, -z of the world.
