@@ -74,10 +74,10 @@ Frame spot_and_box(std::uint32_t frame, const ScenarioOptions& options) {
 }
 
 /// A post on the left under a wide spot, a ball on the right beside a glowing globe, a bar over both in a hazy sun, whose
-/// penumbra is .19 m wide across its rays: 2 tan(.06) times 1.3 m times 1.19 along them.
+/// penumbra is .31 m wide across its rays: 2 tan(.1) times 1.3 m times 1.19 along them.
 Frame soft_shadows(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
-    builder.look({.eye = {0, 2.6, 4.2}, .target = {0, 0.3, 0}});
+    builder.look({.eye = {0, 2.3, 3}, .target = {0, 0.3, 0}});
     builder.draw(builder.add(box({4, 0.1f, 4})), builder.add(lambert("floor", glm::vec3(0.6f))), {.position = {0, -0.1, 0}});
     const std::uint32_t stone = builder.add(lambert("stone", {0.6f, 0.5f, 0.4f}));
     builder.draw(builder.add(box({0.12f, 0.5f, 0.12f})), stone, {.position = {-1.1, 0.5, 0.2}, .yaw = 0.5});
@@ -90,18 +90,18 @@ Frame soft_shadows(std::uint32_t frame, const ScenarioOptions& options) {
     spot.range = 7;
     spot.inner_angle = 0.4f;
     spot.outer_angle = 0.6f;
-    spot.source_radius = 0.12f;
+    spot.source_radius = 0.25f;
     spot.shadow = {.casts = true, .map_size = 256, .soft = true};
     builder.frame.lights.push_back(spot);
     Light globe = lamp("soft globe", {0.3, 0.9, 0.5}, glm::vec3(0.6f, 0.9f, 1.4f));
     globe.range = 5;
-    globe.source_radius = 0.1f;
+    globe.source_radius = 0.15f;
     globe.shadow = {.casts = true, .map_size = 128, .soft = true};
     builder.frame.lights.push_back(globe);
     Sun& sun = builder.frame.sun;
     sun.direction = glm::normalize(glm::vec3(0.4f, -1, 0.5f));
     sun.irradiance = {0.9f, 0.8f, 0.6f};
-    sun.angular_radius = 0.06f;
+    sun.angular_radius = 0.1f;
     sun.shadow = {.casts = true, .map_size = 256, .soft = true};
     sun.cascades = 2;
     sun.shadow_distance = 9;

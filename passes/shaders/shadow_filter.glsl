@@ -20,22 +20,22 @@ const float greatest_disc_radius = 32.0;
 
 // A receiver in a map: where, in texels with centers at +.5, how deep, and what its plane gains in depth per texel.
 struct MapPoint {
-    uint record;
+    ivec3 corner;    // of the map: its first texel, its layer
+    int size;
+    bool at_seams;   // a face of a cube: taps stay on it
+    bool sun;
     vec2 u;
     float depth;
     vec2 gradient;
-    bool at_seams;  // a face of a cube: taps stay on it
+    float penumbra;  // its width in texels per depth between receiver and blocker
 };
 
-ivec2 kept_on_face(MapPoint p, ivec2 texel) {
-    return p.at_seams ? clamp(texel, ivec2(0), ivec2(int(shadows[p.record].size) - 1)) : texel;
-}
+ivec2 kept_on_face(MapPoint p, ivec2 texel) { return p.at_seams ? clamp(texel, ivec2(0), ivec2(p.size - 1)) : texel; }
 
 // Outside the map and where nothing was drawn depth is 0: infinitely far from the light.
 float map_depth(MapPoint p, ivec2 texel) {
-    const int size = int(shadows[p.record].size);
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(size)))) return 0.0;
-    return texelFetch(shadow_maps, ivec3(texel + ivec2(shadows[p.record].offset), shadows[p.record].layer), 0).r;
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(p.size)))) return 0.0;
+    return texelFetch(shadow_maps, p.corner + ivec3(texel, 0), 0).r;
 }
 
 // Of the receiver's plane over a texel's center.
@@ -78,34 +78,32 @@ vec2 first_direction(vec3 position) {
     return vec2(cos(turn), sin(turn));
 }
 
-// Metres per unit of depth in the sun's map.
-float depth_metres(ShadowRecord map) {
-    return 1.0 / length(vec3(map.view_to_map[0].z, map.view_to_map[1].z, map.view_to_map[2].z));
+// The penumbra is w (zR - zB) / zB wide on the receiver, where a texel t has t zR metres. With z = near / depth that is
+// w (depthB - depthR) / (near t) texels; of the sun, whose depth is in units of its range, w (depthB - depthR) range / t.
+float penumbra_per_depth(ShadowRecord map, bool sun) {
+    const float near = map.view_to_map[3].z;
+    const float per_metre = length(vec3(map.view_to_map[0].z, map.view_to_map[1].z, map.view_to_map[2].z));
+    return map.source_width / ((sun ? per_metre : near) * map.texel);
 }
 
-// Radius in texels of the disc that the light's source is, seen from the receiver, where what blocks it has this depth: half the
-// penumbra w (zR - zB) / zB on the receiver, zR texels large there; of the sun half of w (zR - zB).
-float disc_radius(MapPoint p, bool sun, float blocker_depth) {
-    const ShadowRecord map = shadows[p.record];
-    const float near = map.view_to_map[3].z;  // of a perspective map: depth is near / z
-    const float width = sun ? map.source_width * (blocker_depth - p.depth) * depth_metres(map)
-                            : map.source_width * (blocker_depth - p.depth) / near;
-    return clamp(0.5 * width / map.texel, least_disc_radius, greatest_disc_radius);
+// Radius in texels of the disc that the source is, seen from the receiver, where what blocks it has this depth.
+float disc_radius(MapPoint p, float blocker_depth) {
+    return clamp(0.5 * p.penumbra * (blocker_depth - p.depth), least_disc_radius, greatest_disc_radius);
 }
 
 // Mean depth of the texels of a disc that stand before the receiver; 0 where none does. Distances are averaged, not depths.
-float mean_blocker(MapPoint p, bool sun, vec2 direction) {
-    const float radius = disc_radius(p, sun, 1.0);
+float mean_blocker(MapPoint p, vec2 direction) {
+    const float radius = disc_radius(p, 1.0);
     float sum = 0.0, blockers = 0.0;
     for (int i = 0; i < shadow_search_taps; ++i) {
         const ivec2 texel = kept_on_face(p, ivec2(floor(p.u + radius * disc_tap(i, shadow_search_taps, direction))));
         direction = golden_turn(direction);
         const float depth = map_depth(p, texel);
         if (depth <= plane_depth(p, texel)) continue;
-        sum += sun ? depth : 1.0 / depth;
+        sum += p.sun ? depth : 1.0 / depth;
         blockers += 1.0;
     }
-    return blockers == 0.0 ? 0.0 : sun ? sum / blockers : blockers / sum;
+    return blockers == 0.0 ? 0.0 : p.sun ? sum / blockers : blockers / sum;
 }
 
 uint bilinear_lit(MapPoint p, vec2 u) {
@@ -118,10 +116,10 @@ uint bilinear_lit(MapPoint p, vec2 u) {
 }
 
 // A disc as wide as the penumbra.
-float soft_kernel(MapPoint p, bool sun, vec2 direction) {
-    const float blocker = mean_blocker(p, sun, direction);
+float soft_kernel(MapPoint p, vec2 direction) {
+    const float blocker = mean_blocker(p, direction);
     if (blocker == 0.0) return 1.0;
-    const float radius = disc_radius(p, sun, blocker);
+    const float radius = disc_radius(p, blocker);
     uint sum = 0u;
     for (int i = 0; i < shadow_filter_taps; ++i) {
         sum += bilinear_lit(p, p.u + radius * disc_tap(i, shadow_filter_taps, direction));
@@ -149,8 +147,7 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     const vec3 offset = light.position - position;
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
-    const float tangent = sqrt(1.0 - cosine * cosine) / cosine;
-    const float slope = min(tangent, shadow_slope_limit);
+    const float slope = min(sqrt(1.0 - cosine * cosine) / cosine, shadow_slope_limit);
     const float w = (map.view_to_map * vec4(position, 1.0)).w;
     const float radius = soft ? 0.5 : 0.70710678 * float(shadow_kernel) + 0.5;
     float towards = map.bias + radius * map.texel * w * slope;
@@ -161,9 +158,12 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     const float reach = soft ? greatest_disc_radius + 1.0 : float(shadow_kernel);
     if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return 1.0;
     const bool at_seams = !sun && light.shadow_slots > 1u;
-    if (!soft) return fixed_kernel(MapPoint(record, u, at.z / at.w, vec2(0.0), at_seams));
-    const vec2 gradient = plane_gradient(map, at, normal) * (slope / max(tangent, 1e-6));
-    return soft_kernel(MapPoint(record, u, at.z / at.w, gradient, at_seams), sun, first_direction(position));
+    const ivec3 corner = ivec3(map.offset, map.layer);
+    MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0);
+    if (!soft) return fixed_kernel(point);
+    point.gradient = plane_gradient(map, at, normal);
+    point.penumbra = penumbra_per_depth(map, sun);
+    return soft_kernel(point, first_direction(position));
 }
 
 // +x, -x, +y, -y, +z, -z of the world.

@@ -73,16 +73,12 @@ LookupScene::LookupScene(const Frame& recorded, const ReferenceImage& drawn, con
       lights(shadow_lights(recorded)),
       filter(settings) {}
 
-double slope_of(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
-    const double cosine = std::clamp(glm::dot(receiver.normal, to_light(scene, view, receiver).direction), 1e-3, 1.0);
-    return std::tan(std::acos(cosine));
-}
-
 std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver,
                                     KernelSize kernel) {
     const Towards to = to_light(scene, view, receiver);
     const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
-    const double slope = std::min(slope_of(scene, view, receiver), double(scene.filter.slope_limit));
+    const double cosine = std::clamp(glm::dot(receiver.normal, to.direction), 1e-3, 1.0);
+    const double slope = std::min(std::tan(std::acos(cosine)), double(scene.filter.slope_limit));
     const double moved = std::min(view.bias + kernel.radius * view.texel * w * slope, 0.5 * to.distance);
     const glm::dvec4 at = view.view_to_map * glm::dvec4(receiver.position + moved * to.direction, 1);
     if (at.w <= 0) return std::nullopt;

@@ -30,9 +30,6 @@ struct KernelSize {
 };
 std::optional<Lookup> biased_lookup(const LookupScene&, const ShadowView&, const Receiver&, KernelSize);
 
-/// Tangent of the angle between the receiver's normal and the light, up to 1000.
-double slope_of(const LookupScene&, const ShadowView&, const Receiver&);
-
 /// The share of one map that a fixed kernel lights.
 Filtered fixed_lookup(const LookupScene&, const ShadowView&, const Receiver&);
 

@@ -37,12 +37,10 @@ Filtered soft_lookup(const LookupScene& scene, const ShadowView& view, const Rec
     const Towards to = towards(scene.frame, scene.lights[view.light], receiver.position);
     const glm::dvec4 depth_row = glm::transpose(view.view_to_map)[2];
     const bool is_sun = scene.lights[view.light].type == LightType::directional;
-    const double slope = slope_of(scene, view, receiver);
     const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
     const double doubtful_metres = 2e-6 * (1 + glm::length(receiver.position) + (is_sun ? 0 : to.distance));
     SoftLookup soft{.at = *at, .source = view.source_width, .texel = view.texel};
-    soft.gradient =
-        plane_gradient(view, *at, receiver.normal) * std::min(slope, double(scene.filter.slope_limit)) / std::max(slope, 1e-6);
+    soft.gradient = plane_gradient(view, *at, receiver.normal);
     soft.near = is_sun ? 0 : depth_row.w;
     soft.depth_metres = is_sun ? 1 / glm::length(glm::dvec3(depth_row)) : 0;
     soft.turn = scene.filter.noise != 0 ? pixel_turn(receiver) : 0;
