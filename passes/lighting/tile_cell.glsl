@@ -18,6 +18,9 @@ const float farthest_cell = 1e18;
 const float relative_slack = 4e-6;
 // What a cosine of two unit vectors may be off; a cone is widened by it, which is most where it is narrow.
 const float cosine_slack = 1e-6;
+// Axes of a capture are unit and perpendicular within 2e-3 (unit_tolerance of capture_format/inspection.h): bounds that need
+// more reach so much farther.
+const float axis_slack = 1.01;
 
 // Of tile_size x tile_size pixels, cut off at the picture's edge, from z_near to z_far (metres of view depth; equal is legal).
 Cell tile_cell(uvec2 tile, uint tile_size, float z_near, float z_far) {
@@ -68,18 +71,20 @@ bool cone_touches(vec3 axis, float cosine, vec3 from_apex, float radius, float r
 }
 
 bool round_spot_touches(LightRecord light, Cell cell, float slack) {
-    const float cosine = light.cos_outer - cosine_slack;
+    const float scale = inversesqrt(dot(light.direction, light.direction));
+    const float cosine = light.cos_outer * scale - cosine_slack;
     if (cosine <= 0.0) return true;
+    const vec3 axis = light.direction * scale;
     // Up to 45 degrees the sphere through the apex and the rim of the cap, above it the one around the rim.
     const float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
     const bool narrow = cosine >= sine;
     const float ahead = narrow ? light.range / (2.0 * cosine) : light.range * cosine;
     const float radius = narrow ? ahead : light.range * sine;
-    if (!sphere_touches(light.position + light.direction * ahead, radius + slack, cell)) return false;
+    if (!sphere_touches(light.position + axis * ahead, radius + slack, cell)) return false;
     const vec3 center = 0.5 * (0.5 * (cell.corners[0] + cell.corners[3]) + 0.5 * (cell.corners[4] + cell.corners[7]));
     float around = 0.0;
     for (uint i = 0u; i < 8u; ++i) around = max(around, distance(center, cell.corners[i]));
-    return cone_touches(light.direction, cosine, center - light.position, around + slack, light.range);
+    return cone_touches(axis, cosine, center - light.position, around + slack, light.range);
 }
 
 // Least and largest dot(plane.xyz, p) + plane.w of the cell.
@@ -111,12 +116,12 @@ bool square_spot_touches(LightRecord light, Cell cell, float slack) {
         const vec3 normal = cell.planes[i].xyz;
         const float apex = dot(normal, light.position) + cell.planes[i].w;
         const float base = dot(normal, light.direction) + abs(dot(normal, wide)) + abs(dot(normal, high));
-        if (max(apex, apex + light.range * base) < -slack) return false;
+        if (max(apex, apex + axis_slack * light.range * base) < -slack) return false;
     }
     return true;
 }
 
-// A disc or rectangle lights one side of its plane, up to its range: half a box against the corners, and its corners against
+// A rectangle lights one side of its plane, up to its range: half a box against the corners, and its corners against
 // the cell's planes.
 bool half_box_touches(LightRecord light, Cell cell, float slack) {
     const vec3 axis_v = cross(light.direction, light.axis_u);
@@ -124,11 +129,12 @@ bool half_box_touches(LightRecord light, Cell cell, float slack) {
     const vec2 along_v = reach_along(vec4(axis_v, -dot(axis_v, light.position)), cell);
     const vec2 ahead = reach_along(vec4(light.direction, -dot(light.direction, light.position)), cell);
     const float least = max(max(along_u.x, along_v.x), ahead.x), most = min(along_u.y, along_v.y);
-    if (least > light.range + slack || most < -light.range - slack || ahead.y < -slack) return false;
+    const float range = axis_slack * light.range;
+    if (least > range + slack || most < -range - slack || ahead.y < -slack) return false;
     for (uint i = 0u; i < 6u; ++i) {
         const vec3 normal = cell.planes[i].xyz;
         const float aside = abs(dot(normal, light.axis_u)) + abs(dot(normal, axis_v)) + max(0.0, dot(normal, light.direction));
-        if (dot(normal, light.position) + cell.planes[i].w + light.range * aside < -slack) return false;
+        if (dot(normal, light.position) + cell.planes[i].w + range * aside < -slack) return false;
     }
     return true;
 }
@@ -158,7 +164,9 @@ bool light_touches(LightRecord light, Cell cell) {
     if (!sphere_touches(light.position, light.range + slack, cell)) return false;
     if (light.type == shape_round_spot && !round_spot_touches(light, cell, slack)) return false;
     if (light.type == shape_square_spot && !square_spot_touches(light, cell, slack)) return false;
-    if ((light.type == shape_disc || light.type == shape_rectangle) && !half_box_touches(light, cell, slack)) return false;
+    if (light.type == shape_rectangle && !half_box_touches(light, cell, slack)) return false;
+    // One-sided, too, but its axis_u may be anything.
+    if (light.type == shape_disc && is_beyond(light.direction, light.position, cell, slack)) return false;
     return !is_clipped(light, cell, slack);
 }
 
