@@ -33,10 +33,10 @@ Cell tile_cell(uvec2 tile, uint tile_size, float z_near, float z_far) {
         const float x = (i & 1u) != 0u ? lower_right.x : upper_left.x, y = (i & 2u) != 0u ? lower_right.y : upper_left.y;
         cell.corners[i] = vec3(x, y, 1.0) * ((i & 4u) != 0u ? cell.z_far : cell.z_near);
     }
-    cell.planes[0] = vec4(vec3(1.0, 0.0, -upper_left.x) * inversesqrt(1.0 + upper_left.x * upper_left.x), 0.0);
-    cell.planes[1] = vec4(vec3(-1.0, 0.0, lower_right.x) * inversesqrt(1.0 + lower_right.x * lower_right.x), 0.0);
-    cell.planes[2] = vec4(vec3(0.0, 1.0, -lower_right.y) * inversesqrt(1.0 + lower_right.y * lower_right.y), 0.0);
-    cell.planes[3] = vec4(vec3(0.0, -1.0, upper_left.y) * inversesqrt(1.0 + upper_left.y * upper_left.y), 0.0);
+    cell.planes[0] = vec4(vec3(1.0, 0.0, -upper_left.x) / sqrt(1.0 + upper_left.x * upper_left.x), 0.0);
+    cell.planes[1] = vec4(vec3(-1.0, 0.0, lower_right.x) / sqrt(1.0 + lower_right.x * lower_right.x), 0.0);
+    cell.planes[2] = vec4(vec3(0.0, 1.0, -lower_right.y) / sqrt(1.0 + lower_right.y * lower_right.y), 0.0);
+    cell.planes[3] = vec4(vec3(0.0, -1.0, upper_left.y) / sqrt(1.0 + upper_left.y * upper_left.y), 0.0);
     cell.planes[4] = vec4(0.0, 0.0, 1.0, -cell.z_near);
     cell.planes[5] = vec4(0.0, 0.0, -1.0, cell.z_far);
     return cell;
