@@ -11,14 +11,14 @@
 #include "passes/shaders/lights.glsl"
 
 layout(local_size_x = 256) in;
-layout(constant_id = 60) const uint gbuffer_layout = 0u;
-layout(constant_id = 61) const uint has_edges = 0u;
-layout(constant_id = 62) const uint has_shadows = 0u;
-layout(constant_id = 63) const uint shadow_source = shadows_image;
-layout(constant_id = 64) const uint branches = branches_specialized;
-layout(constant_id = 65) const uint mode = 0u;
-layout(constant_id = 66) const uint mode_features = every_light_feature;
-layout(constant_id = 67) const uint asks_blockers = 1u;  // of lights without a list
+layout(constant_id = 80) const uint gbuffer_layout = 0u;
+layout(constant_id = 81) const uint has_edges = 0u;
+layout(constant_id = 82) const uint has_shadows = 0u;
+layout(constant_id = 83) const uint shadow_source = shadows_image;
+layout(constant_id = 84) const uint branches = branches_specialized;
+layout(constant_id = 85) const uint mode = 0u;
+layout(constant_id = 86) const uint mode_features = every_light_feature;
+layout(constant_id = 87) const uint asks_blockers = 1u;  // of lights without a list
 
 layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;

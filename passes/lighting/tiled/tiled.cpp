@@ -4,6 +4,7 @@
 #include "passes/lighting/tiled/modes.h"
 #include "passes/lighting/tiled/ratios.h"
 #include "passes/lighting/tiled/views.h"
+#include "passes/shadows/filter.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -22,7 +23,8 @@ constexpr std::string_view branch_kinds[] = {"specialized", "uniform"};
 
 void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const CulledTiles& culled, std::uint32_t mode) {
     const bool is_inline = params.shadows == shadows_inline;
-    graph.compute("lighting/tiled/shade.comp")
+    ComputePass pass = graph.compute("lighting/tiled/shade.comp");
+    fix_shadow_filter(pass, frame.shadow_filter)
         .samples("gbuffer0", frame.gbuffer0)
         .samples("gbuffer1", frame.gbuffer1)
         .samples("gbuffer2", frame.gbuffer2)
