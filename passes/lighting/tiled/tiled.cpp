@@ -1,0 +1,207 @@
+// Tiled lighting: per tile only the lights that reach it, less those that blockers hide, shaded by the cheapest shader that does
+// what they and the tile's surfaces need.
+#include "passes/lighting/tiled/culling.h"
+#include "passes/lighting/tiled/modes.h"
+#include "passes/lighting/tiled/ratios.h"
+#include "passes/lighting/tiled/views.h"
+#include "passes/shadows/filter.h"
+#include "passes/technique.h"
+
+namespace strata::lighting {
+
+ImageSet tiled_model(const StageInput&, const Settings&);
+
+namespace {
+
+// In the order of the constants in tiled.shared.h.
+constexpr std::string_view switches[] = {"off", "on"};
+constexpr std::string_view blocker_uses[] = {"per_pixel", "tile_only", "off"};
+constexpr std::string_view overflows[] = {"batch", "drop"};
+constexpr std::string_view prefilters[] = {"auto", "off", "on"};
+constexpr std::string_view shadow_sources[] = {"image", "inline"};
+constexpr std::string_view branch_kinds[] = {"specialized", "uniform"};
+
+void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const CulledTiles& culled, std::uint32_t mode) {
+    const bool is_inline = params.shadows == shadows_inline;
+    ComputePass pass = graph.compute("lighting/tiled/shade.comp");
+    fix_shadow_filter(pass, frame.shadow_filter)
+        .samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
+        .samples("visibility", is_inline ? Image{} : frame.visibility)
+        .samples("shadow_maps", is_inline ? frame.shadow_maps : Image{})
+        .samples("edges", frame.edges)
+        .updates("light", frame.light)
+        .loads("Records", culled.records)
+        .loads("Tiles", culled.tiles)
+        .loads("Dispatches", culled.dispatches)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
+        .fixes("has_edges", frame.edges ? 1u : 0u)
+        .fixes("has_shadows", has_shadows(frame, params) ? 1u : 0u)
+        .fixes("shadow_source", params.shadows)
+        .fixes("branches", params.branches)
+        .fixes("mode", mode >> 16)
+        .fixes("mode_features", mode & 0xffffu)
+        .fixes("asks_blockers", params.blockers == blockers_per_pixel ? 1u : 0u)
+        .indirect(culled.dispatches, (mode >> 16) * sizeof(ModeDispatch));
+}
+
+void add(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return;
+    const auto params = settings.as<TiledParams>();
+    frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
+    // Tiles without anything to light are in no list.
+    graph.clear(frame.light, {{0, 0, 0, 1}});
+    const CulledTiles culled = cull_tiles(graph, frame, params);
+    for (std::uint32_t i = 0; i < culled.order.count; ++i) shade(graph, frame, params, culled, culled.order.modes[i]);
+}
+
+template <auto Member>
+Param mode_row(std::string_view name, double features) {
+    return param<Member>({.name = name,
+                          .low = 0,
+                          .high = 65535,
+                          .fallback = features,
+                          .help = "features of the shading mode, bits of light_features.shared.h added up"});
+}
+
+// Those of the talk's read-out (lighting chapter 3.4) are its modes 0, 6 and 11: mode_1, mode_2 and mode_3. Round spots, omni
+// lights and darks cost next to nothing and are in all.
+std::vector<Param> mode_rows() {
+    return {
+        mode_row<&TiledParams::mode_0>("mode_0", 0xffff),    // all
+        mode_row<&TiledParams::mode_1>("mode_1", 0x0464),    // shadows
+        mode_row<&TiledParams::mode_2>("mode_2", 0x04f7),    // blockers, portals, shadows, square spots, tubes
+        mode_row<&TiledParams::mode_3>("mode_3", 0x07ff),    // all but clip planes and lighting models
+        mode_row<&TiledParams::mode_4>("mode_4", 0x0460),    // nothing special
+        mode_row<&TiledParams::mode_5>("mode_5", 0x0467),    // blockers, portals, shadows
+        mode_row<&TiledParams::mode_6>("mode_6", 0x047c),    // shadows, soft ones too, square spots
+        mode_row<&TiledParams::mode_7>("mode_7", 0x07f4),    // shadows and every kind of light
+        mode_row<&TiledParams::mode_8>("mode_8", 0x7464),    // shadows, lighting models
+        mode_row<&TiledParams::mode_9>("mode_9", 0x7467),    // the same with blockers and portals
+        mode_row<&TiledParams::mode_10>("mode_10", 0x0c64),  // shadows, clip planes
+        mode_row<&TiledParams::mode_11>("mode_11", 0x047f),  // blockers, portals, soft shadows, square spots
+        mode_row<&TiledParams::mode_12>("mode_12", 0x07fc),  // soft shadows and every kind of light
+        mode_row<&TiledParams::mode_13>("mode_13", 0x0fff),  // all but lighting models
+        mode_row<&TiledParams::mode_14>("mode_14", 0x77ff),  // all but clip planes
+        mode_row<&TiledParams::mode_15>("mode_15", 0x0ffc),  // all but blockers, portals and lighting models
+    };
+}
+
+std::vector<Param> params() {
+    std::vector<Param> rows = {
+        param<&TiledParams::half_z>(
+            {.name = "half_z",
+             .fallback = 1,
+             .help = "two cells per tile, one on either side of the middle of its depths, each as deep as what is in it",
+             .choices = switches}),
+        param<&TiledParams::blockers>(
+            {.name = "blockers",
+             .fallback = blockers_per_pixel,
+             .help = "per_pixel: tested where a blocker's shadow has an edge; tile_only: they darken whole tiles or nothing; "
+                     "off: they let light through",
+             .choices = blocker_uses}),
+        param<&TiledParams::classify>({.name = "classify",
+                                       .fallback = 1,
+                                       .help = "blockers and portals against tiles; without it pixels test all of them",
+                                       .choices = switches}),
+        param<&TiledParams::overflow>({.name = "overflow",
+                                       .fallback = overflow_batch,
+                                       .help = "a tile's lights beyond 64: in further batches, or dropped",
+                                       .choices = overflows}),
+        param<&TiledParams::prefilter>(
+            {.name = "prefilter",
+             .fallback = prefilter_automatic,
+             .help = "a list of candidates for each 128 x 128 pixels; auto: with more than 1024 lights",
+             .choices = prefilters}),
+        param<&TiledParams::shadows>({.name = "shadows",
+                                      .fallback = shadows_image,
+                                      .help = "from the shadow stage's image, or filtered here, where a light is not culled",
+                                      .choices = shadow_sources}),
+        param<&TiledParams::branches>(
+            {.name = "branches",
+             .fallback = branches_specialized,
+             .help = "specialized: a shader per mode; uniform: one of all features that branches on the tile's spectrum",
+             .choices = branch_kinds}),
+        param<&TiledParams::force>({.name = "force",
+                                    .low = 0,
+                                    .high = 65535,
+                                    .fallback = 0,
+                                    .help = "features that every tile is said to have: what one costs"}),
+        param<&TiledParams::modes>({.name = "modes",
+                                    .low = 1,
+                                    .high = 16,
+                                    .fallback = 8,
+                                    .help = "shading modes: mode_0 and on, and one of all features if none of them is"}),
+    };
+    const std::vector<Param> modes = mode_rows();
+    rows.insert(rows.end(), modes.begin(), modes.end());
+    return rows;
+}
+
+std::vector<Counter> counters() {
+    return {
+        counter<&TiledCounters::tiles>({.name = "tiles", .help = "of 16 x 16 pixels"}),
+        counter<&TiledCounters::empty_tiles>({.name = "empty tiles", .help = "of these, with nothing to light"}),
+        counter<&TiledCounters::lights_touching>({.name = "lights touching", .help = "a tile, summed over tiles"}),
+        counter<&TiledCounters::lights_kept>({.name = "lights kept", .help = "of these, shaded in the tile"}),
+        counter<&TiledCounters::lights_killed>(
+            {.name = "lights killed", .help = "of these, hidden from all of the tile by a blocker"}),
+        counter<&TiledCounters::portals_none>({.name = "portals none", .help = "(light, portal) that the tile has nothing of"}),
+        counter<&TiledCounters::portals_partial>({.name = "portals partial", .help = "(light, portal) that its pixels test"}),
+        counter<&TiledCounters::portals_full>({.name = "portals full", .help = "(light, portal) open to all of the tile"}),
+        counter<&TiledCounters::blockers_none>({.name = "blockers none", .help = "(light, blocker) that shade nothing of it"}),
+        counter<&TiledCounters::blockers_partial>({.name = "blockers partial", .help = "(light, blocker) with an edge in it"}),
+        counter<&TiledCounters::blockers_full>({.name = "blockers full", .help = "(light, blocker) that shade all of it"}),
+        counter<&TiledCounters::tiles_over_lights>({.name = "tiles over 64 lights", .help = "done in batches, or cut"}),
+        counter<&TiledCounters::tiles_over_blocker_pairs>(
+            {.name = "tiles over 256 blocker pairs", .help = "in a batch; the rest is tested by pixels"}),
+        counter<&TiledCounters::tiles_over_portal_pairs>(
+            {.name = "tiles over 256 portal pairs", .help = "in a batch; the rest is tested by pixels"}),
+        counter<&TiledCounters::tiles_testing_pixels>(
+            {.name = "tiles testing pixels", .help = "whose pixels test a blocker of any light"}),
+        counter<&TiledCounters::unlisted_tiles>(
+            {.name = "unlisted tiles", .help = "for whose lights no record was left: shaded with all that follow, untested"}),
+        counter<&TiledCounters::most_lights>({.name = "most lights", .help = "that reach one tile"}),
+        counter<&TiledCounters::most_blocker_pairs>({.name = "most blocker pairs", .help = "of one batch"}),
+        counter<&TiledCounters::most_portal_pairs>({.name = "most portal pairs", .help = "of one batch"}),
+        counter<&TiledCounters::modes_used>({.name = "modes used", .help = "by any tile"}),
+        counter<&TiledCounters::samples_shaded>(
+            {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
+        counter<&TiledCounters::evaluations>({.name = "evaluations", .help = "listed lights, summed over samples shaded"}),
+        counter<&TiledCounters::blocker_tests>(
+            {.name = "blocker tests", .help = "(light, blocker) asked for, summed over samples shaded"}),
+    };
+}
+
+}  // namespace
+
+Technique tiled() {
+    return {
+        .stage = Stage::lighting,
+        .name = "lighting/tiled",
+        .title = "Tiled, with light blockers and feature spectra",
+        .source =
+            "Kircher: Rendering Technology in Agents of Mayhem, GDC 2018; Andersson: DirectX 11 Rendering in Battlefield 3, "
+            "GDC 2011",
+        .summary =
+            "Lists the lights of each tile of 16 x 16 pixels, drops what blockers hide from all of it, and shades it by a shader "
+            "with no more features than it needs; exact like a loop over all lights, slow where depth jumps within a tile.",
+        .params = params(),
+        .points = {"modes=1", "modes=16", "branches=uniform", "classify=off", "half_z=off", "prefilter=on", "shadows=inline",
+                   "blockers=tile_only", "overflow=drop"},
+        .counters = counters(),
+        .counter_bytes = sizeof(TiledCounters),
+        .views = tiled_views(),
+        .tables = tiled_tables(),
+        .ratios = tiled_ratios(),
+        .add = add,
+        .model = tiled_model,
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 4e-3,
+                      .because =
+                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
+                          "of alpha 0.002 by 1e-4 of its width"}};
+}
+
+}  // namespace strata::lighting

@@ -1,0 +1,138 @@
+#include "passes/lighting/tiled/views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/lighting/tiled/culling.h"
+#include "passes/lighting/tiled/views.shared.h"
+
+namespace strata::lighting {
+namespace {
+
+// The least that a device of the baseline has (maxImageDimension2D).
+constexpr std::uint32_t most_rows = 4096;
+
+/// A table is an image one texel wide.
+Image numbers_of(Graph& graph, std::uint32_t rows) {
+    return graph.create("tiled table", Shape{.extent = {1, rows}, .format = Format::rgba32f});
+}
+
+Image nothing_shaded(Graph& graph, Extent extent, double value) {
+    Image nothing = graph.create("tiled nothing", Shape{.extent = extent, .format = Format::rgba32f});
+    graph.clear(nothing, {{value, value, value, 1}});
+    return nothing;
+}
+
+template <std::uint32_t shown>
+Image picture(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return nothing_shaded(graph, frame.extent, 0);
+    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    Image picture = graph.create("tiled view", Shape{.extent = frame.extent, .format = Format::rgba32f});
+    graph.compute("lighting/tiled/view.comp")
+        .loads("Records", culled.records)
+        .loads("Statistics", culled.statistics)
+        .stores("picture", picture)
+        .fixes("shown", shown)
+        .over(frame.extent);
+    return picture;
+}
+
+/// No row where nothing is opaque.
+Image no_rows(Graph& graph) { return nothing_shaded(graph, {1, 1}, NAN); }
+
+Image spectra_table(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return no_rows(graph);
+    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    Buffer histogram = graph.create("tiled histogram", 65536 * sizeof(std::uint32_t));
+    graph.clear(histogram, 0);
+    graph.compute("lighting/tiled/spectra_count.comp")
+        .loads("Records", culled.records)
+        .updates("Histogram", histogram)
+        .fixes("tile_count", culled.count())
+        .push(culled.order)
+        .over({culled.count()});
+    Image numbers = numbers_of(graph, std::min(culled.count(), most_rows));
+    graph.compute("lighting/tiled/spectra_table.comp")
+        .loads("Histogram", histogram)
+        .stores("numbers", numbers)
+        .push(culled.order)
+        .groups({1, 1, 1});
+    return numbers;
+}
+
+Image mode_table(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return no_rows(graph);
+    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    Image numbers = numbers_of(graph, culled.order.count);
+    graph.compute("lighting/tiled/mode_table.comp")
+        .loads("Dispatches", culled.dispatches)
+        .stores("numbers", numbers)
+        .push(culled.order)
+        .over({1, culled.order.count});
+    return numbers;
+}
+
+template <std::uint32_t shown>
+Image list_table(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return no_rows(graph);
+    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    const auto lights = static_cast<std::uint32_t>(std::min<std::size_t>(frame.recorded->lights.size() + 1, most_listed));
+    const std::uint32_t rows_per_tile = std::clamp(most_rows / culled.count(), 1u, lights);
+    Image numbers = numbers_of(graph, std::min(culled.count() * rows_per_tile, most_rows));
+    graph.compute("lighting/tiled/list_table.comp")
+        .loads("Records", culled.records)
+        .stores("numbers", numbers)
+        .fixes("shown", shown)
+        .fixes("rows_per_tile", rows_per_tile)
+        .over({1, graph.shape(numbers).extent.height});
+    return numbers;
+}
+
+}  // namespace
+
+std::vector<DebugView> tiled_views() {
+    return {
+        {"tile modes", "a color for the shading mode of each tile; black where nothing is shaded", "", 0, 1, picture<view_modes>},
+        {"LDS occupancy",
+         "what culling holds of a tile, as shares of what it has room for: lights of 64 red, (light, blocker) pairs of 256 "
+         "green, (light, portal) pairs of 256 blue",
+         "", 0, 1, picture<view_lists>},
+        {"LDS bytes", "of 2048 that the lists, pairs and masks of a tile use", "bytes", 0, 2048, picture<view_bytes>},
+        {"overflow",
+         "red: more than 64 lights; green: more than 256 (light, blocker) pairs; blue: more than 256 (light, portal) pairs, "
+         "in total and not per pixel",
+         "", 0, 1, picture<view_overflow>},
+        {"tile lights", "red: lights that are shaded; green: those that reach the tile, blockers left aside", "lights", 0, 64,
+         picture<view_lights>},
+        {"pixel tests", "(light, blocker) that every pixel of the tile tests: where a blocker's shadow has an edge", "pairs", 0,
+         16, picture<view_pixel_tests>},
+        {"culled lights", "red: lights killed by a blocker; green: candidates that do not reach the tile", "lights", 0, 64,
+         picture<view_culled>},
+        {"tile features", "bits of the tile's feature spectrum", "bits", 0, 16, picture<view_features>},
+    };
+}
+
+std::vector<DebugTable> tiled_tables() {
+    return {
+        {.name = "spectra",
+         .help = "feature spectra, most tiles first: bits of light_features.shared.h, tiles, the mode that shades them, and what "
+                 "the mode has that they do not need",
+         .columns = {{"spectrum", "bits"}, {"tiles", ""}, {"mode", ""}, {"superfluous", "bits"}},
+         .add = spectra_table},
+        {.name = "modes",
+         .help = "shading modes this frame may need, from cheap to dear: number, features, tiles",
+         .columns = {{"mode", ""}, {"features", "bits"}, {"tiles", ""}},
+         .add = mode_table},
+        {.name = "lists",
+         .help = "lights of each tile, and which of the light's 32 blockers the tile's pixels test; the first ones of each tile "
+                 "where they are more than fit",
+         .columns = {{"tile", ""}, {"light", ""}, {"blockers 0 to 15", "bits"}, {"blockers 16 to 31", "bits"}},
+         .add = list_table<list_blockers>},
+        {.name = "portals",
+         .help = "the same of the light's 32 portals",
+         .columns = {{"tile", ""}, {"light", ""}, {"portals 0 to 15", "bits"}, {"portals 16 to 31", "bits"}},
+         .add = list_table<list_portals>},
+    };
+}
+
+}  // namespace strata::lighting
