@@ -5,8 +5,9 @@
 
 namespace strata::lighting {
 
-EveryLight::EveryLight(const StageInput& input)
+EveryLight::EveryLight(const StageInput& input, LightForm form)
     : frame_(&input.frame),
+      form_(form),
       normal_(&input.before.at("surface_normal")),
       color_(&input.before.at("surface_color")),
       material_(&input.before.at("surface_material")) {
@@ -31,7 +32,8 @@ glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample
     glm::dvec3 sum(0);
     for (const ShadowedLight& l : lights_) {
         const double visible = l.visibility_layer == no_index ? 1 : visibility_->at(x, y, l.visibility_layer + sample).x;
-        if (visible > 0) sum += visible * reflected(*frame_, p, l.light);
+        if (visible == 0) continue;
+        sum += visible * (form_ == LightForm::exact ? exact_reflected(*frame_, p, l.light) : reflected(*frame_, p, l.light));
     }
     return sum;
 }

@@ -1,4 +1,4 @@
-// Light and fog, written from lighting chapter 0.3 to 0.5 and transparency chapter 0.4.
+// Reflectance and fog, written from lighting chapter 0.5 and transparency chapter 0.4.
 #include "passes/reference/shade.h"
 
 #include <algorithm>
@@ -11,42 +11,10 @@ namespace strata {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Metres: the inverse square law ends here (lighting chapter 0.3, e).
-constexpr double nearest_light = 0.01;
 // Smallest width of a GGX lobe and smallest cosine of the eye (lighting chapter 0.5).
 constexpr double smallest_lobe = 0.002, smallest_cosine = 1e-4;
 
 double saturate(double x) { return std::clamp(x, 0.0, 1.0); }
-
-struct Incident {
-    glm::dvec3 to_light{0};
-    glm::dvec3 irradiance{0};  ///< on a plane facing the light
-};
-
-double window(double distance, double range) {
-    const double rest = saturate(1 - std::pow(distance / range, 4));
-    return distance < range ? rest * rest : 0;
-}
-
-double cone(const Frame& frame, const Light& light, const glm::dvec3& to_light) {
-    const glm::dvec3 axis = frame.view.to_view * glm::dvec3(light.direction);
-    const double outer = std::cos(double(light.outer_angle)), inner = std::cos(double(light.inner_angle));
-    const double t = saturate((glm::dot(-to_light, axis) - outer) / std::max(inner - outer, 1e-4));
-    return t * t;
-}
-
-Incident incident(const Frame& frame, const Light& light, const glm::dvec3& position) {
-    const glm::dvec3 intensity = light.intensity;
-    if (light.type == LightType::directional) return {-(frame.view.to_view * glm::dvec3(light.direction)), intensity};
-    if (light.type != LightType::omni && light.type != LightType::round_spot) return {};
-    const glm::dvec3 offset = to_view(frame, light.position) - position;
-    const double distance = glm::length(offset);
-    if (distance == 0) return {};
-    const glm::dvec3 to_light = offset / distance;
-    const double share = light.type == LightType::round_spot ? cone(frame, light, to_light) : 1;
-    const double squared = std::max(distance * distance, nearest_light * nearest_light);
-    return {to_light, intensity * (share * window(distance, double(light.range)) / squared)};
-}
 
 glm::dvec3 ggx(const SurfacePoint& surface, const glm::dvec3& l, const glm::dvec3& v) {
     const glm::dvec3 h = glm::normalize(l + v);
@@ -91,13 +59,6 @@ glm::dvec3 brdf(const SurfacePoint& surface, glm::dvec3 to_light, glm::dvec3 to_
     const double l_h = saturate(glm::dot(to_light, glm::normalize(to_light + to_eye)));
     const double shape = renormalized_burley(surface.roughness, n_l, n_v, l_h);
     return lambert * ((1 - surface.metallic) * shape) + ggx(surface, to_light, to_eye);
-}
-
-glm::dvec3 reflected(const Frame& frame, const SurfacePoint& surface, const Light& light) {
-    const Incident arriving = incident(frame, light, surface.position);
-    const double cosine = glm::dot(surface.normal, arriving.to_light);
-    if (cosine <= 0 || arriving.irradiance == glm::dvec3(0)) return glm::dvec3(0);
-    return brdf(surface, arriving.to_light, glm::normalize(-surface.position)) * arriving.irradiance * std::min(cosine, 1.0);
 }
 
 Light sun_light(const Frame& frame) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "passes/culling/opaque_draws.h"
@@ -117,13 +118,16 @@ ShadowView spot_view(const Frame& frame, const Light& light) {
 }
 
 bool has_map(const Light& light) {
-    return light.shadow.casts && (light.type == LightType::round_spot || light.type == LightType::square_spot) &&
-           light.range > 0 && light.intensity != glm::vec3(0);
+    return light.shadow.casts && (light.type == LightType::round_spot || light.type == LightType::square_spot);
 }
 
 bool sun_shines(const Frame& frame) { return frame.sun.irradiance != glm::vec3(0); }
 
 }  // namespace
+
+bool shines(const Light& light) {
+    return light.intensity != glm::vec3(0) && (light.type == LightType::directional || light.range > 0);
+}
 
 std::vector<double> cascade_ends(double near, double far, std::uint32_t count, double share) {
     std::vector<double> ends;
@@ -137,7 +141,7 @@ std::vector<double> cascade_ends(double near, double far, std::uint32_t count, d
 std::vector<Light> shadow_lights(const Frame& frame) {
     std::vector<Light> lights;
     if (sun_shines(frame)) lights.push_back(sun_light(frame));
-    lights.insert(lights.end(), frame.lights.begin(), frame.lights.end());
+    std::ranges::copy_if(frame.lights, std::back_inserter(lights), shines);
     return lights;
 }
 
@@ -148,11 +152,11 @@ std::vector<ShadowView> shadow_views(const Frame& frame) {
         for (const std::uint32_t draw : caster_draws(frame)) casters.push_back(bounding_sphere(frame, draw));
         add_cascades(frame, casters, views);
     }
-    const std::uint32_t first_local = sun_shines(frame) ? 1 : 0;
-    for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
-        if (!has_map(frame.lights[i])) continue;
-        views.push_back(spot_view(frame, frame.lights[i]));
-        views.back().light = first_local + i;
+    const std::vector<Light> lights = shadow_lights(frame);
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (!has_map(lights[i])) continue;
+        views.push_back(spot_view(frame, lights[i]));
+        views.back().light = i;
     }
     return views;
 }

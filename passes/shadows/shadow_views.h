@@ -26,8 +26,11 @@ struct ShadowView {
 /// Of the lights that can have maps (the sun, round and square spots), shine and cast. Others cast no mapped shadow.
 std::vector<ShadowView> shadow_views(const Frame&);
 
-/// Lights in the order of the device's light list: the sun first when it shines, then Frame::lights.
+/// Lights in the order of the device's light list: the sun first when it shines, then those of Frame::lights that do. A light of no
+/// intensity or range is not on it.
 std::vector<Light> shadow_lights(const Frame&);
+/// Whether a light has intensity and, unless it is directional, range.
+bool shines(const Light&);
 /// Lights that have views, each once: the k-th owns the layers k * samples ... of FrameImages::visibility.
 std::vector<std::uint32_t> shadowed_lights(std::span<const ShadowView>);
 

@@ -22,6 +22,7 @@ layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
+layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -51,7 +52,7 @@ float faded() {
 vec3 lit(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
-    for (uint i = 0u; i < view.light_count; ++i) sum += reflected(m, lights[i]);
+    for (uint i = 0u; i < view.light_count; ++i) sum += reflected(m, lights[i], light_features);
     return sum;
 }
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include "passes/reference/ltc_table.h"
+
 namespace strata {
 namespace {
 
@@ -19,6 +21,9 @@ std::span<const std::byte> bytes_of(const SceneRecords& scene) {
 
 std::span<const std::byte> view_bytes(const SceneRecords& scene) { return std::as_bytes(std::span(&scene.view, 1)); }
 
+// The same for every scene.
+std::span<const std::byte> ltc_bytes(const SceneRecords&) { return std::as_bytes(ltc_table()); }
+
 constexpr BufferRow rows[] = {
     {"View", view_bytes},
     {"Vertices", bytes_of<&SceneRecords::vertices>},
@@ -28,11 +33,13 @@ constexpr BufferRow rows[] = {
     {"Texels", bytes_of<&SceneRecords::texels>},
     {"Lights", bytes_of<&SceneRecords::lights>},
     {"Shadows", bytes_of<&SceneRecords::shadows>},
+    {"ClipPlanes", bytes_of<&SceneRecords::clip_planes>},
+    {"LtcTable", ltc_bytes},
     // Not offered to shaders as such, but the source of every draw list.
     {"DrawCommands", bytes_of<&SceneRecords::commands>},
     {"Indices", bytes_of<&SceneRecords::indices>},
 };
-constexpr std::size_t commands_row = 8, indices_row = 9;
+constexpr std::size_t commands_row = 10, indices_row = 11;
 
 // A buffer of nothing still has to exist: a storage buffer of zero bytes is no buffer.
 constexpr std::array<std::byte, 16> nothing{};

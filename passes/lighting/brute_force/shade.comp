@@ -12,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint gbuffer_layout = 0u;
 layout(constant_id = 1) const uint has_visibility = 0u;
 layout(constant_id = 2) const uint has_edges = 0u;
+layout(constant_id = 22) const uint light_features = every_light_feature;
 
 layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
@@ -33,7 +34,7 @@ float visibility_of(LightRecord l, ivec3 at) {
 
 vec3 every_light(MaterialPoint m, ivec3 at) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < view.light_count; ++i) sum += visibility_of(lights[i], at) * reflected(m, lights[i]);
+    for (uint i = 0u; i < view.light_count; ++i) sum += visibility_of(lights[i], at) * reflected(m, lights[i], light_features);
     return clamp(sum, -largest_half, largest_half);
 }
 
