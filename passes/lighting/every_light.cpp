@@ -5,8 +5,9 @@
 
 namespace strata::lighting {
 
-EveryLight::EveryLight(const StageInput& input)
+EveryLight::EveryLight(const StageInput& input, LightForm form)
     : frame_(&input.frame),
+      form_(form),
       normal_(&input.before.at("surface_normal")),
       color_(&input.before.at("surface_color")),
       material_(&input.before.at("surface_material")) {
@@ -31,11 +32,12 @@ glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample
     if (normal_->at(x, y, sample).w <= 0) return glm::dvec3(0);
     const SurfacePoint p = surface(x, y, sample);
     glm::dvec3 sum(0);
-    const glm::dvec3 off = off_surface(p.position, p.normal);
+    const glm::dvec3 off = off_surface(p.position, facing_normal(p));
     for (const ShadowedLight& l : lights_) {
         if (!lets_through(l.blockers, l.from, off)) continue;
         const double visible = l.visibility_layer == no_index ? 1 : visibility_->at(x, y, l.visibility_layer + sample).x;
-        if (visible > 0) sum += visible * reflected(*frame_, p, l.light);
+        if (visible == 0) continue;
+        sum += visible * (form_ == LightForm::exact ? exact_reflected(*frame_, p, l.light) : reflected(*frame_, p, l.light));
     }
     return sum;
 }

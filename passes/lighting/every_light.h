@@ -4,15 +4,18 @@
 #include <vector>
 
 #include "passes/reference/blockers.h"
-#include "passes/reference/shade.h"
+#include "passes/reference/lights.h"
 #include "passes/stages.h"
 
 namespace strata::lighting {
 
+/// As the shaders do it, or with area lights integrated (passes/reference/lights.h).
+enum class LightForm { real_time, exact };
+
 class EveryLight {
 public:
     /// Reads surface_normal, surface_color, surface_material and, where it exists, visibility.
-    explicit EveryLight(const StageInput&);
+    explicit EveryLight(const StageInput&, LightForm = LightForm::real_time);
 
     std::uint32_t width() const { return normal_->width; }
     std::uint32_t height() const { return normal_->height; }
@@ -30,6 +33,7 @@ private:
     SurfacePoint surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;
 
     const Frame* frame_;
+    LightForm form_;
     const ReferenceImage *normal_, *color_, *material_, *visibility_ = nullptr;
     std::vector<ShadowedLight> lights_;
 };

@@ -10,6 +10,7 @@
 
 #include "capture_format/frame_features.h"
 #include "passes/reference/blockers.h"
+#include "passes/reference/lights.h"
 #include "passes/reference/ordering.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/surfaces.h"

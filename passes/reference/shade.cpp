@@ -1,58 +1,11 @@
-// Light and fog, written from lighting chapter 0.3 and 0.4 and transparency chapter 0.4.
+// Fog and ambient light, written from transparency chapter 0.4 and lighting chapter 0.
 #include "passes/reference/shade.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
 namespace strata {
-namespace {
-
-// Metres: the inverse square law ends here (lighting chapter 0.3, e).
-constexpr double nearest_light = 0.01;
-
-double saturate(double x) { return std::clamp(x, 0.0, 1.0); }
-
-struct Incident {
-    glm::dvec3 to_light{0};
-    glm::dvec3 irradiance{0};  ///< on a plane facing the light
-};
-
-double window(double distance, double range) {
-    const double rest = saturate(1 - std::pow(distance / range, 4));
-    return distance < range ? rest * rest : 0;
-}
-
-double cone(const Frame& frame, const Light& light, const glm::dvec3& to_light) {
-    const glm::dvec3 axis = frame.view.to_view * glm::dvec3(light.direction);
-    const double outer = std::cos(double(light.outer_angle)), inner = std::cos(double(light.inner_angle));
-    const double t = saturate((glm::dot(-to_light, axis) - outer) / std::max(inner - outer, 1e-4));
-    return t * t;
-}
-
-Incident incident(const Frame& frame, const Light& light, const glm::dvec3& position) {
-    const glm::dvec3 intensity = light.intensity;
-    if (light.type == LightType::directional) return {-(frame.view.to_view * glm::dvec3(light.direction)), intensity};
-    if (light.type != LightType::omni && light.type != LightType::round_spot) return {};
-    const glm::dvec3 offset = to_view(frame, light.position) - position;
-    const double distance = glm::length(offset);
-    if (distance == 0) return {};
-    const glm::dvec3 to_light = offset / distance;
-    const double share = light.type == LightType::round_spot ? cone(frame, light, to_light) : 1;
-    const double squared = std::max(distance * distance, nearest_light * nearest_light);
-    return {to_light, intensity * (share * window(distance, double(light.range)) / squared)};
-}
-
-}  // namespace
-
-glm::dvec3 reflected(const Frame& frame, const SurfacePoint& surface, const Light& light) {
-    const Incident arriving = incident(frame, light, surface.position);
-    const double cosine = brdf_cosine(surface, arriving.to_light);
-    if (cosine <= 0 || arriving.irradiance == glm::dvec3(0)) return glm::dvec3(0);
-    return brdf(surface, arriving.to_light, glm::normalize(-surface.position)) * arriving.irradiance * cosine;
-}
-
 Light sun_light(const Frame& frame) {
     Light light;
     light.name = "sun";

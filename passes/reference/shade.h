@@ -1,4 +1,4 @@
-// Materials and lights in double, written from the formulas and not from the shaders.
+// Materials and ambient light in double, written from the formulas and not from the shaders.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,9 +25,6 @@ struct SurfacePoint {
 /// of detail from the uv derivatives of the triangle's plane at that pixel, as passes/shaders/material.glsl defines it).
 SurfacePoint surface_at(const Frame&, const RasterPoint&);
 
-/// Reflected radiance towards the eye at the origin from one light without shadow: L_o = f E. Directional, omni and round
-/// spot; other types reflect nothing, and clip planes, blockers and projected textures are not applied.
-glm::dvec3 reflected(const Frame&, const SurfacePoint&, const Light&);
 /// The sun as a light, or nothing in its irradiance.
 Light sun_light(const Frame&);
 /// Diffuse light from the hemisphere: albedo (1 - metallic) mix(ground, sky, .5 + .5 n_world.y), times occlusion.

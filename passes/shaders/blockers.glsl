@@ -92,10 +92,4 @@ bool blockers_pass(LightRecord light, vec3 position, uint blocker_mask, uint por
     return true;
 }
 
-// All blockers of a light at a point of a surface: without a tile's masks.
-bool light_reaches(LightRecord light, vec3 position, vec3 normal) {
-    return light.blockers == 0u ||
-           blockers_pass(light, off_surface(position, normal), low_bits(light.blockers), low_bits(light.portals));
-}
-
 #endif

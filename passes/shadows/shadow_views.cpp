@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "passes/culling/opaque_draws.h"
@@ -156,6 +157,10 @@ bool sun_shines(const Frame& frame) { return frame.sun.irradiance != glm::vec3(0
 
 }  // namespace
 
+bool shines(const Light& light) {
+    return light.intensity != glm::vec3(0) && (light.type == LightType::directional || light.range > 0);
+}
+
 std::vector<double> cascade_ends(double near, double far, std::uint32_t count, double share) {
     std::vector<double> ends;
     for (std::uint32_t i = 1; i <= count; ++i) {
@@ -168,7 +173,7 @@ std::vector<double> cascade_ends(double near, double far, std::uint32_t count, d
 std::vector<Light> shadow_lights(const Frame& frame) {
     std::vector<Light> lights;
     if (sun_shines(frame)) lights.push_back(sun_light(frame));
-    lights.insert(lights.end(), frame.lights.begin(), frame.lights.end());
+    std::ranges::copy_if(frame.lights, std::back_inserter(lights), shines);
     return lights;
 }
 

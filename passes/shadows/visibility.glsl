@@ -54,8 +54,9 @@ void main() {
     if (depth > 0.0) {
         const vec4 g2 = has_gbuffer2 != 0u ? texelFetch(gbuffer2, at, 0) : vec4(0.0);
         const vec2 center = vec2(at.xy) + 0.5;
-        normal = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0), g2, center).normal;
+        const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0), g2, center);
         position = view_position(vec2(at.xy) + sample_position(uint(at.z)), view_z(depth));
+        normal = facing_normal(s.lighting_model, s.normal, position);
     }
     uint filtered_here = 0u, penumbra_here = 0u;
     for (uint i = 0u; i < view.light_count; ++i) {

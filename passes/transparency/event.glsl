@@ -24,6 +24,7 @@ layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with s
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(constant_id = 9) const uint has_blockers = 0u;    // 1: the frame has lights with blockers
+layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -49,8 +50,11 @@ float faded() {
     return opaque > 0.0 ? clamp((view_z(opaque) - position_here().z) / metres, 0.0, 1.0) : 1.0;
 }
 
+// Whether no blocker stops the light.
 bool reached(LightRecord light, MaterialPoint m) {
-    return has_blockers == 0u || light_reaches(light, m.position, m.normal);
+    if (has_blockers == 0u || light.blockers == 0u) return true;
+    const vec3 above = off_surface(m.position, facing_normal(m.lighting_model, m.normal, m.position));
+    return blockers_pass(light, above, low_bits(light.blockers), low_bits(light.portals));
 }
 
 // All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
@@ -58,7 +62,7 @@ vec3 lit(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
     for (uint i = 0u; i < view.light_count; ++i)
-        if (reached(lights[i], m)) sum += reflected(m, lights[i]);
+        if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
     return sum;
 }
 

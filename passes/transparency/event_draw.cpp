@@ -3,6 +3,7 @@
 #include <cassert>
 #include <utility>
 
+#include "passes/lighting/light_features.h"
 #include "passes/reference/fragments.h"
 #include "passes/texture_uses.h"
 
@@ -15,7 +16,8 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("has_blockers", images.features->has(Feature::blockers) ? 1u : 0u)
-        .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u);
+        .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
+        .fixes("light_features", light_features(*images.recorded));
     return fix_textures(pass, images, Surfaces::transparent);
 }
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "passes/reference/ltc_table.h"
+
 namespace strata {
 namespace {
 
@@ -20,6 +22,9 @@ std::span<const std::byte> bytes_of(const SceneRecords& scene) {
 
 std::span<const std::byte> view_bytes(const SceneRecords& scene) { return std::as_bytes(std::span(&scene.view, 1)); }
 
+// The same for every scene.
+std::span<const std::byte> ltc_bytes(const SceneRecords&) { return std::as_bytes(ltc_table()); }
+
 constexpr BufferRow rows[] = {
     {"View", view_bytes},
     {"Vertices", bytes_of<&SceneRecords::vertices>},
@@ -32,6 +37,8 @@ constexpr BufferRow rows[] = {
     {"Blockers", bytes_of<&SceneRecords::blockers>},
     {"LightBlockers", bytes_of<&SceneRecords::light_blockers>},
     {"BlockerPortals", bytes_of<&SceneRecords::blocker_portals>},
+    {"ClipPlanes", bytes_of<&SceneRecords::clip_planes>},
+    {"LtcTable", ltc_bytes},
     // Not offered to shaders as such, but the source of every draw list.
     {"DrawCommands", bytes_of<&SceneRecords::commands>},
     {"Indices", bytes_of<&SceneRecords::indices>},

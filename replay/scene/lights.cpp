@@ -1,6 +1,7 @@
 // The view, the lights and their shadow maps as records.
 #include <cmath>
 
+#include "passes/lighting/light_features.h"
 #include "passes/reference/shade.h"
 #include "passes/shaders/light_features.shared.h"
 #include "passes/shadows/shadow_views.h"
@@ -9,7 +10,14 @@
 namespace strata {
 namespace {
 
+vec2 tangents(const Light& light) {
+    const double u = std::tan(double(light.outer_angle));
+    const bool square = light.type == LightType::square_spot;
+    return {float(u), float(square ? std::tan(double(light.inner_angle)) : u)};
+}
+
 LightRecord record(const Frame& frame, const Light& light) {
+    const bool is_spot = light.type == LightType::round_spot || light.type == LightType::square_spot;
     return {
         .position = glm::vec3(to_view(frame, light.position)),
         .type = static_cast<uint>(light.type),
@@ -20,6 +28,10 @@ LightRecord record(const Frame& frame, const Light& light) {
         .axis_u = glm::vec3(frame.view.to_view * glm::dvec3(light.axis_u)),
         .cos_inner = float(std::cos(double(light.inner_angle))),
         .cos_outer = float(std::cos(double(light.outer_angle))),
+        .tan_half = is_spot ? tangents(light) : vec2(0),
+        .half_extent = light.half_extent,
+        .texture = light.texture,
+        .features = light_features(light),
         .shadow = no_index,
         .shadow_slots = 0,
         .visibility_layer = no_index,
@@ -39,6 +51,16 @@ ShadowRecord record(const ShadowView& view) {
         .offset = view.offset,
         .layer = view.layer,
     };
+}
+
+// Keeps dot(n, p) + d >= 0 with p camera-relative.
+void add_clip_planes(const Frame& frame, const Light& light, SceneRecords& scene) {
+    scene.lights.back().first_clip = static_cast<uint>(scene.clip_planes.size());
+    scene.lights.back().clips = static_cast<uint>(light.clip_planes.size());
+    for (const ClipPlane& plane : light.clip_planes) {
+        const double distance = plane.distance + glm::dot(plane.normal, frame.view.origin);
+        scene.clip_planes.push_back({glm::vec3(frame.view.to_view * plane.normal), float(distance)});
+    }
 }
 
 ViewRecord view_record(const Frame& frame) {
@@ -73,7 +95,10 @@ ViewRecord view_record(const Frame& frame) {
 }  // namespace
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
-    for (const Light& light : shadow_lights(frame)) scene.lights.push_back(record(frame, light));
+    for (const Light& light : shadow_lights(frame)) {
+        scene.lights.push_back(record(frame, light));
+        add_clip_planes(frame, light, scene);
+    }
     add_blockers(frame, scene);
 
     std::uint32_t shadowed = 0;

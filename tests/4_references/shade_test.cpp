@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes/reference/lights.h"
 #include "passes/reference/shade.h"
 #include "tests/4_references/tiny_frame.h"
 

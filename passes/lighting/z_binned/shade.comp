@@ -26,7 +26,8 @@ uint candidates = 0u, words_read = 0u;
 
 bool is_plain(ivec2 pixel) { return has_edges != 0u && texelFetch(edges, ivec3(pixel, 0), 0).r == 0u; }
 
-vec3 near_lights(MaterialPoint m, vec3 lifted, ivec3 at, vec3 sum) {
+vec3 near_lights(MaterialPoint m, vec3 above, ivec3 at, vec3 everywhere) {
+    precise vec3 sum = everywhere;
     const Span span = span_of(at.xy, m.position.z);
     const bool empty = span.low > span.high;
     uint word = empty ? 0xffffffffu : span.low / 32u, last = empty ? 0u : span.high / 32u;
@@ -42,18 +43,18 @@ vec3 near_lights(MaterialPoint m, vec3 lifted, ivec3 at, vec3 sum) {
         while (left != 0u) {
             const int bit = findLSB(left);
             left &= left - 1u;
-            if ((mine >> bit & 1u) != 0u) sum += light_term(sorted[word * 32u + uint(bit)].light, m, lifted, at);
+            if ((mine >> bit & 1u) != 0u) sum += light_term(sorted[word * 32u + uint(bit)].light, m, above, at);
         }
     }
     return sum;
 }
 
 vec3 binned_light(MaterialPoint m, ivec3 at) {
-    const vec3 lifted = off_surface(m.position, m.normal);
-    vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < header.everywhere; ++i) sum += light_term(sorted[i].light, m, lifted, at);
+    const vec3 above = lifted(m);
+    precise vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < header.everywhere; ++i) sum += light_term(sorted[i].light, m, above, at);
     candidates += header.everywhere;
-    return clamp(near_lights(m, lifted, at, sum), -largest_half, largest_half);
+    return clamp(near_lights(m, above, at, sum), -largest_half, largest_half);
 }
 
 void count_shaded(bool shaded) {

@@ -22,7 +22,7 @@ uint tile_lights(Span span) {
 }
 
 bool does_nothing(uint i, MaterialPoint m, ivec3 at) {
-    return light_term(sorted[i].light, m, off_surface(m.position, m.normal), at) == vec3(0.0);
+    return light_term(sorted[i].light, m, lifted(m), at) == vec3(0.0);
 }
 
 uint pixel_lights(Span span, MaterialPoint m, ivec3 at) {
