@@ -63,8 +63,8 @@ float fixed_kernel(MapPoint p) {
     return sum == total ? 1.0 : float(sum) * (1.0 / float(total));
 }
 
-// Taps of a disc: tap i of n lies sqrt((i + .5) / n) out, each a golden angle (2.39996323) on from the one before (Vogel 1979). Turned
-// by a matrix: sines of large angles are no two devices' the same.
+// Taps of a disc: tap i of n lies sqrt((i + .5) / n) out, each a golden angle (2.39996323) on from the one before (Vogel 1979).
+// Turned by a matrix: sines of large angles are no two devices' the same.
 vec2 golden_turn(vec2 d) { return vec2(-0.73736888 * d.x - 0.67549029 * d.y, 0.67549029 * d.x - 0.73736888 * d.y); }
 
 vec2 disc_tap(int i, int n, vec2 direction) { return sqrt((float(i) + 0.5) / float(n)) * direction; }

@@ -31,7 +31,7 @@ struct Ray {
 };
 
 // Middles of the parts of the unit disc, rings turned against each other so that no straight line runs through many.
-std::vector<glm::dvec2> disc_points() {
+std::vector<glm::dvec2> made_disc_points() {
     std::vector<glm::dvec2> points;
     for (int ring = 0; ring < rings; ++ring) {
         const double radius = std::sqrt((ring + 0.5) / rings), turn = ring * 0.6180339887498949;
@@ -40,6 +40,11 @@ std::vector<glm::dvec2> disc_points() {
             points.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
         }
     }
+    return points;
+}
+
+const std::vector<glm::dvec2>& disc_points() {
+    static const std::vector<glm::dvec2> points = made_disc_points();
     return points;
 }
 
