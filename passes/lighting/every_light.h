@@ -30,6 +30,7 @@ private:
         LightBlockers blockers;
         std::uint32_t visibility_layer = no_index;  ///< of sample 0
     };
+    glm::dvec3 arriving(const ShadowedLight&, const SurfacePoint&) const;
     SurfacePoint surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;
 
     const Frame* frame_;
@@ -37,5 +38,9 @@ private:
     const ReferenceImage *normal_, *color_, *material_, *visibility_ = nullptr;
     std::vector<ShadowedLight> lights_;
 };
+
+/// What a technique gives that leaves out no light that adds anything: real-time forms, sample 0 of plain pixels for all of their
+/// samples, within what a half float holds.
+ImageSet light_of_shaded_samples(const StageInput&);
 
 }  // namespace strata::lighting

@@ -179,7 +179,7 @@ dvec3 as_one_direction(const SurfacePoint& surface, const PlacedLight& at, const
     SurfacePoint widened = surface;
     const double sine = std::sqrt(std::min(irradiance / pi, 1.0));
     widened.roughness = std::sqrt(std::clamp(surface.roughness * surface.roughness + sine / 3, 0.0, 1.0));
-    const double cosine = light_cosine(widened, l);
+    const double cosine = brdf_cosine(widened, l);
     return brdf(widened, l, glm::normalize(-surface.position)) * (cosine * irradiance) * radiance(at, {l, 1});
 }
 

@@ -41,7 +41,7 @@ glm::dvec3 lit(const LitFrame& scene, const SurfacePoint& surface) {
     glm::dvec3 sum = hemisphere_light(frame, surface);
     const Light sun = sun_light(frame);
     if (sun.intensity != glm::vec3(0)) sum += reflected(frame, surface, sun);
-    const glm::dvec3 off = off_surface(surface.position, surface.normal);
+    const glm::dvec3 off = off_surface(surface.position, facing_normal(surface));
     for (std::size_t i = 0; i < frame.lights.size(); ++i)
         if (lets_through(scene.blockers[i], light_point(frame, frame.lights[i]), off))
             sum += reflected(frame, surface, frame.lights[i]);
