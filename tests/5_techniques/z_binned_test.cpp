@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
-#include "passes/lighting/submitted_lights.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/reference/shade.h"
+#include "passes/shadows/shadow_views.h"
 #include "replay/image_io.h"
 #include "tests/support/session.h"
 
@@ -71,7 +71,7 @@ TEST(ZBinned, BinsAreThoseOfTheMirror) {
     const auto& rows = run.tables.at(z_binned + ":bins").rows;
     ASSERT_EQ(rows.size(), 256u);
     std::vector<lighting::DepthReach> reaches;
-    for (const Light& light : lighting::submitted_lights(frame)) {
+    for (const Light& light : shadow_lights(frame)) {
         if (light.type == LightType::round_spot) continue;  // theirs are tighter than their range
         const float z = float(to_view(frame, light.position).z);
         reaches.push_back({z - light.range, z + light.range});

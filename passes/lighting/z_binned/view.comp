@@ -13,7 +13,7 @@ layout(constant_id = 4) const uint shown = 0u;
 layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
 layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
-layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D picture;
+layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D number_of_lights;
 
 uint tile_lights(Span span) {
     uint count = header.everywhere;
@@ -39,7 +39,7 @@ uint pixel_lights(Span span, MaterialPoint m, ivec3 at) {
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID.xy, 0);
-    if (any(greaterThanEqual(at.xy, imageSize(picture)))) return;
+    if (any(greaterThanEqual(at.xy, imageSize(number_of_lights)))) return;
     const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
                                      texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
     float number = 0.0;
@@ -47,5 +47,5 @@ void main() {
         const Span span = span_of(at.xy, s.z);
         number = float(shown == view_tile_lights ? tile_lights(span) : pixel_lights(span, lit_point(s, uvec2(at.xy)), at));
     }
-    imageStore(picture, at.xy, vec4(vec3(number), 1.0));
+    imageStore(number_of_lights, at.xy, vec4(vec3(number), 1.0));
 }

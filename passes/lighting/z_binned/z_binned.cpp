@@ -49,7 +49,7 @@ Image view(Graph& graph, FrameImages& frame, const Settings& settings) {
     const ZBins lists = z_bins(graph, frame, settings.as<ZBinnedParams>());
     Image picture = graph.create("z-bin view", {.extent = frame.extent, .format = Format::rgba32f});
     bind_lists(graph.compute("lighting/z_binned/view.comp"), frame, lists)
-        .stores("picture", picture)
+        .stores("number_of_lights", picture)
         .fixes("shown", shown)
         .over(frame.extent);
     return picture;

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "passes/lighting/submitted_lights.h"
+#include "passes/shadows/shadow_views.h"
 
 namespace strata::lighting {
 namespace {
@@ -15,7 +15,7 @@ std::uint32_t bin_of(const ZHeader& header, const ZBinsPush& push, float z) {
 }
 
 ZBinsPush push_of(const FrameImages& frame, const ZBinnedParams& params) {
-    const auto lights = static_cast<uint>(submitted_lights(*frame.recorded).size());
+    const auto lights = static_cast<uint>(shadow_lights(*frame.recorded).size());
     const uint tile_size = 8u << params.tile;
     return {.lights = lights,
             .padded = std::bit_ceil(std::max(lights, 2u)),
