@@ -36,6 +36,8 @@ constexpr auto table = std::to_array<Scenario>({
     {"spot_and_box", "Is the shadow of one box in one spot light where it should be?", 96, 54, scenario::spot_and_box},
     {"materials", "Do the lighting models differ where they should, roughness by roughness?", 160, 90, scenario::materials},
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
+    {"light_types", "Is each type of light as bright, as large and as soft as it is, surface by surface?", 96, 54,
+     scenario::light_types},
     {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},
     {"foggy_panes", "Is fog between the layers, rather than over the picture?", 96, 54, scenario::foggy_panes},
     {"facade_at_150m", "Are panes 0.3 m apart told apart at 150 m, and from the smoke and the cars behind them?", 96, 54,

@@ -155,7 +155,7 @@ std::vector<StageInfo> made_table() {
          .outputs = {"light"},
          .truth = lighting_truth,
          .judge = lighting_judge,
-         .scenarios = {"one_sphere", "materials", "lights_room", "spot_and_box", "sun_and_boxes"}},
+         .scenarios = {"one_sphere", "materials", "light_types", "lights_room", "spot_and_box", "sun_and_boxes"}},
         {.stage = Stage::sun_shafts,
          .name = "sun_shafts",
          .purpose = "sunlight scattered by the air",
