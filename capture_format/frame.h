@@ -136,7 +136,10 @@ struct ClipPlane {
     double distance = 0;
 };
 
-/// Any light. Intensity is W/sr for points and spots, radiance for areas, irradiance for directional; negative is a "dark".
+/// Any light. Intensity is W/sr for points and spots, irradiance for directional, and for tubes, spheres, discs and rectangles
+/// the radiance of their surface; negative is a "dark". A tube is a capsule: a cylinder along axis_u with half spheres on its
+/// ends. Discs and rectangles shine to the front only. A picture's u grows along axis_u, its v against cross(direction, axis_u)
+/// of view space: one that a spot throws is upright for who stands behind the spot with axis_u to the right.
 struct Light {
     std::string name;
     LightType type = LightType::omni;
@@ -144,7 +147,7 @@ struct Light {
     glm::vec3 direction{0, -1, 0};  ///< where it shines, unit
     glm::vec3 axis_u{1, 0, 0};      ///< unit, perpendicular to direction
     glm::vec3 intensity{1};
-    float range = 10;                              ///< the window is exactly 0 from here on
+    float range = 10;                              ///< from position: the window is exactly 0 from here on
     float source_radius = 0;                       ///< sphere, disc, tube
     glm::vec2 half_extent{0};                      ///< rectangle half sizes; tube half length in x
     float inner_angle = 0.5f, outer_angle = 0.7f;  ///< half angles; a square spot uses outer for u and inner for v

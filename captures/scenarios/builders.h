@@ -52,5 +52,7 @@ Frame hall_of_lights_65(std::uint32_t frame, const ScenarioOptions&);
 Frame hall_of_lights_512(std::uint32_t frame, const ScenarioOptions&);
 Frame hall_of_lights_4096(std::uint32_t frame, const ScenarioOptions&);
 Frame pair_overflow(std::uint32_t frame, const ScenarioOptions&);
+// light_types.cpp
+Frame light_types(std::uint32_t frame, const ScenarioOptions&);
 
 }  // namespace strata::scenario

@@ -29,7 +29,8 @@ std::uint32_t of_type(LightType type) {
 }
 
 bool shows_picture(const Light& light) {
-    const bool can = light.type == LightType::round_spot || light.type == LightType::square_spot || light.type == LightType::rectangle;
+    const bool can =
+        light.type == LightType::round_spot || light.type == LightType::square_spot || light.type == LightType::rectangle;
     return can && light.texture != no_index;
 }
 

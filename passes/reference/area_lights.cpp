@@ -1,5 +1,5 @@
-// Area lights as they are done in real time, in double: outlines as lists of corners, cut at the horizon (Sutherland, Hodgman 1974),
-// summed up by Lambert's formula. Linearly transformed cosines: Heitz, Dupuy, Hill, Neubelt 2016.
+// Area lights as they are done in real time, in double: outlines as lists of corners, cut at the horizon (Sutherland, Hodgman
+// 1974), summed up by Lambert's formula. Linearly transformed cosines: Heitz, Dupuy, Hill, Neubelt 2016.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,6 +28,11 @@ dvec3 perpendicular(const dvec3& a, const dvec3& b) {
     return glm::normalize(glm::cross(std::abs(a.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 0, 1), a));
 }
 
+// Of something; of the point itself, the normal.
+dvec3 direction_to(const dvec3& offset, const dvec3& normal) {
+    return glm::length(offset) > 1e-6 ? glm::normalize(offset) : normal;
+}
+
 /// A circle of directions: center, its rim's axes.
 struct Rim {
     dvec3 center, x, y;
@@ -46,7 +51,7 @@ Polygon circle(const Rim& rim) {
 }
 
 Polygon sphere(const PlacedLight& at, const dvec3& normal) {
-    const dvec3 axis = glm::normalize(at.offset), side = perpendicular(axis, normal);
+    const dvec3 axis = direction_to(at.offset, normal), side = perpendicular(axis, normal);
     const double size = equal_area * std::tan(angle_of(double(at.light->source_radius), glm::length(at.offset)));
     return circle({axis, size * glm::cross(side, axis), size * side});
 }
@@ -72,7 +77,7 @@ double touching_cosine(double a, double b, double apart) {
 Polygon tube(const PlacedLight& at, const dvec3& normal) {
     const dvec3 half = at.axis_u * double(at.light->half_extent.x);
     const dvec3 ends[2] = {at.offset - half, at.offset + half};
-    const dvec3 axes[2] = {glm::normalize(ends[0]), glm::normalize(ends[1])};
+    const dvec3 axes[2] = {direction_to(ends[0], normal), direction_to(ends[1], normal)};
     const dvec3 crossed = glm::cross(axes[0], axes[1]);
     const dvec3 side = glm::length(crossed) > 1e-5 ? glm::normalize(crossed) : perpendicular(axes[0], normal);
     const double apart = std::atan2(glm::length(crossed), glm::dot(axes[0], axes[1]));
@@ -162,16 +167,16 @@ dvec3 radiance(const PlacedLight& at, const Lobe& lobe) {
 }
 
 // Towards the nearest point of the emitter, or against the direction of a flat one: all of it lies on that side.
-dvec3 facing(const PlacedLight& at) {
-    if (at.light->type == LightType::sphere) return glm::normalize(at.offset);
+dvec3 facing(const PlacedLight& at, const dvec3& normal) {
+    if (at.light->type == LightType::sphere) return direction_to(at.offset, normal);
     if (at.light->type != LightType::tube) return -at.direction;
     const double half = double(at.light->half_extent.x);
-    return glm::normalize(at.offset + at.axis_u * std::clamp(-glm::dot(at.offset, at.axis_u), -half, half));
+    return direction_to(at.offset + at.axis_u * std::clamp(-glm::dot(at.offset, at.axis_u), -half, half), normal);
 }
 
 // Everything arrives from the mean direction; the lobe is wider by a third of the emitter's seen radius (after Karis 2013).
 dvec3 as_one_direction(const SurfacePoint& surface, const PlacedLight& at, const Polygon& polygon) {
-    const dmat3 to_facing = frame_of(facing(at), surface.normal);
+    const dmat3 to_facing = frame_of(facing(at, surface.normal), surface.normal);
     const dvec3 sum = glm::transpose(to_facing) * flux(polygon, to_facing);
     const double irradiance = glm::length(sum);
     if (irradiance < 1e-20) return dvec3(0);

@@ -57,9 +57,9 @@ Piece disc(const PlacedLight& at) {
 }
 
 // The cap of directions that a sphere covers.
-Piece sphere(const PlacedLight& at) {
+Piece sphere(const PlacedLight& at, const dvec3& normal) {
     const double radius = double(at.light->source_radius), d = std::max(glm::length(at.offset), 1e-6);
-    const dvec3 axis = at.offset / d;
+    const dvec3 axis = d > 1e-6 ? at.offset / d : normal;
     const double share = std::min(1.0, radius * radius / (d * d)), cap = share / (1 + std::sqrt(1 - share));  // 1 - cos
     const auto [x, y] = perpendiculars(axis);
     return [=](dvec2 p) {
@@ -128,10 +128,10 @@ void add_cap(const TubeFrame& tube, const dvec3& center, const dvec3& axis, std:
     if (end > whole) pieces.push_back(tube_cap(tube, {center, axis, whole, end}));
 }
 
-std::vector<Piece> pieces_of(const PlacedLight& at) {
+std::vector<Piece> pieces_of(const PlacedLight& at, const dvec3& normal) {
     switch (at.light->type) {
         case LightType::sphere:
-            return {sphere(at)};
+            return {sphere(at, normal)};
         case LightType::disc:
             return {disc(at)};
         case LightType::rectangle:
@@ -172,7 +172,7 @@ glm::dvec3 exact_reflected_area(const SurfacePoint& surface, const PlacedLight& 
     const double lobe = std::max(surface.roughness * surface.roughness, smallest_lobe);
     const bool peaks = surface.model != LightingModel::lambert && lobe < wide_lobe;
     dvec3 sum(0);
-    for (const Piece& piece : pieces_of(at)) {
+    for (const Piece& piece : pieces_of(at, surface.normal)) {
         const auto reflected_from = [&](dvec2 p) {
             const EmitterPoint point = piece(p);
             const dvec3 l = glm::normalize(point.to);
@@ -182,11 +182,12 @@ glm::dvec3 exact_reflected_area(const SurfacePoint& surface, const PlacedLight& 
             if (seen == 0) return dvec3(0);
             return brdf(surface, l, v) * emitted_color(at, point.place, 0) * (seen * cosine * point.weight);
         };
-        CubatureOptions cubature{.tolerance = options.tolerance, .most = options.most};
-        if (peaks) cubature.peak = nearest_to(piece, mirrored);
-        // Down to cells as wide as the lobe of a piece that is a radian wide.
-        if (peaks) cubature.levels = static_cast<int>(std::ceil(std::log2(1 / lobe)));
-        sum += integral(reflected_from, cubature);
+        // Down to cells as wide as the lobe on a piece that is a radian wide; at least to where the horizon may leave a corner.
+        const int levels = peaks ? static_cast<int>(std::ceil(std::log2(1 / lobe))) : 2;
+        sum += integral(reflected_from, {.tolerance = options.tolerance,
+                                         .most = options.most,
+                                         .peak = nearest_to(piece, peaks ? mirrored : surface.normal),
+                                         .levels = std::max(levels, 2)});
     }
     return sum * dvec3(at.light->intensity);
 }

@@ -7,7 +7,7 @@
 namespace strata {
 namespace {
 
-constexpr std::array<LtcRecord, ltc_edge * ltc_edge> table = {{
+constexpr std::array<LtcRecord, ltc_edge* ltc_edge> table = {{
 #include "passes/reference/ltc_table.inc"
 }};
 

@@ -18,6 +18,12 @@ vec3 across(vec3 a, vec3 b) {
     return dot(normal, normal) > 1e-8 ? normalize(normal) : normalize(other);
 }
 
+// The direction of something; of the point itself, the normal.
+vec3 direction_to(vec3 offset, vec3 normal) {
+    const float d = length(offset);
+    return d > 1e-6 ? offset / d : normal;
+}
+
 // Tangent of the angle at which a sphere's rim is seen off its center.
 float rim_tangent(float radius, float d) {
     const float sine_squared = min(radius * radius / max(d * d, 1e-12), widest_sine_squared);
@@ -33,9 +39,8 @@ mat3 circle_around(vec3 axis, vec3 normal, float radius) {
 Outline whole_circle(mat3 circle, vec3 facing) { return Outline(circle, circle, vec2(2.0), circle_corners, facing); }
 
 Outline sphere_outline(LightRecord light, vec3 offset, vec3 normal) {
-    const float d = max(length(offset), 1e-6);
-    const vec3 axis = offset / d;
-    return whole_circle(circle_around(axis, normal, circle_scale * rim_tangent(light.source_radius, d)), axis);
+    const vec3 axis = direction_to(offset, normal);
+    return whole_circle(circle_around(axis, normal, circle_scale * rim_tangent(light.source_radius, length(offset))), axis);
 }
 
 Outline disc_outline(LightRecord light, vec3 offset, vec3 normal) {
@@ -55,23 +60,19 @@ Outline rectangle_outline(LightRecord light, vec3 offset) {
 Outline tube_outline(LightRecord light, vec3 offset, vec3 normal) {
     const vec3 half_axis = light.axis_u * light.half_extent.x;
     const vec3 ends[2] = vec3[2](offset - half_axis, offset + half_axis);
-    const float distances[2] = float[2](max(length(ends[0]), 1e-6), max(length(ends[1]), 1e-6));
-    const vec3 axes[2] = vec3[2](ends[0] / distances[0], ends[1] / distances[1]);
+    const vec3 axes[2] = vec3[2](direction_to(ends[0], normal), direction_to(ends[1], normal));
     const vec3 crossed = cross(axes[0], axes[1]);
     const float sine = length(crossed), cosine = dot(axes[0], axes[1]);
     const vec3 side = sine > 1e-5 ? crossed / sine : across(axes[0], normal);
-    const float tangents[2] = float[2](rim_tangent(light.source_radius, distances[0]), rim_tangent(light.source_radius, distances[1]));
-    const vec2 c = inversesqrt(vec2(1.0) + vec2(tangents[0] * tangents[0], tangents[1] * tangents[1]));
-    const vec2 s = c * vec2(tangents[0], tangents[1]);
+    const vec2 t = vec2(rim_tangent(light.source_radius, length(ends[0])), rim_tangent(light.source_radius, length(ends[1])));
+    const vec2 c = inversesqrt(1.0 + t * t), s = c * t;
     Outline outline;
-    const vec2 sizes = circle_scale * vec2(tangents[0], tangents[1]);
-    outline.circle = mat3(cross(side, axes[0]) * sizes.x, side * sizes.x, axes[0]);
-    outline.second = mat3(cross(side, axes[1]) * sizes.y, side * sizes.y, axes[1]);
+    outline.circle = mat3(cross(side, axes[0]) * (circle_scale * t.x), side * (circle_scale * t.x), axes[0]);
+    outline.second = mat3(cross(side, axes[1]) * (circle_scale * t.y), side * (circle_scale * t.y), axes[1]);
     outline.tangents = clamp(vec2(s.x * cosine - s.y, s.x - s.y * cosine) / max(c * sine, 1e-7), -2.0, 2.0);
     outline.corners = circle_corners;
     const float nearest = clamp(-dot(offset, light.axis_u), -light.half_extent.x, light.half_extent.x);
-    const vec3 foot = offset + light.axis_u * nearest;
-    outline.facing = foot / max(length(foot), 1e-6);
+    outline.facing = direction_to(offset + light.axis_u * nearest, normal);
     return outline;
 }
 

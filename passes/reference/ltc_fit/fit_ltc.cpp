@@ -221,11 +221,13 @@ void write_table() {
             const Shape shape = above[column] = fitted(lobe, m.albedo, starts);
             starts = {shape};
             worst = std::max(worst, Misfit(lobe, m.albedo)(shape));
-            const glm::mat3 bent(matrix(shape));
-            rows[row][column] = {bent[0][0], bent[2][0],      bent[1][1],      bent[0][2],
-                                 bent[2][2], float(m.albedo), float(m.fresnel)};
+            // Its scale means nothing, but neighbors are mixed: so that directions are, the axis is a unit vector.
+            const glm::dmat3 unscaled = matrix(shape);
+            const glm::mat3 bent(unscaled * (1 / glm::length(unscaled[2])));
+            rows[row][column] = {bent[0][0], bent[2][0], bent[1][1], bent[0][2], bent[2][2], float(m.albedo), float(m.fresnel)};
         }
-        std::fprintf(stderr, "roughness %.3f: the worst column is off by %.3f of its albedo\n", double(row) / (ltc_edge - 1), worst);
+        std::fprintf(stderr, "roughness %.3f: the worst column is off by %.3f of its albedo\n", double(row) / (ltc_edge - 1),
+                     worst);
     }
     for (const auto& row : rows)
         for (const LtcRecord& r : row)
