@@ -128,7 +128,7 @@ Result<Compilation> compilation_of(const Ended& ended, std::string_view target) 
 
 Result<std::string> find_radv(const char* const* environment) {
     std::string found;
-    const auto add = [&](const std::filesystem::path& path) { found += (found.empty() ? "" : ":") + path.string(); };
+    const auto add = [&](const std::filesystem::path& path) { found.append(found.empty() ? "" : ":").append(path.string()); };
     for (const char* list : driver_lists)
         if (const char* files = variable(environment, list))
             for (const std::string& file : parts(files))

@@ -30,7 +30,7 @@ std::string stages_of(vk::ShaderStageFlags stages) {
         {Bit::eCompute, "compute"}, {Bit::eVertex, "vertex"}, {Bit::eGeometry, "geometry"}, {Bit::eFragment, "fragment"}};
     std::string text;
     for (const auto& [bit, name] : names)
-        if (stages & bit) text += (text.empty() ? "" : " + ") + std::string(name);
+        if (stages & bit) text.append(text.empty() ? "" : " + ").append(name);
     return text;
 }
 

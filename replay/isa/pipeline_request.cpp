@@ -43,9 +43,9 @@ PipelineRequest request_of(const PlannedStep& planned, const std::vector<ImageRe
     kept.step.fixed = fixed_of(planned);
     kept.step.push.resize(planned.step.push.size());
     kept.shaders = planned.shaders;
-    for (const Fixed& fixed : kept.step.fixed) request.label += " " + text(fixed);
+    for (const Fixed& fixed : kept.step.fixed) request.label.append(" ").append(text(fixed));
     for (const PlannedBinding& binding : planned.bindings)
-        kept.bindings.push_back({.set = binding.set, .slot = binding.slot, .kind = binding.kind});
+        kept.bindings.push_back({.binding = {}, .set = binding.set, .slot = binding.slot, .kind = binding.kind});
     for (const Attachment& attachment : planned.step.attachments) {
         const Shape& shape = images[attachment.image.id].shape;
         const Image image{static_cast<std::uint32_t>(request.images.size()), 0};
@@ -101,9 +101,12 @@ Result<PipelineRequest> request_from(const ordered_json& json, const ShaderLibra
         planned.step.shaders.push_back(name);
     }
     for (const ordered_json& fixed : json.value("fixed", ordered_json::array())) planned.step.fixed.push_back(fixed_from(fixed));
-    for (const ordered_json& b : json.value("bindings", ordered_json::array()))
-        planned.bindings.push_back(
-            {.set = b.at(0), .slot = b.at(1), .kind = static_cast<BindingKind>(b.at(2).get<std::uint32_t>())});
+    for (const ordered_json& b : json.value("bindings", ordered_json::array())) {
+        PlannedBinding& binding = planned.bindings.emplace_back();
+        binding.set = b.at(0);
+        binding.slot = b.at(1);
+        binding.kind = static_cast<BindingKind>(b.at(2).get<std::uint32_t>());
+    }
     for (const ordered_json& a : json.value("attachments", ordered_json::array())) {
         const Image image{static_cast<std::uint32_t>(request.images.size()), 0};
         planned.step.attachments.push_back({.access = static_cast<Access>(a.at(0).get<std::uint32_t>()),

@@ -96,6 +96,9 @@ TEST(Occupancy, OfRdnaIsNeverLimitedByTwoKibibytesAndByMoreThanSixteenOnly) {
     for (const std::uint32_t bytes : {2048u, 16384u}) EXPECT_EQ(waves("navi21", rdna_group, 8, bytes), 16) << bytes;
     EXPECT_EQ(waves("navi21", rdna_group, 8, 16385), 14);  // 17 KiB: 7 groups of 128 KiB
     EXPECT_EQ(waves("navi21", rdna_group, 8, 65536), 4);
+    ShaderResources two_waves{.registers = 8, .lds_bytes = 4352, .group_threads = 64, .wave_lanes = 32};
+    EXPECT_EQ(occupancy(model("navi21"), two_waves).groups, 25u);  // granules of 1 KiB: 5 of 128
+    EXPECT_EQ(occupancy(model("navi10"), two_waves).groups, 28u);  // of 512 bytes: 4.5 of 128
     EXPECT_EQ(waves("navi21", rdna_group, 8, 65537), 0) << "no group may have more than 64 KiB";
 }
 

@@ -40,7 +40,7 @@ int differences(const GpuModel& model) {
     const Shader shader = glsl("shared.comp", shared_words);
     std::vector<PipelineRequest> requests;
     for (const std::uint32_t threads : {32u, 64u, 128u, 192u, 256u, 512u, 1024u})
-        for (const std::uint32_t bytes : {256u, 2048u, 6144u, 12288u, 16384u, 16640u, 32768u, 49152u, 65536u})
+        for (const std::uint32_t bytes : {256u, 2048u, 4352u, 6144u, 12288u, 16384u, 16640u, 32768u, 49152u, 65536u})
             requests.push_back(request_of(shader, threads, bytes));
     const Compilation made = must(compile_here(requests, 0, CompilerTexts::left));
     int wrong = 0;
