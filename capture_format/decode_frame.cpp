@@ -194,7 +194,7 @@ Emitter Decoder::emitter(const schema::Emitter& table) {
 }
 
 ShadowUse Decoder::shadow(const schema::ShadowUse& table) {
-    return {.casts = table.casts(), .map_size = table.map_size_px(), .bias = table.bias_m()};
+    return {.casts = table.casts(), .map_size = table.map_size_px(), .bias = table.bias_m(), .soft = table.soft()};
 }
 
 ClipPlane Decoder::clip_plane(const schema::ClipPlane& table) {

@@ -188,7 +188,7 @@ Offset<schema::Emitter> Encoder::emitter(const Emitter& emitter) {
 }
 
 Offset<schema::ShadowUse> Encoder::shadow(const ShadowUse& shadow) {
-    return schema::CreateShadowUse(builder_, shadow.casts, shadow.map_size, shadow.bias);
+    return schema::CreateShadowUse(builder_, shadow.casts, shadow.map_size, shadow.bias, shadow.soft);
 }
 
 Offset<schema::ClipPlane> Encoder::clip_plane(const ClipPlane& plane) {

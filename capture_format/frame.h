@@ -43,7 +43,16 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx };
+/// How a surface reflects. Burley is renormalized, plain_burley as published. Hair's tangents run along its fibres, from root to
+/// tip; without tangents fibres stick out along the normals.
+enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx, cloth, skin, hair, plain_burley, multiscatter_ggx };
+/// The last lighting model.
+inline constexpr LightingModel last_lighting_model = LightingModel::multiscatter_ggx;
+/// Whether `metallic` means anything to a lighting model; elsewhere it counts as 0.
+inline bool has_metals(LightingModel model) {
+    return model == LightingModel::burley || model == LightingModel::ggx || model == LightingModel::plain_burley ||
+           model == LightingModel::multiscatter_ggx;
+}
 enum class AlphaMode : std::uint32_t { opaque, mask, blend, premultiplied, additive };
 /// Whether something behind it may be seen through a covered sample.
 inline bool is_transparent(AlphaMode mode) { return mode != AlphaMode::opaque && mode != AlphaMode::mask; }
@@ -60,7 +69,7 @@ struct Material {
     LightingModel lighting_model = LightingModel::ggx;
     AlphaMode alpha_mode = AlphaMode::opaque;
     glm::vec4 base_color{1};  ///< linear, unpremultiplied; a is coverage
-    float metallic = 0;
+    float metallic = 0;       ///< of models that have metals
     float roughness = 1;
     glm::vec3 emissive{0};  ///< radiance
     float normal_scale = 1;
@@ -118,6 +127,7 @@ struct ShadowUse {
     bool casts = false;
     std::uint32_t map_size = 1024;
     float bias = 0.02f;  ///< metres along the light's rays
+    bool soft = false;   ///< wants penumbrae as wide as its source_radius, the sun's angular_radius, makes them
 };
 
 /// Keeps what lies on the side dot(normal, p) + distance >= 0, world space.
@@ -126,7 +136,10 @@ struct ClipPlane {
     double distance = 0;
 };
 
-/// Any light. Intensity is W/sr for points and spots, radiance for areas, irradiance for directional; negative is a "dark".
+/// Any light. Intensity is W/sr for points and spots, irradiance for directional, and for tubes, spheres, discs and rectangles
+/// the radiance of their surface; negative is a "dark". A tube is a capsule: a cylinder along axis_u with half spheres on its
+/// ends. Discs and rectangles shine to the front only. A picture's u grows along axis_u, its v against cross(direction, axis_u)
+/// of view space: one that a spot throws is upright for who stands behind the spot with axis_u to the right.
 struct Light {
     std::string name;
     LightType type = LightType::omni;
@@ -134,7 +147,7 @@ struct Light {
     glm::vec3 direction{0, -1, 0};  ///< where it shines, unit
     glm::vec3 axis_u{1, 0, 0};      ///< unit, perpendicular to direction
     glm::vec3 intensity{1};
-    float range = 10;                              ///< the window is exactly 0 from here on
+    float range = 10;                              ///< from position: the window is exactly 0 from here on
     float source_radius = 0;                       ///< sphere, disc, tube
     glm::vec2 half_extent{0};                      ///< rectangle half sizes; tube half length in x
     float inner_angle = 0.5f, outer_angle = 0.7f;  ///< half angles; a square spot uses outer for u and inner for v
@@ -145,15 +158,16 @@ struct Light {
     std::vector<std::uint32_t> portals;   ///< indices into Frame::portals, at most 32
 };
 
-/// A rectangle that stops light: center +- u * half_u +- v * half_v.
+/// A rectangle that stops light: center +- u * half_u +- v * half_v. One without area stops nothing.
 struct Blocker {
     glm::dvec3 center{0};
     glm::vec3 u{1, 0, 0}, v{0, 1, 0};
     float half_u = 1, half_v = 1;
-    bool one_sided = false;
+    bool one_sided = false;  ///< stops only light from the side to which cross(u, v) points
 };
 
-/// A hole in a blocker.
+/// A hole in one blocker, projected onto it along its normal; what lies outside of it opens nothing. A door through both faces of
+/// a thick wall is two portals.
 struct Portal {
     glm::dvec3 center{0};
     glm::vec3 u{1, 0, 0}, v{0, 1, 0};

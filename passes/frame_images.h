@@ -13,6 +13,7 @@
 #include "capture_format/frame_features.h"
 #include "passes/capability.h"
 #include "passes/graph/graph.h"
+#include "passes/shadows/shadow_filter.h"
 
 namespace strata {
 
@@ -35,8 +36,9 @@ struct FrameImages {
     // culling
     Image visible;  ///< r32ui, 1024 wide: 1 where the opaque draw (y * 1024 + x of all_opaque) is drawn
     // shadows
-    Image shadow_maps;  ///< d32f, one layer per map (see shadow slots in scene.shared.h), 0 nothing, 1 at the light
-    Image visibility;   ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
+    Image shadow_maps;           ///< d32f, maps in its layers (ShadowRecord of scene.shared.h), 0 nothing, 1 at the light
+    ShadowFilter shadow_filter;  ///< how they are looked up: fixes the constants of passes/shaders/shadow_filter.glsl
+    Image visibility;            ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
     // gbuffer
     Image depth;                         ///< d32f, `samples` samples: reversed, near / z
     Image depth_layers;                  ///< r32f array, layer = sample: the same depth for shaders to read

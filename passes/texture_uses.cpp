@@ -28,6 +28,10 @@ TextureUses texture_uses(const Frame& frame, Surfaces surfaces) {
         add(frame, material.emissive_texture.texture, emissive_texture, uses);
         add(frame, material.occlusion_texture.texture, occlusion_texture, uses);
     }
+    // What is transparent is lit where it is drawn, by lights that may have pictures.
+    for (const Light& light : frame.lights)
+        if (surfaces == Surfaces::transparent && light.texture != no_index)
+            uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[light.texture].format);
     return uses;
 }
 

@@ -37,6 +37,13 @@ public:
     Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
     void forget_memo() override;
 
+    /// A run that executes everything, with what each step took and counted.
+    struct TimedRun {
+        Run run;
+        std::vector<StepCost> step_costs;
+    };
+    Result<TimedRun> time_alone(const Request&);
+
 private:
     /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
     /// kept, and the transparent fragments before it as soon as a model wants them.
@@ -52,11 +59,6 @@ private:
         ImageSet result;
     };
     Result<Inspected> inspect(const Request&, Stage);
-    struct TimedRun {
-        Run run;
-        std::vector<StepCost> step_costs;
-    };
-    Result<TimedRun> time_alone(const Request&);
     /// What is known of a run that executes everything, before any run.
     Result<Run> plan_run(const Request&);
     Result<Run> run_with_acts(const Request&);

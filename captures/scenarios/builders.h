@@ -36,10 +36,23 @@ Frame empty(std::uint32_t frame, const ScenarioOptions&);
 Frame opaque_only(std::uint32_t frame, const ScenarioOptions&);
 Frame one_sphere(std::uint32_t frame, const ScenarioOptions&);
 Frame materials(std::uint32_t frame, const ScenarioOptions&);
+Frame lighting_models(std::uint32_t frame, const ScenarioOptions&);
 // illumination.cpp
 Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
+Frame soft_shadows(std::uint32_t frame, const ScenarioOptions&);
 Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
+Frame blocker_rooms(std::uint32_t frame, const ScenarioOptions&);
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
+// many lights
+Frame agents_hq(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_1(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_64(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_65(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_512(std::uint32_t frame, const ScenarioOptions&);
+Frame hall_of_lights_4096(std::uint32_t frame, const ScenarioOptions&);
+Frame pair_overflow(std::uint32_t frame, const ScenarioOptions&);
+// light_types.cpp
+Frame light_types(std::uint32_t frame, const ScenarioOptions&);
 
 }  // namespace strata::scenario

@@ -326,19 +326,6 @@ Result<void> check_copy(const Graph& graph, const Step& step) {
     return {};
 }
 
-/// The group size with what the step fixes.
-Extent fixed_group(const Step& step, const Shader& shader) {
-    Extent group = shader.group;
-    std::uint32_t* const sizes[] = {&group.width, &group.height, &group.depth};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const Fixed& fixed : step.fixed) {
-            const bool sets_it = !shader.group_constants[axis].empty() && fixed.name == shader.group_constants[axis];
-            if (sets_it) std::visit([&](auto value) { *sizes[axis] = static_cast<std::uint32_t>(value); }, fixed.value);
-        }
-    }
-    return group;
-}
-
 Result<void> count_groups(PlannedStep& planned) {
     const auto* work = std::get_if<ComputeWork>(&planned.step.work);
     if (!work) return {};
@@ -346,7 +333,7 @@ Result<void> count_groups(PlannedStep& planned) {
     if (said != 1) return fail(Fault::usage, "{} must say exactly one of .over(), .groups() and .indirect()", planned.step.name);
     if (work->groups) planned.groups = *work->groups;
     if (work->over) {
-        const Extent group = fixed_group(planned.step, *planned.shaders.front());
+        const Extent group = group_size(planned);
         const auto rounded_up = [](std::uint32_t threads, std::uint32_t size) {
             return (threads + size - 1) / std::max(1u, size);
         };
@@ -357,6 +344,19 @@ Result<void> count_groups(PlannedStep& planned) {
 }
 
 }  // namespace
+
+Extent group_size(const PlannedStep& planned) {
+    const Shader& shader = *planned.shaders.front();
+    Extent group = shader.group;
+    std::uint32_t* const sizes[] = {&group.width, &group.height, &group.depth};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const Fixed& fixed : planned.step.fixed) {
+            const bool sets_it = !shader.group_constants[axis].empty() && fixed.name == shader.group_constants[axis];
+            if (sets_it) std::visit([&](auto value) { *sizes[axis] = static_cast<std::uint32_t>(value); }, fixed.value);
+        }
+    }
+    return group;
+}
 
 Result<PlannedStep> check_step(const Graph& graph, const Step& step, const ShaderLibrary& library) {
     PlannedStep planned;

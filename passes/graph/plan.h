@@ -43,6 +43,9 @@ struct PlannedStep {
     std::uint32_t layers = 1;  ///< that a raster step draws into at once
 };
 
+/// Threads of a group of a compute step, with what the step fixes.
+Extent group_size(const PlannedStep&);
+
 /// One access of a step, whatever verb, offer or work it came from.
 struct Use {
     std::string_view as;  ///< the binding's name, "attachment", "draw commands", ...

@@ -3,15 +3,19 @@
 
 #include <vector>
 
-#include "passes/reference/shade.h"
+#include "passes/reference/blockers.h"
+#include "passes/reference/lights.h"
 #include "passes/stages.h"
 
 namespace strata::lighting {
 
+/// As the shaders do it, or with area lights integrated (passes/reference/lights.h).
+enum class LightForm { real_time, exact };
+
 class EveryLight {
 public:
     /// Reads surface_normal, surface_color, surface_material and, where it exists, visibility.
-    explicit EveryLight(const StageInput&);
+    explicit EveryLight(const StageInput&, LightForm = LightForm::real_time);
 
     std::uint32_t width() const { return normal_->width; }
     std::uint32_t height() const { return normal_->height; }
@@ -22,13 +26,21 @@ public:
 private:
     struct ShadowedLight {
         Light light;
+        glm::dvec4 from{0};  ///< light_point()
+        LightBlockers blockers;
         std::uint32_t visibility_layer = no_index;  ///< of sample 0
     };
+    glm::dvec3 arriving(const ShadowedLight&, const SurfacePoint&) const;
     SurfacePoint surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;
 
     const Frame* frame_;
+    LightForm form_;
     const ReferenceImage *normal_, *color_, *material_, *visibility_ = nullptr;
     std::vector<ShadowedLight> lights_;
 };
+
+/// What a technique gives that leaves out no light that adds anything: real-time forms, sample 0 of plain pixels for all of their
+/// samples, within what a half float holds.
+ImageSet light_of_shaded_samples(const StageInput&);
 
 }  // namespace strata::lighting

@@ -1,5 +1,5 @@
-// The truth of lighting: every light on every sample in double, from the surfaces and the visibility that earlier stages gave,
-// so that this stage is judged alone.
+// The truth of lighting: every light on every sample in double, area lights integrated, from the surfaces and the visibility that
+// earlier stages gave, so that this stage is judged alone.
 #pragma once
 
 #include "passes/stages.h"

@@ -1,23 +1,16 @@
-// What a light sends to a point and what the point reflects to the eye, without shadow (lighting chapter 0.3 and 0.4).
-// Omni, round spot and directional; other types light nothing here (a technique that does them says so).
+// What a point reflects of a light to the eye, without shadow and blockers (lighting chapter 0.3 and 0.4): all types of light, with
+// clip planes and pictures. Any shader stage.
 #ifndef PASSES_SHADERS_LIGHTS_GLSL
 #define PASSES_SHADERS_LIGHTS_GLSL
+#include "passes/shaders/area_lights.glsl"
 #include "passes/shaders/brdf.glsl"
-#include "passes/shaders/scene.glsl"
+#include "passes/shaders/light_types.glsl"
+#include "passes/shaders/projected_texture.glsl"
 
-// LightType of capture_format/frame.h.
-const uint light_omni = 0u;
-const uint light_round_spot = 1u;
-const uint light_directional = 7u;
 // Metres: nearer than this a point light grows no brighter.
 const float nearest_light = 0.01;
-
-// 1 at the light, exactly 0 from its range on: what makes culling by range lossless.
-float range_window(float d, float range) {
-    const float share = d / range;
-    const float rest = clamp(1.0 - share * share * share * share, 0.0, 1.0);
-    return d < range ? rest * rest : 0.0;
-}
+// Share of a square spot's half width over which its edge fades.
+const float square_feather = 0.1;
 
 float spot_cone(LightRecord light, vec3 to_light) {
     const float cosine = dot(-to_light, light.direction);
@@ -25,35 +18,64 @@ float spot_cone(LightRecord light, vec3 to_light) {
     return t * t;
 }
 
+// s: distance from the axis, 1 at the edge.
+float square_edge(float s) { return 1.0 - smoothstep(1.0 - square_feather, 1.0, s); }
+
+float square_cone(LightRecord light, vec3 offset) {
+    const float depth = dot(offset, light.direction);
+    if (depth <= 0.0) return 0.0;
+    const vec2 s = abs(vec2(dot(offset, light.axis_u), dot(offset, axis_v(light)))) / (depth * light.tan_half);
+    return square_edge(s.x) * square_edge(s.y);
+}
+
+// What a spot leaves around its axis.
+float cone_share(LightRecord light, MaterialPoint m, vec3 to_light, uint features) {
+    if (is_asked(features, feature_square_spot) && light.type == light_square_spot) return square_cone(light, m.position - light.position);
+    if (is_asked(features, feature_round_spot) && light.type == light_round_spot) return spot_cone(light, to_light);
+    return 1.0;
+}
+
 struct Incident {
     vec3 to_light;    // unit
     vec3 irradiance;  // on a plane facing the light
 };
 
-Incident incident_light(LightRecord light, vec3 position) {
+Incident incident_light(LightRecord light, MaterialPoint m, uint features) {
     if (light.type == light_directional) return Incident(-light.direction, light.intensity);
-    const vec3 offset = light.position - position;
+    const vec3 offset = light.position - m.position;
     const float squared = dot(offset, offset);
     const float d = sqrt(squared);
-    if (light.type > light_round_spot || d >= light.range || d < 1e-12) return Incident(vec3(0.0), vec3(0.0));
+    if (d >= light.range || d < 1e-12) return Incident(vec3(0.0), vec3(0.0));
     const vec3 to_light = offset / d;
-    const float cone = light.type == light_round_spot ? spot_cone(light, to_light) : 1.0;
+    const float cone = cone_share(light, m, to_light, features);
     const float fall_off = range_window(d, light.range) * cone / max(squared, nearest_light * nearest_light);
-    return Incident(to_light, light.intensity * fall_off);
+    vec3 irradiance = light.intensity * fall_off;
+    const bool is_spot = light.type == light_round_spot || light.type == light_square_spot;
+    if (is_asked(features, feature_projected_texture) && light.texture != no_index && is_spot && cone > 0.0)
+        irradiance *= projected_picture(light, m, -offset);
+    return Incident(to_light, irradiance);
 }
 
-// L_o = f E cos towards the eye, which is the origin.
-vec3 reflected(MaterialPoint m, LightRecord light) {
-    const Incident incident = incident_light(light, m.position);
-    const float cosine = dot(m.normal, incident.to_light);
+bool is_area_light(LightRecord light, uint features) {
+    return is_asked(features, feature_tube | feature_area) && light.type >= light_tube && light.type <= light_rectangle;
+}
+
+// L_o towards the eye, which is the origin. `features` are bits of light_features.shared.h, a constant of the shader: what it lacks
+// is compiled away, and lights that need it must not be asked about.
+vec3 reflected(MaterialPoint m, LightRecord light, uint features) {
+    if (is_asked(features, feature_clip_planes) && is_clipped(light, m.position)) return vec3(0.0);
+    if (is_area_light(light, features)) return reflected_area(m, light, features);
+    const Incident incident = incident_light(light, m, features);
+    const float cosine = brdf_cosine(m, incident.to_light, features);
     if (cosine <= 0.0 || incident.irradiance == vec3(0.0)) return vec3(0.0);
-    return brdf(m, incident.to_light, normalize(-m.position)) * incident.irradiance * min(cosine, 1.0);
+    return brdf(m, incident.to_light, normalize(-m.position), features) * incident.irradiance * cosine;
 }
 
 // Diffuse light of sky and ground. The material's own occlusion is in it; traced or screen-space occlusion is not.
 vec3 hemisphere_light(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return vec3(0.0);
-    const float up = 0.5 + 0.5 * (view.to_world * m.normal).y;
+    const vec3 normal = facing_normal(m.lighting_model, m.normal, m.position);
+    const float up = 0.5 + 0.5 * (view.to_world * normal).y;
     return m.base_color * (1.0 - m.metallic) * mix(view.ground, view.sky, up) * m.occlusion;
 }
 

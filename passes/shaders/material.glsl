@@ -1,75 +1,14 @@
-// Materials: textures filtered from the texel buffer in shader code, so that every device filters alike, and evaluated into a
-// MaterialPoint from the varyings of draw.vert. Fragment shaders only (derivatives): call before any branch that leaves the quad.
+// Materials evaluated into a MaterialPoint from the varyings of draw.vert, with their textures. Fragment shaders only
+// (derivatives): call before any branch that leaves the quad.
 #ifndef PASSES_SHADERS_MATERIAL_GLSL
 #define PASSES_SHADERS_MATERIAL_GLSL
 #include "passes/shaders/material_point.glsl"
-#include "passes/shaders/scene.glsl"
-#include "passes/shaders/srgb.glsl"
+#include "passes/shaders/texture.glsl"
 
 // What the frame's materials use (passes/texture_uses.h); the rest is compiled away.
 layout(constant_id = 20) const uint used_textures = 0xffffffffu;
-layout(constant_id = 21) const uint used_formats = 0xffffffffu;
 
 bool is_used(uint kind) { return (used_textures & (1u << kind)) != 0u; }
-
-// TextureFormat and AddressMode of capture_format/frame.h.
-const uint texture_rgba8_unorm = 0u;
-const uint texture_rgba8_srgb = 1u;
-const uint texture_rgba16f = 2u;
-const uint texture_rgba32f = 3u;
-const uint address_repeat = 0u;
-const uint address_clamp = 1u;
-
-bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
-
-uint words_per_texel(uint format) { return format <= texture_rgba8_srgb ? 1u : format == texture_rgba16f ? 2u : 4u; }
-
-vec4 texel(TextureRecord t, uint index) {
-    const uint at = t.first + index * words_per_texel(t.format);
-    vec4 value = vec4(0.0);
-    if (t.format <= texture_rgba8_srgb && (has_format(texture_rgba8_unorm) || has_format(texture_rgba8_srgb))) {
-        value = unpackUnorm4x8(texels[at]);
-        if (has_format(texture_rgba8_srgb) && t.format == texture_rgba8_srgb) value.rgb = srgb_to_linear(value.rgb);
-    } else if (has_format(texture_rgba16f) && t.format == texture_rgba16f) {
-        value = vec4(unpackHalf2x16(texels[at]), unpackHalf2x16(texels[at + 1u]));
-    } else if (has_format(texture_rgba32f) && t.format == texture_rgba32f) {
-        value = uintBitsToFloat(uvec4(texels[at], texels[at + 1u], texels[at + 2u], texels[at + 3u]));
-    }
-    return value;
-}
-
-// i modulo n in 0..n-1. GLSL leaves % of negative numbers undefined and allows division 2.5 ULP, hence the corrections.
-ivec4 modulo(ivec4 i, ivec4 n) {
-    ivec4 rest = i - n * ivec4(floor(vec4(i) / vec4(n)));
-    rest += n * ivec4(lessThan(rest, ivec4(0)));
-    rest -= n * ivec4(greaterThanEqual(rest, n));
-    return clamp(rest, ivec4(0), n - 1);
-}
-
-// Texels i of n, inside. Every second turn of a mirrored texture runs backwards.
-ivec4 wrapped(ivec4 i, ivec4 n, uint address) {
-    const ivec4 turn = modulo(i, address == address_repeat ? n : 2 * n);
-    return address == address_clamp ? clamp(i, ivec4(0), n - 1) : min(turn, 2 * n - 1 - turn);
-}
-
-// One mip, bilinear: texel centers at +.5. sRGB decodes before filtering.
-vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
-    uint base = 0u;
-    for (uint m = 0u; m < mip; ++m) base += max(1u, t.width >> m) * max(1u, t.height >> m);
-    const ivec2 size = max(ivec2(1), ivec2(t.width >> mip, t.height >> mip));
-    const vec2 at = uv * vec2(size) - 0.5;
-    const vec2 corner = floor(at);
-    const vec2 f = at - corner;
-    const ivec2 low = ivec2(corner);
-    const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, t.address));  // x, y low, x, y high
-    vec4 upper = vec4(0.0), lower = vec4(0.0);
-    for (uint row = 0u; row < 2u; ++row) {
-        const uint first = base + (row == 0u ? corners.y : corners.w) * uint(size.x);
-        upper = lower;
-        lower = mix(texel(t, first + corners.x), texel(t, first + corners.z), f.x);
-    }
-    return mix(upper, lower, f.y);
-}
 
 // The varyings uv0, uv1 with their derivatives. These are taken of the varyings alone: lavapipe 22.3 reads buffers as 0 in
 // helper lanes, so anything that went through a buffer (a size, a transform) has no derivative along a triangle's edge.
@@ -84,17 +23,6 @@ float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
     const vec2 size = vec2(t.width, t.height);
     const float side = max(length(dx * size), length(dy * size));
     return clamp(log2(max(side, 1.0)), 0.0, float(t.mips - 1u));
-}
-
-vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
-    const float finer = floor(lod);
-    vec4 fine = vec4(0.0), coarse = vec4(0.0);
-    const uint mips = lod == finer ? 1u : 2u;
-    for (uint i = 0u; i < mips; ++i) {
-        fine = coarse;
-        coarse = bilinear(t, uint(finer) + i, uv);
-    }
-    return mips == 1u ? coarse : mix(fine, coarse, lod - finer);
 }
 
 // The texture of a use at (uv0, uv1), its transform applied; white where there is none.
@@ -142,6 +70,9 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec
     return normalize(t * local.x + cross(n, t) * (hand * local.y) + n * local.z);
 }
 
+// Hair's tangent runs along its fibres; fibres without one stick out.
+vec3 fibre(vec3 normal, vec4 tangent) { return dot(tangent.xyz, tangent.xyz) < 1e-20 ? normal : normalize(tangent.xyz); }
+
 // The varyings of draw.vert, as they are. A normal of a back face is turned around.
 MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 varying_uv, vec4 color, bool front_facing) {
     const MaterialRecord material = materials[draws[draw].material];
@@ -153,9 +84,10 @@ MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent
     MaterialPoint m;
     m.position = position;
     m.normal = front_facing ? facing : -facing;
+    if (material.lighting_model == model_hair) m.normal = fibre(m.normal, tangent);
     m.base_color = base.rgb;
     m.alpha = base.a;
-    m.metallic = material.metallic * surface.b;
+    m.metallic = has_metals(material.lighting_model) ? material.metallic * surface.b : 0.0;
     m.roughness = material.roughness * surface.g;
     m.occlusion = 1.0 + material.occlusion_strength * (texels.of[occlusion_texture].r - 1.0);
     m.emissive = material.emissive * texels.of[emissive_texture].rgb;

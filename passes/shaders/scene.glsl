@@ -3,6 +3,7 @@
 #ifndef PASSES_SHADERS_SCENE_GLSL
 #define PASSES_SHADERS_SCENE_GLSL
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/shaders/ltc.shared.h"
 #include "passes/shaders/scene.shared.h"
 
 layout(set = 1, binding = 0, scalar) readonly buffer View { ViewRecord view; };
@@ -17,5 +18,6 @@ layout(set = 1, binding = 8, scalar) readonly buffer Blockers { BlockerRecord bl
 layout(set = 1, binding = 9, scalar) readonly buffer LightBlockers { LightBlockerRecord light_blockers[]; };
 layout(set = 1, binding = 10, scalar) readonly buffer BlockerPortals { BlockerPortalRecord blocker_portals[]; };
 layout(set = 1, binding = 11, scalar) readonly buffer ClipPlanes { ClipPlaneRecord clip_planes[]; };
+layout(set = 1, binding = 12, scalar) readonly buffer LtcTable { LtcRecord ltc_table[]; };
 
 #endif

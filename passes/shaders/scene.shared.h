@@ -14,6 +14,11 @@ const uint model_unlit = 0u;
 const uint model_lambert = 1u;
 const uint model_burley = 2u;
 const uint model_ggx = 3u;
+const uint model_cloth = 4u;
+const uint model_skin = 5u;
+const uint model_hair = 6u;
+const uint model_plain_burley = 7u;
+const uint model_multiscatter_ggx = 8u;
 const uint alpha_opaque = 0u;
 const uint alpha_mask = 1u;
 const uint alpha_blend = 2u;
@@ -129,7 +134,7 @@ struct LightRecord {
     uint first_clip;     // in clip_planes ...
     uint clips;          // ... how many, at most 6
     uint shadow;            // first slot in shadows, no_index without
-    uint shadow_slots;      // cascades of the sun, 1 for spots
+    uint shadow_slots;      // cascades of the sun, 1 for spots, 6 for omni
     uint visibility_layer;  // its first layer (sample 0) in the visibility image, no_index without
 };
 
@@ -163,15 +168,19 @@ struct ClipPlaneRecord {
     float distance;
 };
 
-// One shadow map: a layer of shadow_maps, its own size in its upper left corner.
+// One shadow map: a square of a layer of shadow_maps. The buffer has the maps of Allocation::own, then as many of ::need
+// (passes/shadows/shadow_views.h); slots count from the first of either.
 struct ShadowRecord {
     mat4 view_to_map;   // view space to (u, v, depth, w): uv in 0..1 of this map, depth 1 at the light, 0 far
     uint light;         // index into lights
     uint size;          // texels per edge
-    float bias;         // in map depth
+    float bias;         // metres towards the light
     float range_begin;  // view depth from which this cascade serves
     float range_end;
-    float texel;  // world size of a texel at unit distance (spots) or anywhere (sun), metres
+    float texel;  // world size of a texel at unit distance (spots, omni) or anywhere (sun), metres
+    float source_width;  // of the light, metres; of the sun per metre from the caster
+    uvec2 offset;        // of its upper left texel in the layer
+    uint layer;
 };
 
 #ifdef __cplusplus

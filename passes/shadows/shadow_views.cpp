@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "passes/culling/opaque_draws.h"
 #include "passes/reference/bounds.h"
 #include "passes/reference/shade.h"
+#include "passes/shadows/map_places.h"
 
 namespace strata {
 
@@ -74,6 +76,8 @@ ShadowView sun_view(const Frame& frame, const Sphere& slice, std::span<const Sph
     view.size = size;
     view.bias = double(frame.sun.shadow.bias);
     view.texel = texel;
+    view.source_width = 2 * std::tan(std::min(double(frame.sun.angular_radius), widest_half_angle));
+    view.soft = frame.sun.shadow.soft;
     return view;
 }
 
@@ -92,38 +96,70 @@ void add_cascades(const Frame& frame, std::span<const Sphere> casters, std::vect
     }
 }
 
-ShadowView spot_view(const Frame& frame, const Light& light) {
-    const std::uint32_t size = std::max(light.shadow.map_size, 1u);
-    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
-    glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
-    u = glm::normalize(u - along * glm::dot(u, along));
-    const glm::dvec3 v = glm::cross(along, u);
+// A pyramid of a light's rays: where it looks in view space, and the slopes of its sides.
+struct Pyramid {
+    glm::dvec3 along, u;
+    glm::dvec2 slopes;
+};
+
+// Wider than the pyramid by the margin, so that kernels at its rim find their texels.
+ShadowView local_view(const Frame& frame, const Light& light, const Pyramid& pyramid, std::uint32_t size) {
+    const glm::dvec2 slopes = pyramid.slopes * (size / (size - 2 * margin(size)));
     const glm::dvec3 position = to_view(frame, light.position);
-    // Wider than the cone by the margin, so that kernels at its rim find their texels.
-    const double wider = size / (size - 2 * margin(size));
-    const auto slope = [&](float half_angle) { return wider * std::tan(std::min(double(half_angle), widest_half_angle)); };
-    const double slope_u = slope(light.outer_angle);
-    const double slope_v = light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u;
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
-    const glm::dvec4 w = row(along);
+    const glm::dvec4 w = row(pyramid.along);
+    const glm::dvec3 v = glm::cross(pyramid.along, pyramid.u);
     ShadowView view;
-    view.view_to_map = from_rows(0.5 * (w + row(u) / slope_u), 0.5 * (w + row(v) / slope_v),
+    view.view_to_map = from_rows(0.5 * (w + row(pyramid.u) / slopes.x), 0.5 * (w + row(v) / slopes.y),
                                  {0, 0, 0, std::max(0.05, 0.01 * double(light.range))}, w);
     view.size = size;
     view.bias = double(light.shadow.bias);
     view.range_end = double(std::numeric_limits<float>::max());
-    view.texel = 2 * std::max(slope_u, slope_v) / size;
+    view.texel = 2 * std::max(slopes.x, slopes.y) / size;
+    view.source_width = 2 * double(light.source_radius);
+    view.soft = light.shadow.soft;
     return view;
 }
 
+Pyramid spot_pyramid(const Frame& frame, const Light& light) {
+    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
+    const glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
+    const auto slope = [](float half_angle) { return std::tan(std::min(double(half_angle), widest_half_angle)); };
+    const double slope_u = slope(light.outer_angle);
+    return {.along = along,
+            .u = glm::normalize(u - along * glm::dot(u, along)),
+            .slopes = {slope_u, light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u}};
+}
+
+Pyramid face_pyramid(const Frame& frame, std::uint32_t face) {
+    const int axis = static_cast<int>(face / 2);
+    glm::dvec3 along(0), u(0);
+    along[axis] = face % 2 == 0 ? 1 : -1;
+    u[(axis + 1) % 3] = 1;
+    return {.along = frame.view.to_view * along, .u = frame.view.to_view * u, .slopes = {1, 1}};
+}
+
 bool has_map(const Light& light) {
-    return light.shadow.casts && (light.type == LightType::round_spot || light.type == LightType::square_spot) &&
-           light.range > 0 && light.intensity != glm::vec3(0);
+    const bool can = light.type == LightType::round_spot || light.type == LightType::square_spot || has_faces(light);
+    return can && light.shadow.casts && light.range > 0 && light.intensity != glm::vec3(0);
+}
+
+void add_local(const Frame& frame, const Light& light, Allocation allocation, std::vector<ShadowView>& views) {
+    const std::uint32_t own = std::max(light.shadow.map_size, 1u);
+    const std::uint32_t size = allocation == Allocation::need ? needed_size(frame, light) : own;
+    if (!has_faces(light)) return views.push_back(local_view(frame, light, spot_pyramid(frame, light), size));
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        views.push_back(local_view(frame, light, face_pyramid(frame, face), size));
+    }
 }
 
 bool sun_shines(const Frame& frame) { return frame.sun.irradiance != glm::vec3(0); }
 
 }  // namespace
+
+bool shines(const Light& light) {
+    return light.intensity != glm::vec3(0) && (light.type == LightType::directional || light.range > 0);
+}
 
 std::vector<double> cascade_ends(double near, double far, std::uint32_t count, double share) {
     std::vector<double> ends;
@@ -137,23 +173,33 @@ std::vector<double> cascade_ends(double near, double far, std::uint32_t count, d
 std::vector<Light> shadow_lights(const Frame& frame) {
     std::vector<Light> lights;
     if (sun_shines(frame)) lights.push_back(sun_light(frame));
-    lights.insert(lights.end(), frame.lights.begin(), frame.lights.end());
+    std::ranges::copy_if(frame.lights, std::back_inserter(lights), shines);
     return lights;
 }
 
-std::vector<ShadowView> shadow_views(const Frame& frame) {
+bool has_faces(const Light& light) { return light.type == LightType::omni || light.type == LightType::sphere; }
+
+std::uint32_t cube_face(const glm::dvec3& direction) {
+    const glm::dvec3 size = glm::abs(direction);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return static_cast<std::uint32_t>(2 * axis + (direction[axis] < 0 ? 1 : 0));
+}
+
+std::vector<ShadowView> shadow_views(const Frame& frame, Allocation allocation) {
     std::vector<ShadowView> views;
     if (sun_shines(frame) && frame.sun.shadow.casts) {
         std::vector<Sphere> casters;
         for (const std::uint32_t draw : caster_draws(frame)) casters.push_back(bounding_sphere(frame, draw));
         add_cascades(frame, casters, views);
     }
-    const std::uint32_t first_local = sun_shines(frame) ? 1 : 0;
-    for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
-        if (!has_map(frame.lights[i])) continue;
-        views.push_back(spot_view(frame, frame.lights[i]));
-        views.back().light = first_local + i;
+    const std::vector<Light> lights = shadow_lights(frame);
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        if (!has_map(lights[i])) continue;
+        const std::size_t first = views.size();
+        add_local(frame, lights[i], allocation, views);
+        for (std::size_t view = first; view < views.size(); ++view) views[view].light = i;
     }
+    place_maps(views, allocation);
     return views;
 }
 

@@ -1,5 +1,5 @@
-// Where shadow maps look from: one view per cascade of the sun and per shadowed spot, in double. The scene uploads them as
-// ShadowRecord; a view's place in the list is its slot and its layer of shadow_maps.
+// Where shadow maps look from: one view per cascade of the sun, one per shadowed spot, six per shadowed omni light, in double.
+// The scene uploads them as ShadowRecord; a view's place in the list is its slot.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,31 @@ struct ShadowView {
     double bias = 0;          ///< metres towards the light along its rays
     double range_begin = 0;   ///< view depth from which a cascade serves ...
     double range_end = 0;     ///< ... and until which; its last tenth blends into the next cascade, the last one's into lit
-    double texel = 0;         ///< edge of a texel in metres: anywhere for the sun, at one metre along the axis for spots
+    double texel = 0;         ///< edge of a texel in metres: anywhere for the sun, else at one metre along the axis
+    double source_width = 0;  ///< of the light, metres: twice source_radius; of the sun per metre: 2 tan(angular_radius)
+    bool soft = false;        ///< wants penumbrae
+    glm::uvec2 offset{0};     ///< of its upper left texel in its layer
+    std::uint32_t layer = 0;  ///< of shadow_maps
 };
 
-/// Of the lights that can have maps (the sun, round and square spots), shine and cast. Others cast no mapped shadow.
-std::vector<ShadowView> shadow_views(const Frame&);
+/// own: as large as the light asks for, in a layer each, which is as large as the largest. need: as large as the light's reach on
+/// the screen calls for (map_places.h), several in a layer. The same lights and slots either way.
+enum class Allocation : std::uint32_t { own, need };
 
-/// Lights in the order of the device's light list: the sun first when it shines, then Frame::lights.
+/// Of the lights that can have maps (the sun, round and square spots, omni lights and spheres), shine and cast. A sphere's map is
+/// that of its center. Tubes, discs, rectangles and further directional lights cast no mapped shadow.
+std::vector<ShadowView> shadow_views(const Frame&, Allocation = Allocation::own);
+
+/// Whether a light has six maps, one per face of a cube that stands along the world's axes: +x, -x, +y, -y, +z, -z.
+bool has_faces(const Light&);
+/// The face whose axis the direction is nearest to; x before y before z where two are equally near.
+std::uint32_t cube_face(const glm::dvec3& world_direction);
+
+/// Lights in the order of the device's light list: the sun first when it shines, then those of Frame::lights that do. A light of no
+/// intensity or range is not on it.
 std::vector<Light> shadow_lights(const Frame&);
+/// Whether a light has intensity and, unless it is directional, range.
+bool shines(const Light&);
 /// Lights that have views, each once: the k-th owns the layers k * samples ... of FrameImages::visibility.
 std::vector<std::uint32_t> shadowed_lights(std::span<const ShadowView>);
 

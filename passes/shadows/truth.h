@@ -1,12 +1,14 @@
-// Traced shadows: one ray in double from every visible surface to every light that has a map.
+// Traced shadows: rays in double from every visible surface to every light that has a map: one, or 256 over the source of a soft
+// one.
 #pragma once
 
 #include "passes/stages.h"
 
 namespace strata {
 
-/// "visibility": 1 where nothing stands between, 0 where something does; layers as FrameImages::visibility. Empty when no
-/// light has a map.
+/// "visibility": the share of the light's source that nothing stands before, of a soft light any, else 0 or 1. A soft spot's
+/// source is a disc across its direction, an omni light's a sphere, the sun's a cone. Layers as FrameImages::visibility. Empty
+/// when no light has a map.
 ImageSet shadows_truth(const StageInput&);
 
 }  // namespace strata

@@ -4,6 +4,7 @@
 // event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
 #ifndef PASSES_TRANSPARENCY_EVENT_GLSL
 #define PASSES_TRANSPARENCY_EVENT_GLSL
+#include "passes/shaders/blockers.glsl"
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
 #include "passes/shaders/material.glsl"
@@ -22,6 +23,8 @@ layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
+layout(constant_id = 9) const uint has_blockers = 0u;    // 1: the frame has lights with blockers
+layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -47,11 +50,19 @@ float faded() {
     return opaque > 0.0 ? clamp((view_z(opaque) - position_here().z) / metres, 0.0, 1.0) : 1.0;
 }
 
-// All lights without shadows, sky and ground; an unlit material is its own light.
+// Whether no blocker stops the light.
+bool reached(LightRecord light, MaterialPoint m) {
+    if (has_blockers == 0u || light.blockers == 0u) return true;
+    const vec3 above = off_surface(m.position, facing_normal(m.lighting_model, m.normal, m.position));
+    return blockers_pass(light, above, low_bits(light.blockers), low_bits(light.portals));
+}
+
+// All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
 vec3 lit(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
-    for (uint i = 0u; i < view.light_count; ++i) sum += reflected(m, lights[i]);
+    for (uint i = 0u; i < view.light_count; ++i)
+        if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
     return sum;
 }
 

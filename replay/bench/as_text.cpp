@@ -24,20 +24,6 @@ Table table_of(const Bench& bench) {
     return table;
 }
 
-/// A line of a terminal's width, continued below itself.
-std::string wrapped(const std::string& indent, std::string_view text) {
-    constexpr std::size_t columns = 120;
-    std::string lines;
-    while (!text.empty()) {
-        const std::size_t room = columns - indent.size();
-        const std::size_t space = text.size() <= room ? text.size() : text.rfind(' ', room);
-        const std::size_t end = space == text.npos ? room : space;
-        lines += indent + std::string(text.substr(0, end)) + "\n";
-        text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', end)));
-    }
-    return lines;
-}
-
 std::string way_text(const TimedWay& way) {
     std::vector<std::string> parts{fmt::format("{} +-{} ms", short_number(way.ms.median), short_number(way.ms.mad))};
     for (const CounterRecord& counter : way.counters) parts.push_back(fmt::format("{} {}", counter.name, counter.value));

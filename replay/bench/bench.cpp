@@ -38,10 +38,13 @@ Result<std::pair<Variant, Variant>> ways_of(Session& session, const Claim& claim
     return std::pair{*of, *against};
 }
 
+/// A part that ends with a colon is a stage, all of whose steps count: "gbuffer:" for what culling saves there.
 bool counts(const StepRecord& step, const Technique& technique, std::span<const std::string_view> parts) {
-    if (!step.scope.ends_with(fmt::format(": {}", technique.name))) return false;
-    const auto is_in_name = [&](std::string_view part) { return step.name.find(part) != step.name.npos; };
-    return parts.empty() || std::ranges::any_of(parts, is_in_name);
+    const bool is_own = step.scope.ends_with(fmt::format(": {}", technique.name));
+    const auto is_meant = [&](std::string_view part) {
+        return part.ends_with(':') ? step.scope.starts_with(part) : is_own && step.name.find(part) != step.name.npos;
+    };
+    return parts.empty() ? is_own : std::ranges::any_of(parts, is_meant);
 }
 
 /// The time of the steps that count, turn by turn; none where there is no such step.

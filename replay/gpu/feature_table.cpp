@@ -66,12 +66,13 @@ FeatureChain features_of(const vk::raii::PhysicalDevice& device) {
     return device.getFeatures2<vk::PhysicalDeviceFeatures2, V11, V12, V13>();
 }
 
-bool has_interlock(const vk::raii::PhysicalDevice& device) {
+bool offers(const vk::raii::PhysicalDevice& device, std::string_view wanted) {
     const auto extensions = device.enumerateDeviceExtensionProperties();
-    const bool offered = std::ranges::any_of(extensions, [](const auto& extension) {
-        return std::string_view(extension.extensionName) == VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME;
-    });
-    if (!offered) return false;
+    return std::ranges::any_of(extensions, [&](const auto& extension) { return extension.extensionName.data() == wanted; });
+}
+
+bool has_interlock(const vk::raii::PhysicalDevice& device) {
+    if (!offers(device, VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME)) return false;
     const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT>();
     return chain.get<vk::PhysicalDeviceFragmentShaderInterlockFeaturesEXT>().fragmentShaderPixelInterlock;
 }
@@ -150,7 +151,15 @@ std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device
     return static_cast<std::uint32_t>(found - families.begin());
 }
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Capabilities& capabilities) {
+bool describes_pipelines(const vk::raii::PhysicalDevice& device) {
+    if (!offers(device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)) return false;
+    const auto chain =
+        device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR>();
+    return chain.get<vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR>().pipelineExecutableInfo;
+}
+
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Capabilities& capabilities,
+                             PipelineDescriptions descriptions) {
     FeatureChain wanted;
     for (const FeatureRow& row : baseline) row.of(wanted) = VK_TRUE;
     wanted.get<V12>().shaderBufferInt64Atomics = has(capabilities, Capability::buffer_int64_atomics);
@@ -163,6 +172,11 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Cap
         extensions.push_back(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
         interlock.fragmentShaderPixelInterlock = VK_TRUE;
         interlock.pNext = std::exchange(wanted.get<V13>().pNext, &interlock);
+    }
+    vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR described(VK_TRUE);
+    if (descriptions == PipelineDescriptions::on) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        described.pNext = std::exchange(wanted.get<V13>().pNext, &described);
     }
     constexpr std::array priority = {1.0f};
     const vk::DeviceQueueCreateInfo queue({}, *queue_family(physical), priority);

@@ -29,7 +29,12 @@ bool counts_invocations(const vk::raii::PhysicalDevice&);
 /// The family of the one queue: graphics and compute with timestamps.
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice&);
 
+/// Whether pipelines can say what the compiler made of them (VK_KHR_pipeline_executable_properties).
+bool describes_pipelines(const vk::raii::PhysicalDevice&);
+enum class PipelineDescriptions { off, on };
+
 /// A device with the baseline and the capabilities switched on.
-vk::raii::Device make_device(const vk::raii::PhysicalDevice&, const Capabilities&);
+vk::raii::Device make_device(const vk::raii::PhysicalDevice&, const Capabilities&,
+                             PipelineDescriptions = PipelineDescriptions::off);
 
 }  // namespace strata

@@ -116,9 +116,15 @@ struct ShaderPart {
     vk::SpecializationInfo specialization;
 };
 
-vk::raii::Pipeline make_compute(const vk::raii::Device& device, const PlannedStep& planned, vk::PipelineLayout layout) {
+/// What a pipeline is made with besides its shaders and its state.
+struct MadeWith {
+    vk::PipelineLayout layout;
+    vk::PipelineCreateFlags flags;
+};
+
+vk::raii::Pipeline make_compute(const vk::raii::Device& device, const PlannedStep& planned, const MadeWith& with) {
     ShaderPart part(device, *planned.shaders.front(), planned.step);
-    return {device, nullptr, vk::ComputePipelineCreateInfo({}, part.info(), layout)};
+    return {device, nullptr, vk::ComputePipelineCreateInfo(with.flags, part.info(), with.layout)};
 }
 
 vk::PipelineRasterizationStateCreateInfo rasterization(Cull cull) {
@@ -137,7 +143,7 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(DepthUse depth) {
 }
 
 vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep& planned, const RasterState& state,
-                               vk::PipelineLayout layout) {
+                               const MadeWith& with) {
     std::vector<ShaderPart> parts;
     for (const Shader* shader : planned.shaders) parts.emplace_back(device, *shader, planned.step);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
@@ -160,8 +166,8 @@ vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep
     const vk::PipelineDynamicStateCreateInfo dynamics({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(
         0, formats, state.depth == DepthUse::none ? vk::Format::eUndefined : device_format(Format::d32f));
-    const auto info = vk::GraphicsPipelineCreateInfo({}, stages, &pulled, &triangles, nullptr, &viewport, &raster, &samples,
-                                                     &depth, &blend, &dynamics, layout)
+    const auto info = vk::GraphicsPipelineCreateInfo(with.flags, stages, &pulled, &triangles, nullptr, &viewport, &raster,
+                                                     &samples, &depth, &blend, &dynamics, with.layout)
                           .setPNext(&rendering);
     return {device, nullptr, info};
 }
@@ -202,15 +208,21 @@ vk::ShaderStageFlags shader_stages(const Step& step) {
     return Bit::eVertex | Bit::eFragment | (geometry ? Bit::eGeometry : vk::ShaderStageFlags());
 }
 
+Pipeline make_pipeline(const vk::raii::Device& device, const PlannedStep& planned, const RasterState& state,
+                       vk::PipelineCreateFlags flags) {
+    auto sets = set_layouts(device, planned);
+    auto layout = pipeline_layout(device, planned.step, sets);
+    const MadeWith with{*layout, flags};
+    auto handle = is_compute(planned) ? make_compute(device, planned, with) : make_raster(device, planned, state, with);
+    return {std::move(sets), std::move(layout), std::move(handle)};
+}
+
 PipelineStore::PipelineStore(OpenedDevice& device) : device_(&device) {}
 
 Pipeline PipelineStore::made(const PlannedStep& planned, const RasterState& state) const {
-    const vk::raii::Device& device = device_->handle();
-    auto sets = set_layouts(device, planned);
-    auto layout = pipeline_layout(device, planned.step, sets);
-    auto handle = is_compute(planned) ? make_compute(device, planned, *layout) : make_raster(device, planned, state, *layout);
-    device_->label(*handle, planned.step.name);
-    return {std::move(sets), std::move(layout), std::move(handle)};
+    Pipeline pipeline = make_pipeline(device_->handle(), planned, state);
+    device_->label(*pipeline.handle, planned.step.name);
+    return pipeline;
 }
 
 void PipelineStore::make(const Plan& plan, std::size_t steps) {

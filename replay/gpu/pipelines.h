@@ -22,6 +22,9 @@ struct Pipeline {
     vk::raii::Pipeline handle;
 };
 
+/// A pipeline by itself, that no store keeps. The flags are for who wants to know what the compiler made of it.
+Pipeline make_pipeline(const vk::raii::Device&, const PlannedStep&, const RasterState&, vk::PipelineCreateFlags = {});
+
 class PipelineStore {
 public:
     explicit PipelineStore(OpenedDevice&);

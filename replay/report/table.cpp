@@ -81,6 +81,18 @@ std::string as_text(const Table& table) {
     return text;
 }
 
+std::string wrapped(const std::string& indent, std::string_view text) {
+    std::string lines;
+    while (!text.empty()) {
+        const std::size_t room = columns - indent.size();
+        const std::size_t space = text.size() <= room ? text.size() : text.rfind(' ', room);
+        const std::size_t end = space == text.npos ? room : space;
+        lines += indent + std::string(text.substr(0, end)) + "\n";
+        text.remove_prefix(std::min(text.size(), text.find_first_not_of(' ', end)));
+    }
+    return lines;
+}
+
 std::string short_number(double value) {
     const double size = std::abs(value);
     if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.1e}", value);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace strata {
@@ -18,6 +19,9 @@ struct Table {
 /// Labels to the left, cells to the right. A label that would push the cells past column 120 gets a line of its own, and a cell
 /// that stands for all is cut there.
 std::string as_text(const Table&);
+
+/// Text in lines of at most 120 columns, each with the indent and an end of line, broken at spaces.
+std::string wrapped(const std::string& indent, std::string_view text);
 
 /// Three significant digits in at most seven characters, and a sign.
 std::string short_number(double);

@@ -27,7 +27,7 @@ auto fields(Is<Material> auto& v) {
 auto fields(Is<Draw> auto& v) { auto& [a, b, c, d, e, f, g, h, i, j] = v; return std::tie(a, b, c, d, e, f, g, h, i, j); }
 auto fields(Is<Particle> auto& v) { auto& [a, b, c, d, e, f, g, h] = v; return std::tie(a, b, c, d, e, f, g, h); }
 auto fields(Is<Emitter> auto& v) { auto& [a, b, c, d, e, f, g, h] = v; return std::tie(a, b, c, d, e, f, g, h); }
-auto fields(Is<ShadowUse> auto& v) { auto& [a, b, c] = v; return std::tie(a, b, c); }
+auto fields(Is<ShadowUse> auto& v) { auto& [a, b, c, d] = v; return std::tie(a, b, c, d); }
 auto fields(Is<ClipPlane> auto& v) { auto& [a, b] = v; return std::tie(a, b); }
 auto fields(Is<Light> auto& v) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;

@@ -73,7 +73,7 @@ Light spot() {
     light.position = {0, 3, 4};
     light.intensity = {40, -1, 3};
     light.texture = 0;
-    light.shadow = {.casts = true, .map_size = 256, .bias = .01f};
+    light.shadow = {.casts = true, .map_size = 256, .bias = .01f, .soft = true};
     light.clip_planes = {{.normal = {0, 1, 0}, .distance = .125}};
     light.blockers = {0};
     light.portals = {0};

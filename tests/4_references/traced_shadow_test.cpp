@@ -1,4 +1,8 @@
 // Traced shadows: the target of shadow techniques. The eye at the origin looks along +z at a wall 10 m away.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "passes/shadows/judge.h"
@@ -60,6 +64,53 @@ TEST(traced_shadow, of_a_spot_ends_at_the_light) {
     EXPECT_EQ(stand.traced().at(14, 14).x, 1);
     stand.frame.lights[0].position = tiny::under(stand.frame, 12, 12, 4);
     EXPECT_EQ(stand.traced().at(12, 12).x, 0);
+}
+
+// A card hides the left half of the wall from whatever shines straight at it from before the card, 5 m away; a pixel of the wall
+// has .625 m. An edge at t of a disc's radius from its middle uncovers .5 + (t sqrt(1 - t^2) + asin t) / pi of it.
+class HalfCovered {
+public:
+    HalfCovered() {
+        stand.frame.draws.pop_back();
+        tiny::add_quad(stand.frame, {-100, -100, 16, 132}, 5);
+        stand.frame.sun.shadow.soft = true;
+    }
+    void expect_share(double source_width_on_wall) const {
+        const ReferenceImage visibility = stand.traced();
+        for (std::uint32_t x = 0; x < size; ++x) {
+            const double t = std::clamp((x + 0.5 - 16) * 0.625 / (0.5 * source_width_on_wall), -1.0, 1.0);
+            const double share = 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
+            EXPECT_NEAR(visibility.at(x, 16).x, share, 0.012) << x;
+        }
+    }
+    Stand stand;
+};
+
+TEST(traced_shadow, of_a_soft_sun_is_the_covered_share_of_its_disc) {
+    HalfCovered half;
+    half.stand.frame.sun.angular_radius = 0.1f;
+    half.expect_share(2 * std::tan(0.1) * 5);
+}
+
+TEST(traced_shadow, of_a_soft_light_is_the_covered_share_of_its_source_by_similar_triangles) {
+    for (const LightType type : {LightType::round_spot, LightType::omni}) {
+        HalfCovered half;
+        half.stand.frame.sun.irradiance = {};
+        half.stand.frame.lights = {{.type = type,
+                                    .position = tiny::under(half.stand.frame, 16, 16, 2),
+                                    .direction = half.stand.frame.sun.direction,
+                                    .range = 100,
+                                    .source_radius = 0.5f,
+                                    .shadow = {.casts = true, .soft = true}}};
+        half.expect_share(2 * 0.5 * 5 / 3.0);  // the card is 3 m from the light, the wall 5 m farther
+    }
+}
+
+TEST(traced_shadow, of_a_light_that_is_not_soft_has_no_penumbra_whatever_its_radius) {
+    HalfCovered half;
+    half.stand.frame.sun.shadow.soft = false;
+    half.stand.frame.sun.angular_radius = 0.2f;
+    half.expect_share(1e-9);
 }
 
 TEST(traced_shadow, judges_light_where_shadow_should_be) {

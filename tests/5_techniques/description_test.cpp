@@ -138,7 +138,7 @@ TEST(Stages, AnEmptyFrameSaysWhyItNeedsAlmostNothing) {
 TEST(Registry, AMisspelledTechniqueIsAnErrorWithTheNearestName) {
     for (const Technique& technique : techniques()) {
         std::string typed(technique.name);
-        std::swap(typed[typed.size() - 2], typed[typed.size() - 1]);
+        typed.push_back(typed.back());
         const auto found = find_technique(typed);
         ASSERT_FALSE(found);
         EXPECT_EQ(found.error().sentence, fmt::format("no technique {}; did you mean {}?", typed, technique.name));

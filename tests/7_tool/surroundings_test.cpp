@@ -78,7 +78,7 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
     write_sound_capture();
     const std::string none = "export VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
     for (const char* verb : {"replay sound.strata", "graph sound.strata", "report sound.strata --sweep pool=2",
-                             "accept sound.strata", "probe sound.strata --at 8,4", "bench voxel"}) {
+                             "accept sound.strata", "probe sound.strata --at 8,4", "bench voxel", "isa sound.strata"}) {
         const Finished failed = strata_after(none, verb);
         EXPECT_EQ(failed.code, 4) << verb << failed.err;
         EXPECT_THAT(failed.err, HasSubstr("Vulkan")) << verb;

@@ -1,6 +1,7 @@
 // View frustum culling of opaque draws by their bounding spheres, on the device.
 #include "passes/culling/frustum/frustum.shared.h"
 
+#include "passes/culling/draw_command.shared.h"
 #include "passes/culling/visible_image.h"
 #include "passes/technique.h"
 
@@ -19,7 +20,7 @@ void add(Graph& graph, FrameImages& frame, const Settings&) {
         graph.clear(frame.visible, {});
         return;
     }
-    frame.opaque.commands = graph.create("frustum commands", std::uint64_t(all.count) * sizeof(FrustumCommand));
+    frame.opaque.commands = graph.create("frustum commands", std::uint64_t(all.count) * sizeof(DrawCommand));
     frame.opaque.first = 0;
     graph.compute("culling/frustum/cull.comp")
         .loads("AllCommands", all.commands)

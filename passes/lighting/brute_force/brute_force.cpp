@@ -1,5 +1,6 @@
 // Every light on every sample: what other lighting techniques are measured against.
 #include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/light_features.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -21,6 +22,7 @@ void add(Graph& graph, FrameImages& frame, const Settings&) {
         .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("has_visibility", frame.visibility ? 1u : 0u)
         .fixes("has_edges", frame.edges ? 1u : 0u)
+        .fixes("features", light_features(*frame.recorded))
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 
@@ -38,7 +40,6 @@ Technique brute_force() {
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
         .counter_bytes = sizeof(BruteForceCounters),
-        .cannot = {Feature::area_lights, Feature::projected_textures, Feature::blockers, Feature::portals, Feature::clip_planes},
         .add = add,
         .model = brute_force_model,
         .tolerance = {.rmse = 1e-3,

@@ -6,17 +6,15 @@
 #include "passes/gbuffer/surface.glsl"
 #include "passes/gbuffer/decoders.glsl"
 #include "passes/lighting/brute_force/brute_force.shared.h"
-#include "passes/shaders/lights.glsl"
+#include "passes/lighting/light_term.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint gbuffer_layout = 0u;
-layout(constant_id = 1) const uint has_visibility = 0u;
 layout(constant_id = 2) const uint has_edges = 0u;
 
 layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
 layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
-layout(set = 0, binding = 3) uniform sampler2DArray visibility;
 layout(set = 0, binding = 4) uniform usampler2DArray edges;
 layout(set = 0, binding = 5, rgba16f) writeonly uniform image2DArray light;
 layout(set = 0, binding = 6, scalar) buffer Counters { BruteForceCounters counters; };
@@ -26,14 +24,10 @@ const float largest_half = 65504.0;
 
 bool is_plain(ivec2 pixel) { return has_edges != 0u && texelFetch(edges, ivec3(pixel, 0), 0).r == 0u; }
 
-float visibility_of(LightRecord l, ivec3 at) {
-    if (has_visibility == 0u || l.visibility_layer == no_index) return 1.0;
-    return texelFetch(visibility, ivec3(at.xy, int(l.visibility_layer) + at.z), 0).r;
-}
-
 vec3 every_light(MaterialPoint m, ivec3 at) {
-    vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < view.light_count; ++i) sum += visibility_of(lights[i], at) * reflected(m, lights[i]);
+    const vec3 above = lifted(m);
+    precise vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < view.light_count; ++i) sum += light_term(i, m, above, at);
     return clamp(sum, -largest_half, largest_half);
 }
 

@@ -5,10 +5,8 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/gbuffer/surface.glsl"
 #include "passes/gbuffer/decoders.glsl"
+#include "passes/lighting/light_arrives.glsl"
 #include "passes/lighting/tiled/tiled.shared.h"
-#include "passes/shaders/blockers.glsl"
-#include "passes/shaders/light_features.shared.h"
-#include "passes/shaders/lights.glsl"
 
 layout(local_size_x = 256) in;
 layout(constant_id = 80) const uint gbuffer_layout = 0u;

@@ -17,20 +17,17 @@ uint features_of(uint tile) {
 
 float shadow_of(LightRecord l, MaterialPoint m, ivec3 at, uint features) {
     if ((features & feature_shadows) == 0u || has_shadows == 0u || l.visibility_layer == no_index) return 1.0;
-    if (shadow_source == shadows_inline) return filtered_shadow(l, m.position, m.normal, features);
+    if (shadow_source == shadows_inline)
+        return filtered_shadow(l, m.position, facing_normal(m.lighting_model, m.normal, m.position), features);
     return texelFetch(visibility, ivec3(at.xy, int(l.visibility_layer) + at.z), 0).r;
 }
 
-// Blockers first, which cost least; `masks` are the light's blockers and portals to ask. `precise`, so that no mode rounds
-// otherwise than the next.
+// `masks` are the light's blockers and portals to ask. `precise`, so that no mode rounds otherwise than the next.
 vec3 light_term(uint index, uvec2 masks, MaterialPoint m, ivec3 at, uint features, inout Shaded shaded) {
     const LightRecord l = lights[index];
     ++shaded.evaluations;
-    if ((features & feature_blockers) != 0u && masks.x != 0u) {
-        shaded.blocker_tests += uint(bitCount(masks.x));
-        const uint portals = (features & feature_portals) != 0u ? masks.y : 0u;
-        if (!blockers_pass(l, off_surface(m.position, m.normal), masks.x, portals)) return vec3(0.0);
-    }
+    if ((features & feature_blockers) != 0u) shaded.blocker_tests += uint(bitCount(masks.x));
+    if (!light_arrives(l, m, lifted(m), masks, features)) return vec3(0.0);
     const float visible = shadow_of(l, m, at, features);
     if (visible <= 0.0) return vec3(0.0);
     precise const vec3 term = visible * reflected(m, l, features);
@@ -50,7 +47,7 @@ vec3 lights_of_tile(uint tile, MaterialPoint m, ivec3 at, inout Shaded shaded) {
     }
     if (record == no_next) return sum;
     for (uint i = record & ~next_is_light; i < view.light_count; ++i) {
-        const uvec2 masks = asks_blockers != 0u ? uvec2(low_bits(lights[i].blockers), low_bits(lights[i].portals)) : uvec2(0u);
+        const uvec2 masks = asks_blockers != 0u ? all_asked(lights[i]) : uvec2(0u);
         sum += light_term(i, masks, m, at, features, shaded);
     }
     return sum;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/shadows/pcf/kernel.h"
+#include "passes/shadows/kernel.h"
 
 namespace strata::shadows {
 

@@ -1,12 +1,14 @@
 // Facts of whole lookups: a camera 10 m above the ground y = 0 looks down, maps are drawn by solving for planes by hand.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include <gtest/gtest.h>
 
 #include "passes/shadows/judge.h"
 #include "passes/shadows/shadow_views.h"
+#include "passes/shadows/shadows.shared.h"
 #include "passes/technique.h"
 
 namespace strata::shadows {
@@ -182,6 +184,38 @@ TEST(pcf, draws_each_map_into_the_corner_of_its_own_layer) {
     ASSERT_EQ(graph.steps().size(), 5u);  // a clear and four maps
     EXPECT_EQ(std::get<DrawWork>(graph.steps().back().work).viewport->width, 256u);
     EXPECT_EQ(graph.steps().back().attachments.front().part.layer, 3u);
+}
+
+TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
+    Frame frame = ground(0);
+    frame.sun.irradiance = {};
+    frame.lights = {{.type = LightType::omni, .position = {0, 2, 0}, .range = 1, .shadow = {.casts = true, .map_size = 256}}};
+    Graph graph;
+    FrameImages images;
+    images.recorded = &frame;
+    images.extent = {width, rows};
+    images.casters = {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};
+    const Technique technique = pcf();
+    Settings settings(technique.params);
+    ASSERT_TRUE(settings.set("allocation", "need"));
+    technique.add(graph, images, settings);
+    // 320 pixels per slope: 1 m of range 8 m away is 2 / sqrt(63) of them, 81.
+    EXPECT_EQ(graph.shape(images.shadow_maps).layers, 6u);
+    EXPECT_EQ(graph.shape(images.shadow_maps).extent.width, 128u);
+    frame.lights.push_back(frame.lights[0]);
+    frame.lights[1].range = 0.2f;  // 16 pixels
+    Graph two;
+    images.casters = {.commands = two.create("commands", 20), .indices = two.create("indices", 12), .count = 1};
+    technique.add(two, images, settings);
+    EXPECT_EQ(two.shape(images.shadow_maps).layers, 7u);  // six maps of 32 texels share the seventh
+    ASSERT_EQ(two.steps().size(), 13u);
+    const Step& last = two.steps().back();
+    EXPECT_EQ(last.attachments.front().part.layer, 6u);
+    EXPECT_EQ(std::get<DrawWork>(last.work).viewport->width, 128u);
+    CastPush push{};
+    std::memcpy(&push, last.push.data(), sizeof(push));
+    EXPECT_EQ(push.record, 12u + 11u) << "records of need follow those of own";
+    EXPECT_EQ(push.viewport, 128u);
 }
 
 TEST(pcf, does_nothing_where_no_light_has_a_map) {

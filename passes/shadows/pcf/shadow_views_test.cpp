@@ -139,10 +139,58 @@ TEST(spot_maps, never_open_wider_than_170_degrees) {
     EXPECT_NEAR(shadow_views(frame).back().texel * 240, 2 * std::tan(85 * 3.14159265358979 / 180), 1e-9);
 }
 
+TEST(omni_maps, are_six_and_hold_every_direction_with_room_for_the_widest_kernel) {
+    Frame frame = sunny();
+    frame.sun.irradiance = {};
+    frame.lights = {spot(0.5f)};
+    frame.lights[0].type = LightType::omni;
+    const auto views = shadow_views(frame);
+    ASSERT_EQ(views.size(), 6u);
+    for (int i = 0; i < 1000; ++i) {  // a lattice of directions
+        const glm::dvec3 direction(i % 10 - 4.5, i / 10 % 10 - 4.5, i / 100 - 4.5);
+        const std::uint32_t face = cube_face(direction);
+        const glm::dvec3 at = in_map(frame, views[face], frame.lights[0].position + direction);
+        EXPECT_GE(std::min(at.x, at.y) * 256, 8 - 1e-6);
+        EXPECT_LE(std::max(at.x, at.y) * 256, 248 + 1e-6);
+        EXPECT_GT(at.z, 0);
+    }
+    EXPECT_EQ(cube_face({1, 1, -1}), 0u);
+    EXPECT_EQ(cube_face({0.5, -2, 1}), 3u);
+    EXPECT_EQ(cube_face({0.5, 1, -2}), 5u);
+    const double rim = 3;  // 45 degrees off the axis is where the next face begins
+    EXPECT_NEAR(in_map(frame, views[3], {1 + rim, 4 - rim, -2}).z, 0.1 / rim, 1e-8);  // near is 1 % of the range of 10 m
+}
+
+TEST(omni_maps, stay_where_they_are_in_the_world_when_the_camera_turns) {
+    Frame frame = sunny();
+    frame.lights = {spot(0.5f)};
+    frame.lights[0].type = LightType::sphere;
+    const auto before = shadow_views(frame);
+    const glm::dvec3 landmark(2, 1, -1.5);
+    const glm::dvec3 seen = in_map(frame, before.back(), landmark);
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    frame.view.to_view = glm::dmat3({c, 0, s}, {0, 1, 0}, {s, 0, -c});
+    frame.view.origin += glm::dvec3(1, 2, 3);
+    EXPECT_NEAR(glm::distance(in_map(frame, shadow_views(frame).back(), landmark), seen), 0, 1e-9);
+}
+
+TEST(shadow_views, carry_the_width_of_the_source) {
+    Frame frame = sunny();
+    frame.sun.angular_radius = 0.1f;
+    frame.lights = {spot(0.5f)};
+    frame.lights[0].source_radius = 0.25f;
+    frame.lights[0].shadow.soft = true;
+    const auto views = shadow_views(frame);
+    EXPECT_NEAR(views.front().source_width, 2 * std::tan(0.1), 1e-8);
+    EXPECT_FALSE(views.front().soft);
+    EXPECT_EQ(views.back().source_width, 0.5);
+    EXPECT_TRUE(views.back().soft);
+}
+
 TEST(shadow_views, are_made_for_lights_that_shine_and_cast_and_have_maps) {
     Frame frame = sunny();
     frame.lights = {spot(0.5f), spot(0.5f), spot(0.5f), spot(0.5f)};
-    frame.lights[0].type = LightType::omni;
+    frame.lights[0].type = LightType::tube;
     frame.lights[1].intensity = {};
     frame.lights[2].shadow.casts = false;
     const auto views = shadow_views(frame);

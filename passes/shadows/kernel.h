@@ -1,4 +1,4 @@
-// The filter kernel in double over a shadow map of one layer (deferred chapter 5.1 and 5.2, reversed depth).
+// The filter kernel in double over a shadow map (deferred chapter 5.1 and 5.2, reversed depth).
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,12 @@ namespace strata::shadows {
 /// Where a map is looked up.
 struct Lookup {
     std::uint32_t layer = 0;
-    std::uint32_t size = 0;  ///< texels per edge, in the layer's upper left corner
+    std::uint32_t size = 0;  ///< texels per edge of the map, whose upper left texel is at `offset` in the layer
     glm::dvec2 u{0};         ///< texel units, centers at +.5
     double depth = 0;        ///< of the biased receiver: lit where it is at least the map's
     double doubt = 0;        ///< how far float arithmetic may have moved the depth
+    glm::uvec2 offset{0};
+    bool is_face = false;  ///< of a cube: beyond its edges its outermost texels go on; else nothing is drawn there
 };
 
 struct Filtered {
@@ -23,7 +25,10 @@ struct Filtered {
     bool undecided = false;  ///< a texel with weight is within `doubt` of the receiver
 };
 
-/// taps x taps texels with the weights of (taps - 1)^2 bilinear taps, fractions cut to 1/256. Outside the map is lit.
+/// Depth of a texel of the map.
+double map_depth(const ReferenceImage& maps, const Lookup&, glm::ivec2 texel);
+
+/// taps x taps texels with the weights of (taps - 1)^2 bilinear taps, fractions cut to 1/256.
 Filtered filter_map(const ReferenceImage& maps, const Lookup&, std::int64_t taps);
 
 }  // namespace strata::shadows

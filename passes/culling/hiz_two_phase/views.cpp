@@ -1,0 +1,50 @@
+#include "passes/culling/hiz_two_phase/views.h"
+
+#include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
+
+namespace strata::culling {
+namespace {
+
+template <std::uint32_t shown>
+Image view(Graph& graph, FrameImages& frame, const Settings& settings) {
+    Image picture = graph.create("hiz view", Shape{.extent = frame.extent, .format = Format::rgba32f});
+    if (frame.all_opaque.count == 0) {
+        graph.clear(picture, {});
+        return picture;
+    }
+    graph.compute("culling/hiz_two_phase/view.comp")
+        .loads("Pyramid", graph.find_buffer(pyramid_name))
+        .loads("HizDraws", graph.find_buffer(draws_name))
+        .stores("picture", picture)
+        .fixes("shown", shown)
+        .push(HizView{.count = frame.all_opaque.count, .level = settings.as<HizParams>().level})
+        .over(frame.extent);
+    return picture;
+}
+
+}  // namespace
+
+std::vector<DebugView> hiz_two_phase_views() {
+    return {{.name = "pyramid",
+             .help = "how far away the farthest of what occludes is, of each texel of the pyramid's level `level`; 0 where "
+                     "something of it is open",
+             .unit = "m",
+             .low = 0,
+             .high = 50,
+             .add = view<hiz_view_pyramid>},
+            {.name = "hidden",
+             .help = "draws in view that are culled, where their bounds are",
+             .unit = "draws",
+             .low = 0,
+             .high = 16,
+             .add = view<hiz_view_hidden>},
+            {.name = "bounds",
+             .help = "borders of the draws' bounds: red of what is hidden, green of what is drawn and was in phase 1, blue of "
+                     "what is drawn and was not",
+             .unit = "",
+             .low = 0,
+             .high = 1,
+             .add = view<hiz_view_bounds>}};
+}
+
+}  // namespace strata::culling

@@ -1,0 +1,183 @@
+// Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
+#include "passes/lighting/frame_spectrum.h"
+#include "passes/lighting/z_binned/z_bins.h"
+#include "passes/technique.h"
+
+namespace strata::lighting {
+
+ImageSet z_binned_model(const StageInput&, const Settings&);
+
+namespace {
+
+constexpr std::string_view spacings[] = {"uniform", "logarithmic"};
+constexpr std::string_view tiles[] = {"8", "16", "32"};
+constexpr std::string_view bounds[] = {"frustum", "depth"};
+constexpr std::string_view merges[] = {"lanes", "subgroup"};
+
+/// To a step that walks a sample's lights.
+template <typename Pass>
+Pass& bind_lists(Pass&& pass, const FrameImages& frame, const ZBins& lists) {
+    return pass.samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
+        .samples("visibility", frame.visibility)
+        .loads("Sorted", lists.sorted)
+        .loads("Header", lists.header)
+        .loads("Bins", lists.bins)
+        .loads("Masks", lists.masks)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
+        .fixes("has_visibility", frame.visibility ? 1u : 0u)
+        .fixes("features", frame_spectrum(*frame.recorded))
+        .push(lists.push);
+}
+
+void add(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!frame.gbuffer0) return;
+    const auto params = settings.as<ZBinnedParams>();
+    const ZBins lists = z_bins(graph, frame, params);
+    frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
+    bind_lists(graph.compute("lighting/z_binned/shade.comp"), frame, lists)
+        .samples("edges", frame.edges)
+        .stores("light", frame.light)
+        .fixes("has_edges", frame.edges ? 1u : 0u)
+        .fixes("merge", params.merge)
+        .over({frame.extent.width, frame.extent.height, frame.samples});
+}
+
+template <std::uint32_t shown>
+Image view(Graph& graph, FrameImages& frame, const Settings& settings) {
+    const ZBins lists = z_bins(graph, frame, settings.as<ZBinnedParams>());
+    Image picture = graph.create("z-bin view", {.extent = frame.extent, .format = Format::rgba32f});
+    bind_lists(graph.compute("lighting/z_binned/view.comp"), frame, lists)
+        .stores("number_of_lights", picture)
+        .fixes("shown", shown)
+        .over(frame.extent);
+    return picture;
+}
+
+Image bins_table(Graph& graph, FrameImages& frame, const Settings& settings) {
+    const ZBins lists = z_bins(graph, frame, settings.as<ZBinnedParams>());
+    Image numbers = graph.create("z-bin table", Shape{.extent = {1, lists.push.bins}, .format = Format::rgba32f});
+    graph.compute("lighting/z_binned/bins_table.comp")
+        .loads("Header", lists.header)
+        .loads("Bins", lists.bins)
+        .stores("numbers", numbers)
+        .push(lists.push)
+        .over({1, lists.push.bins});
+    return numbers;
+}
+
+std::vector<TimeRatio> ratios() {
+    const std::vector<std::string_view> counters = {"evaluations", "tile lights"};
+    const std::string_view none = "the talk gives times of a whole game's lights, and no ratio to all lights";
+    return {{.name = "64 lights: against every light on every sample",
+             .of = "",
+             .against = "brute_force",
+             .published = {},
+             .source = none,
+             .scenario = "hall_of_lights_64",
+             .counters = counters},
+            {.name = "512 lights",
+             .of = "",
+             .against = "brute_force",
+             .published = {},
+             .source = none,
+             .scenario = "hall_of_lights_512",
+             .counters = counters},
+            {.name = "4096 lights",
+             .of = "",
+             .against = "brute_force",
+             .published = {},
+             .source = none,
+             .scenario = "hall_of_lights_4096",
+             .counters = counters},
+            {.name = "lanes of a subgroup apart, against together",
+             .of = "merge=lanes",
+             .against = "merge=subgroup",
+             .published = {},
+             .source = {},
+             .scenario = "hall_of_lights_512",
+             .counters = counters},
+            {.name = "tiles by their frustum, against by their depths",
+             .of = "bounds=frustum",
+             .against = "bounds=depth",
+             .published = {},
+             .source = {},
+             .scenario = "hall_of_lights_512",
+             .counters = counters}};
+}
+
+}  // namespace
+
+Technique z_binned() {
+    return {
+        .stage = Stage::lighting,
+        .name = "lighting/z_binned",
+        .title = "Z-binning",
+        .source = "Drobot: Improved Culling for Tiled and Clustered Rendering, SIGGRAPH 2017 Advances in Real-Time Rendering",
+        .summary =
+            "Shades the lights that a sample's bin of depths and its tile have in common; sums them by depth, not by number, and "
+            "so rounds otherwise.",
+        .params = {param<&ZBinnedParams::bins>({.name = "bins",
+                                                .low = 256,
+                                                .high = 8192,
+                                                .fallback = 4096,
+                                                .help = "slices of view depth between the nearest and the farthest light",
+                                                .scale = Scale::logarithmic}),
+                   param<&ZBinnedParams::spacing>({.name = "spacing",
+                                                   .high = 1,
+                                                   .fallback = spacing_uniform,
+                                                   .help = "bins as thick as each other, or in proportion to their depth",
+                                                   .choices = spacings}),
+                   param<&ZBinnedParams::tile>(
+                       {.name = "tile", .high = 2, .fallback = 1, .help = "edge of a tile in pixels", .choices = tiles}),
+                   param<&ZBinnedParams::bounds>(
+                       {.name = "bounds",
+                        .high = 1,
+                        .fallback = bounds_depth,
+                        .help = "a tile's lights touch its frustum, or the part of it that has surfaces",
+                        .choices = bounds}),
+                   param<&ZBinnedParams::merge>({.name = "merge",
+                                                 .high = 1,
+                                                 .fallback = merge_subgroup,
+                                                 .help = "whether lanes of a subgroup walk their lists one by one or together",
+                                                 .choices = merges})},
+        .points = {"spacing=logarithmic", "bounds=frustum", "bins=256", "tile=32", "merge=lanes"},
+        .counters = {counter<&ZBinnedCounters::evaluations>({.name = "evaluations", .help = "lights shaded, over all samples"}),
+                     counter<&ZBinnedCounters::words_read>(
+                         {.name = "words_read", .help = "words of 32 lights looked at, over all samples"}),
+                     counter<&ZBinnedCounters::samples_shaded>(
+                         {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
+                     counter<&ZBinnedCounters::tile_lights>(
+                         {.name = "tile lights", .help = "bits set in the masks of all tiles"})},
+        .counter_bytes = sizeof(ZBinnedCounters),
+        .views = {{.name = "pixel lights",
+                   .help = "lights of the pixel's bin and tile",
+                   .unit = "lights",
+                   .high = 64,
+                   .add = view<view_pixel_lights>},
+                  {.name = "tile lights",
+                   .help = "lights of the tile at all depths",
+                   .unit = "lights",
+                   .high = 64,
+                   .add = view<view_tile_lights>},
+                  {.name = "idle lights",
+                   .help = "lights of the pixel's list that add nothing to it",
+                   .unit = "lights",
+                   .high = 64,
+                   .add = view<view_idle_lights>}},
+        .tables = {{.name = "bins",
+                    .help = "where each bin lies, and its lights in the order of depth",
+                    .columns = {{"begins", "m"}, {"ends", "m"}, {"first light", ""}, {"lights", ""}},
+                    .add = bins_table}},
+        .ratios = ratios(),
+        .add = add,
+        .model = z_binned_model,
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 4e-3,
+                      .because =
+                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe of "
+                          "alpha 0.002 by 1e-4 of its width"}};
+}
+
+}  // namespace strata::lighting

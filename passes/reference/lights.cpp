@@ -1,0 +1,175 @@
+// Points, spots and the sun; where areas come in.
+#include "passes/reference/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/placed_light.h"
+#include "passes/reference/textures.h"
+
+namespace strata {
+namespace {
+
+// Metres: the inverse square law ends here (lighting chapter 0.3, e).
+constexpr double nearest_light = 0.01;
+// Share of a square spot's half width over which it fades (lighting chapter 0.4, f).
+constexpr double square_feather = 0.1;
+
+double round_cone(const PlacedLight& at, const glm::dvec3& to_light) {
+    const double outer = std::cos(double(at.light->outer_angle)), inner = std::cos(double(at.light->inner_angle));
+    const double t = std::clamp((glm::dot(-to_light, at.direction) - outer) / std::max(inner - outer, 1e-4), 0.0, 1.0);
+    return t * t;
+}
+
+// Tangents of the half angles of what a spot throws: a square one has its own for u and v.
+glm::dvec2 spread(const Light& light) {
+    const double u = std::tan(double(light.outer_angle));
+    return {u, light.type == LightType::square_spot ? std::tan(double(light.inner_angle)) : u};
+}
+
+// Where the surface is in the spot's picture plane: +-1 at its edges. Only before the light.
+glm::dvec2 place_in_spot(const PlacedLight& at) {
+    const glm::dvec3 x = -at.offset;
+    return glm::dvec2(glm::dot(x, at.axis_u), glm::dot(x, at.axis_v)) / (glm::dot(x, at.direction) * spread(*at.light));
+}
+
+double square_cone(const PlacedLight& at) {
+    if (glm::dot(-at.offset, at.direction) <= 0) return 0;
+    const glm::dvec2 s = place_in_spot(at);
+    return square_edge(std::abs(s.x), square_feather) * square_edge(std::abs(s.y), square_feather);
+}
+
+// Bilinear in one mip with black around: taps outside count nothing.
+glm::dvec3 bordered(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
+    const glm::dvec2 size(std::max(1u, texture.width >> mip), std::max(1u, texture.height >> mip));
+    const glm::dvec2 at = uv * size - 0.5;
+    const glm::dvec2 low = glm::floor(at);
+    glm::dvec3 sum(0);
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec2 tap = low + glm::dvec2(i % 2, i / 2);
+        if (tap.x < 0 || tap.y < 0 || tap.x >= size.x || tap.y >= size.y) continue;
+        const double weight = (1 - std::abs(at.x - tap.x)) * (1 - std::abs(at.y - tap.y));
+        sum += weight * glm::dvec3(texel(texture, mip, static_cast<std::uint32_t>(tap.x), static_cast<std::uint32_t>(tap.y)));
+    }
+    return sum;
+}
+
+glm::dvec3 thrown_color(const PlacedLight& at, const SurfacePoint& surface) {
+    const View& view = at.frame->view;
+    const Texture& texture = at.frame->textures[at.light->texture];
+    const double facing = std::max(glm::dot(surface.normal, glm::normalize(-surface.position)), 0.1);
+    const double pixel = 2 * surface.position.z / (view.height * std::abs(double(view.projection[1][1])) * facing);
+    const glm::dvec2 width = 2 * glm::dot(-at.offset, at.direction) * spread(*at.light);
+    const glm::dvec2 covered = glm::dvec2(texture.width, texture.height) * pixel / width;
+    const double lod = std::clamp(std::log2(std::max(covered.x, covered.y)), 0.0, double(texture.mips - 1));
+    const glm::dvec2 place = place_in_spot(at), uv(0.5 * (1 + place.x), 0.5 * (1 - place.y));
+    const auto mip = static_cast<std::uint32_t>(lod);
+    const glm::dvec3 fine = bordered(texture, mip, uv);
+    return lod == mip ? fine : glm::mix(fine, bordered(texture, mip + 1, uv), lod - mip);
+}
+
+struct Incident {
+    glm::dvec3 to_light{0};
+    glm::dvec3 irradiance{0};  ///< on a plane facing the light
+};
+
+Incident incident(const PlacedLight& at, const SurfacePoint& surface) {
+    const glm::dvec3 intensity = at.light->intensity;
+    if (at.light->type == LightType::directional) return {-at.direction, intensity};
+    const double distance = glm::length(at.offset);
+    if (distance == 0) return {};
+    const glm::dvec3 to_light = at.offset / distance;
+    const double squared = std::max(distance * distance, nearest_light * nearest_light);
+    glm::dvec3 share(range_window(distance, double(at.light->range)) / squared);
+    const bool square = at.light->type == LightType::square_spot;
+    if (square || at.light->type == LightType::round_spot) {
+        share *= square ? square_cone(at) : round_cone(at, to_light);
+        if (share != glm::dvec3(0) && at.light->texture != no_index) share *= thrown_color(at, surface);
+    }
+    return {to_light, intensity * share};
+}
+
+bool clipped(const Frame& frame, const SurfacePoint& surface, const Light& light) {
+    const glm::dvec3 world = frame.view.origin + glm::transpose(frame.view.to_view) * surface.position;
+    return std::ranges::any_of(light.clip_planes,
+                               [&](const ClipPlane& plane) { return glm::dot(plane.normal, world) + plane.distance < 0; });
+}
+
+glm::dvec3 reflected_punctual(const SurfacePoint& surface, const PlacedLight& at) {
+    const Incident arriving = incident(at, surface);
+    if (arriving.irradiance == glm::dvec3(0)) return glm::dvec3(0);
+    const double cosine = brdf_cosine(surface, arriving.to_light);
+    if (cosine <= 0) return glm::dvec3(0);
+    return brdf(surface, arriving.to_light, glm::normalize(-surface.position)) * arriving.irradiance * cosine;
+}
+
+// What either form of an area light is multiplied with: 0 where there is nothing to reflect.
+double area_window(const SurfacePoint& surface, const PlacedLight& at) {
+    if (surface.model == LightingModel::unlit || is_behind(at)) return 0;
+    return range_window(glm::length(at.offset), double(at.light->range));
+}
+
+}  // namespace
+
+double range_window(double distance, double range) {
+    const double rest = std::clamp(1 - std::pow(distance / range, 4), 0.0, 1.0);
+    return distance < range ? rest * rest : 0;
+}
+
+double square_edge(double s, double feather) {
+    if (feather <= 0) return s <= 1 ? 1 : 0;
+    const double t = std::clamp((s - (1 - feather)) / feather, 0.0, 1.0);
+    return 1 - t * t * (3 - 2 * t);
+}
+
+PlacedLight placed(const Frame& frame, const SurfacePoint& surface, const Light& light) {
+    const glm::dvec3 direction = frame.view.to_view * glm::dvec3(light.direction);
+    const glm::dvec3 axis_u = frame.view.to_view * glm::dvec3(light.axis_u);
+    return {&frame, &light, to_view(frame, light.position) - surface.position, direction, axis_u, glm::cross(direction, axis_u)};
+}
+
+bool is_area(LightType type) {
+    return type == LightType::tube || type == LightType::sphere || type == LightType::disc || type == LightType::rectangle;
+}
+
+bool is_behind(const PlacedLight& at) {
+    const bool flat = at.light->type == LightType::disc || at.light->type == LightType::rectangle;
+    return flat && glm::dot(-at.offset, at.direction) <= 0;
+}
+
+glm::dvec3 emitted_color(const PlacedLight& at, const glm::dvec2& place, double lod) {
+    if (at.light->type != LightType::rectangle || at.light->texture == no_index) return glm::dvec3(1);
+    Texture const& texture = at.frame->textures[at.light->texture];
+    // Within half a texel of the border there is no other side to repeat.
+    const auto inside = [&](const glm::dvec2& uv, std::uint32_t mip) {
+        const glm::dvec2 half = 0.5 / glm::dvec2(std::max(1u, texture.width >> mip), std::max(1u, texture.height >> mip));
+        return glm::dvec3(bilinear(texture, mip, glm::clamp(uv, half, 1.0 - half)));
+    };
+    const glm::dvec2 uv(0.5 * (1 + place.x), 0.5 * (1 - place.y));
+    const double level = std::clamp(lod, 0.0, double(texture.mips - 1));
+    const auto mip = static_cast<std::uint32_t>(level);
+    return level == mip ? inside(uv, mip) : glm::mix(inside(uv, mip), inside(uv, mip + 1), level - mip);
+}
+
+glm::dvec3 reflected(const Frame& frame, const SurfacePoint& surface, const Light& light) {
+    const PlacedLight at = placed(frame, surface, light);
+    if (clipped(frame, surface, light)) return glm::dvec3(0);
+    if (!is_area(light.type)) return reflected_punctual(surface, at);
+    const double window = area_window(surface, at);
+    return window > 0 ? window * reflected_area(surface, at) : glm::dvec3(0);
+}
+
+glm::dvec3 exact_reflected(const Frame& frame, const SurfacePoint& surface, const Light& light, const ExactOptions& options) {
+    const PlacedLight at = placed(frame, surface, light);
+    if (clipped(frame, surface, light)) return glm::dvec3(0);
+    if (is_area(light.type)) {
+        const double window = area_window(surface, at);
+        return window > 0 ? window * exact_reflected_area(surface, at, options) : glm::dvec3(0);
+    }
+    const glm::dvec3 radiance = reflected_punctual(surface, at);
+    if (!options.visible || radiance == glm::dvec3(0)) return radiance;
+    const bool directional = light.type == LightType::directional;
+    return radiance * options.visible(directional ? glm::dvec4(-at.direction, 0) : glm::dvec4(surface.position + at.offset, 1));
+}
+
+}  // namespace strata

@@ -1,0 +1,35 @@
+// What all lights share: their types, how they end, what cuts them. Lighting chapter 0.3 and 0.4.
+#ifndef PASSES_SHADERS_LIGHT_TYPES_GLSL
+#define PASSES_SHADERS_LIGHT_TYPES_GLSL
+#include "passes/shaders/light_features.shared.h"
+#include "passes/shaders/scene.glsl"
+
+// LightType of capture_format/frame.h.
+const uint light_omni = 0u;
+const uint light_round_spot = 1u;
+const uint light_square_spot = 2u;
+const uint light_tube = 3u;
+const uint light_sphere = 4u;
+const uint light_disc = 5u;
+const uint light_rectangle = 6u;
+const uint light_directional = 7u;
+
+bool is_asked(uint features, uint feature) { return (features & feature) != 0u; }
+
+// 1 at the light, exactly 0 from its range on: what makes culling by range lossless.
+float range_window(float d, float range) {
+    const float share = d / range;
+    const float rest = clamp(1.0 - share * share * share * share, 0.0, 1.0);
+    return d < range ? rest * rest : 0.0;
+}
+
+// Whether a clip plane of the light takes the point away.
+bool is_clipped(LightRecord light, vec3 position) {
+    for (uint i = 0u; i < light.clips; ++i) {
+        const ClipPlaneRecord plane = clip_planes[light.first_clip + i];
+        if (dot(plane.normal, position) + plane.distance < 0.0) return true;
+    }
+    return false;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// Textures filtered from the texel buffer in shader code, so that every device filters alike. Any shader stage.
+#ifndef PASSES_SHADERS_TEXTURE_GLSL
+#define PASSES_SHADERS_TEXTURE_GLSL
+#include "passes/shaders/scene.glsl"
+#include "passes/shaders/srgb.glsl"
+
+// The formats of the textures that are read (passes/texture_uses.h); the rest is compiled away.
+layout(constant_id = 21) const uint used_formats = 0xffffffffu;
+
+// TextureFormat and AddressMode of capture_format/frame.h.
+const uint texture_rgba8_unorm = 0u;
+const uint texture_rgba8_srgb = 1u;
+const uint texture_rgba16f = 2u;
+const uint texture_rgba32f = 3u;
+const uint address_repeat = 0u;
+const uint address_clamp = 1u;
+
+bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
+
+uint words_per_texel(uint format) { return format <= texture_rgba8_srgb ? 1u : format == texture_rgba16f ? 2u : 4u; }
+
+vec4 texel(TextureRecord t, uint index) {
+    const uint at = t.first + index * words_per_texel(t.format);
+    vec4 value = vec4(0.0);
+    if (t.format <= texture_rgba8_srgb && (has_format(texture_rgba8_unorm) || has_format(texture_rgba8_srgb))) {
+        value = unpackUnorm4x8(texels[at]);
+        if (has_format(texture_rgba8_srgb) && t.format == texture_rgba8_srgb) value.rgb = srgb_to_linear(value.rgb);
+    } else if (has_format(texture_rgba16f) && t.format == texture_rgba16f) {
+        value = vec4(unpackHalf2x16(texels[at]), unpackHalf2x16(texels[at + 1u]));
+    } else if (has_format(texture_rgba32f) && t.format == texture_rgba32f) {
+        value = uintBitsToFloat(uvec4(texels[at], texels[at + 1u], texels[at + 2u], texels[at + 3u]));
+    }
+    return value;
+}
+
+// i modulo n in 0..n-1. GLSL leaves % of negative numbers undefined and allows division 2.5 ULP, hence the corrections.
+ivec4 modulo(ivec4 i, ivec4 n) {
+    ivec4 rest = i - n * ivec4(floor(vec4(i) / vec4(n)));
+    rest += n * ivec4(lessThan(rest, ivec4(0)));
+    rest -= n * ivec4(greaterThanEqual(rest, n));
+    return clamp(rest, ivec4(0), n - 1);
+}
+
+// Texels i of n, inside. Every second turn of a mirrored texture runs backwards.
+ivec4 wrapped(ivec4 i, ivec4 n, uint address) {
+    const ivec4 turn = modulo(i, address == address_repeat ? n : 2 * n);
+    return address == address_clamp ? clamp(i, ivec4(0), n - 1) : min(turn, 2 * n - 1 - turn);
+}
+
+// One mip, bilinear: texel centers at +.5. sRGB decodes before filtering.
+vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
+    uint base = 0u;
+    for (uint m = 0u; m < mip; ++m) base += max(1u, t.width >> m) * max(1u, t.height >> m);
+    const ivec2 size = max(ivec2(1), ivec2(t.width >> mip, t.height >> mip));
+    const vec2 at = uv * vec2(size) - 0.5;
+    const vec2 corner = floor(at);
+    const vec2 f = at - corner;
+    const ivec2 low = ivec2(corner);
+    const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, t.address));  // x, y low, x, y high
+    vec4 upper = vec4(0.0), lower = vec4(0.0);
+    for (uint row = 0u; row < 2u; ++row) {
+        const uint first = base + (row == 0u ? corners.y : corners.w) * uint(size.x);
+        upper = lower;
+        lower = mix(texel(t, first + corners.x), texel(t, first + corners.z), f.x);
+    }
+    return mix(upper, lower, f.y);
+}
+
+vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
+    const float finer = floor(lod);
+    vec4 fine = vec4(0.0), coarse = vec4(0.0);
+    const uint mips = lod == finer ? 1u : 2u;
+    for (uint i = 0u; i < mips; ++i) {
+        fine = coarse;
+        coarse = bilinear(t, uint(finer) + i, uv);
+    }
+    return mips == 1u ? coarse : mix(fine, coarse, lod - finer);
+}
+
+#endif

@@ -1,0 +1,29 @@
+// Draws the casters into shadow maps.
+#include "passes/shadows/cast.h"
+
+#include "passes/shadows/map_places.h"
+#include "passes/shadows/shadows.shared.h"
+#include "passes/texture_uses.h"
+
+namespace strata {
+
+void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
+    const std::vector<ShadowView> views = shadow_views(*frame.recorded, allocation);
+    if (views.empty()) return;
+    const MapLayers in = map_layers(views);
+    const auto count = static_cast<std::uint32_t>(views.size());
+    frame.shadow_maps =
+        graph.create("shadow_maps", {.extent = {in.extent, in.extent}, .format = Format::d32f, .layers = in.layers});
+    graph.clear(frame.shadow_maps, {});
+    for (std::uint32_t slot = 0; slot < count; ++slot) {
+        const bool is_alone = allocation == Allocation::own;
+        const std::uint32_t viewport = is_alone ? views[slot].size : in.extent;
+        DrawPass cast = graph.draw("shadows/cast", frame.casters);
+        fix_textures(cast, frame, Surfaces::opaque)
+            .writes_depth(frame.shadow_maps, {.layer = views[slot].layer})
+            .within({viewport, viewport})
+            .push(CastPush{.record = slot + (is_alone ? 0 : count), .viewport = viewport});
+    }
+}
+
+}  // namespace strata

@@ -1,0 +1,12 @@
+// Draws the casters into shadow maps: what all techniques that look maps up begin with.
+#pragma once
+
+#include "passes/frame_images.h"
+#include "passes/shadows/shadow_views.h"
+
+namespace strata {
+
+/// Makes FrameImages::shadow_maps and draws every map into its place; nothing where no light has a map.
+void cast_maps(Graph&, FrameImages&, Allocation);
+
+}  // namespace strata

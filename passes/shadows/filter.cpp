@@ -1,0 +1,123 @@
+// Looks shadow maps up.
+#include "passes/shadows/filter.h"
+
+#include <algorithm>
+
+#include "passes/shadows/cast.h"
+#include "passes/shadows/map_places.h"
+#include "passes/shadows/shadows.shared.h"
+
+namespace strata {
+
+namespace {
+
+constexpr std::string_view kernels[] = {"2x2", "4x4", "8x8"};
+constexpr std::string_view allocations[] = {"own", "need"};
+
+Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
+
+AtlasPush atlas_push(const FrameImages& frame) {
+    const std::vector<ShadowView> views = shadow_views(*frame.recorded, allocation_of(frame.shadow_filter));
+    const MapLayers in = map_layers(views);
+    const bool is_alone = allocation_of(frame.shadow_filter) == Allocation::own;
+    return {.first = is_alone ? 0 : static_cast<std::uint32_t>(views.size()), .extent = in.extent, .layers = in.layers};
+}
+
+Image atlas_view(Graph& graph, FrameImages& frame, const Settings&) {
+    Image picture = graph.create("atlas", {.extent = frame.extent, .format = Format::rgba32f});
+    graph.compute("shadows/atlas.comp")
+        .samples("shadow_maps", frame.shadow_maps)
+        .stores("picture", picture)
+        .push(atlas_push(frame))
+        .over(frame.extent);
+    return picture;
+}
+
+Image atlas_table(Graph& graph, FrameImages& frame, const Settings&) {
+    const auto rows = static_cast<std::uint32_t>(std::max<std::size_t>(shadow_views(*frame.recorded).size(), 1));
+    Image numbers = graph.create("atlas rows", {.extent = {1, rows}, .format = Format::rgba32f});
+    graph.compute("shadows/atlas_table.comp").stores("numbers", numbers).push(atlas_push(frame)).over({1, rows});
+    return numbers;
+}
+
+}  // namespace
+
+void make_shadow_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
+    frame.shadow_filter = settings.as<ShadowFilter>();
+    cast_maps(graph, frame, allocation_of(frame.shadow_filter));
+}
+
+void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& shader) {
+    if (!frame.shadow_maps) return;
+    const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(shadow_views(*frame.recorded)).size());
+    const Shape maps = graph.shape(frame.shadow_maps);
+    const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
+    frame.visibility =
+        graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
+    ComputePass pass = graph.compute(shader);
+    fix_shadow_filter(pass, frame.shadow_filter)
+        .samples("shadow_maps", frame.shadow_maps)
+        .samples("depth_layers", frame.depth_layers)
+        .samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
+        .stores("visibility", frame.visibility)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
+        .fixes("has_gbuffer2", frame.gbuffer2 ? 1u : 0u)
+        .fixes("layer_kilotexels", static_cast<std::uint32_t>((texels + 1023) / 1024))
+        .over({frame.extent.width, frame.extent.height, frame.samples});
+}
+
+ComputePass& fix_shadow_filter(ComputePass& pass, const ShadowFilter& filter) {
+    return pass.fixes("shadow_kernel", std::int32_t(2) << filter.kernel)
+        .fixes("shadow_slope_limit", filter.slope_limit)
+        .fixes("shadow_allocation", filter.allocation)
+        .fixes("shadow_search_taps", static_cast<std::int32_t>(filter.search_taps))
+        .fixes("shadow_filter_taps", static_cast<std::int32_t>(filter.filter_taps))
+        .fixes("shadow_noise", filter.noise);
+}
+
+std::vector<Param> shadow_map_params() {
+    return {param<&ShadowFilter::kernel>(
+                {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
+            param<&ShadowFilter::slope_limit>({.name = "slope_limit",
+                                               .low = 0,
+                                               .high = 8,
+                                               .fallback = 4,
+                                               .help = "tangent of the steepest angle between normal and light that the "
+                                                       "bias makes up for; 4 is 76 degrees"}),
+            param<&ShadowFilter::allocation>({.name = "allocation",
+                                              .low = 0,
+                                              .high = 1,
+                                              .fallback = 0,
+                                              .help = "own: maps as large as lights ask for, a layer each; need: as large as "
+                                                      "lights reach on the screen, packed",
+                                              .choices = allocations})};
+}
+
+std::vector<Counter> shadow_map_counters() {
+    return {counter<&ShadowCounters::filtered>({.name = "filtered", .help = "samples times lights looked up"}),
+            counter<&ShadowCounters::penumbra>({.name = "penumbra", .help = "of these, neither lit nor shadowed"}),
+            counter<&ShadowCounters::kilotexels_drawn>({.name = "kilotexels_drawn", .help = "1024 texels of shadow maps"}),
+            counter<&ShadowCounters::kilotexels_allocated>(
+                {.name = "kilotexels_allocated", .help = "1024 texels of the layers they lie in; 4 KiB each"})};
+}
+
+std::vector<DebugView> shadow_map_views() {
+    return {{.name = "atlas",
+             .help = "the layers of the shadow maps side by side: black where no map lies, dark where nothing was drawn, "
+                     "brighter towards the light",
+             .unit = "",
+             .low = 0,
+             .high = 1,
+             .add = atlas_view}};
+}
+
+std::vector<DebugTable> shadow_map_tables() {
+    return {{.name = "map_places",
+             .help = "the shadow maps by slot: their layer, their upper left texel in it and their edge",
+             .columns = {{"layer", ""}, {"x", "texels"}, {"y", "texels"}, {"size", "texels"}},
+             .add = atlas_table}};
+}
+
+}  // namespace strata

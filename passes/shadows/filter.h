@@ -1,0 +1,27 @@
+// Looks shadow maps up: the step, the rows and the pictures that the stage's techniques have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/shadows/shadow_filter.h"
+#include "passes/technique.h"
+
+namespace strata {
+
+/// At Stage::shadows: draws the maps and remembers in FrameImages::shadow_filter how they are looked up.
+void make_shadow_maps(Graph&, FrameImages&, const Settings&);
+/// At a stage behind the G-buffer: `shader` writes FrameImages::visibility. It includes passes/shadows/visibility.glsl.
+void filter_shadow_maps(Graph&, FrameImages&, const std::string& shader);
+
+/// Fixes the constants of passes/shaders/shadow_filter.glsl in a step whose shader includes it.
+ComputePass& fix_shadow_filter(ComputePass&, const ShadowFilter&);
+
+/// Rows of the parameters kernel, slope_limit and allocation.
+std::vector<Param> shadow_map_params();
+std::vector<Counter> shadow_map_counters();
+/// "atlas", a picture, and "map_places", a table: what lies where.
+std::vector<DebugView> shadow_map_views();
+std::vector<DebugTable> shadow_map_tables();
+
+}  // namespace strata

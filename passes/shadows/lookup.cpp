@@ -1,0 +1,123 @@
+// Lookups of shadow maps in double.
+#include "passes/shadows/lookup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/shade.h"
+
+namespace strata::shadows {
+
+namespace {
+
+Towards to_light(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
+    return towards(scene.frame, scene.lights[view.light], receiver.position);
+}
+
+// Float positions are good to a few 2^-23 of their size; the sun's map depth divides metres by the depth range, a spot's is
+// near / w and moves in proportion.
+double doubt(const ShadowView& view, const Receiver& receiver, const glm::dvec4& at, double distance) {
+    const glm::dvec4 depth_row = glm::transpose(view.view_to_map)[2];
+    const double metres = 2e-6 * (1 + glm::length(receiver.position) + (std::isinf(distance) ? 0 : distance));
+    const bool perspective = glm::dvec3(depth_row) == glm::dvec3(0);
+    return perspective ? metres * at.z / (at.w * at.w) : metres * glm::length(glm::dvec3(depth_row)) + 1e-6;
+}
+
+// The face of a cube that serves a receiver; undecided where two are equally near but for rounding and do not agree.
+Filtered look_up_face(const LookupScene& scene, std::size_t first, const Receiver& receiver, LookUp look_up) {
+    const Light& light = scene.lights[scene.views[first].light];
+    const glm::dvec3 direction =
+        glm::transpose(scene.frame.view.to_view) * (receiver.position - to_view(scene.frame, light.position));
+    const std::uint32_t face = cube_face(direction);
+    Filtered found = look_up(scene, scene.views[first + face], receiver);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 other = direction;
+        other[axis] *= 1 + 1e-5;
+        const std::uint32_t other_face = cube_face(other);
+        if (other_face != face && look_up(scene, scene.views[first + other_face], receiver).lit != found.lit)
+            found.undecided = true;
+    }
+    return found;
+}
+
+// The first cascade that reaches the receiver's depth, blended over its last tenth into the next, the last into lit.
+Filtered look_up_cascades(const LookupScene& scene, std::size_t first, const Receiver& receiver, LookUp look_up) {
+    for (std::size_t slot = first; slot < scene.views.size(); ++slot) {
+        const ShadowView& view = scene.views[slot];
+        if (view.light != scene.views[first].light) break;
+        if (receiver.position.z >= view.range_end) continue;
+        const double blended = cascade_blend * (view.range_end - view.range_begin);
+        const double share = std::min((view.range_end - receiver.position.z) / blended, 1.0);
+        const Filtered here = look_up(scene, view, receiver);
+        if (share == 1) return here;
+        const bool last = slot + 1 == scene.views.size() || scene.views[slot + 1].light != view.light;
+        const Filtered next = last ? Filtered{} : look_up(scene, scene.views[slot + 1], receiver);
+        return {glm::mix(next.lit, here.lit, share), here.undecided || next.undecided};
+    }
+    return {};
+}
+
+Filtered look_up_light(const LookupScene& scene, std::uint32_t light, const Receiver& receiver, LookUp look_up) {
+    const auto first = std::ranges::find(scene.views, light, &ShadowView::light) - scene.views.begin();
+    const auto slot = static_cast<std::size_t>(first);
+    if (has_faces(scene.lights[light])) return look_up_face(scene, slot, receiver, look_up);
+    return look_up_cascades(scene, slot, receiver, look_up);  // a spot is one cascade without an end
+}
+
+}  // namespace
+
+LookupScene::LookupScene(const Frame& recorded, const ReferenceImage& drawn, const ShadowFilter& settings)
+    : frame(recorded),
+      maps(drawn),
+      views(shadow_views(recorded, static_cast<Allocation>(settings.allocation))),
+      lights(shadow_lights(recorded)),
+      filter(settings) {}
+
+std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver,
+                                    KernelSize kernel) {
+    const Towards to = to_light(scene, view, receiver);
+    const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
+    const double cosine = std::clamp(glm::dot(receiver.normal, to.direction), 1e-3, 1.0);
+    const double slope = std::min(std::tan(std::acos(cosine)), double(scene.filter.slope_limit));
+    const double moved = std::min(view.bias + kernel.radius * view.texel * w * slope, 0.5 * to.distance);
+    const glm::dvec4 at = view.view_to_map * glm::dvec4(receiver.position + moved * to.direction, 1);
+    if (at.w <= 0) return std::nullopt;
+    const glm::dvec2 u = glm::dvec2(at.x, at.y) / at.w * double(view.size);
+    if (std::min(u.x, u.y) < -kernel.reach || std::max(u.x, u.y) > view.size + kernel.reach) return std::nullopt;
+    return Lookup{.layer = view.layer,
+                  .size = view.size,
+                  .u = u,
+                  .depth = at.z / at.w,
+                  .doubt = doubt(view, receiver, at, to.distance),
+                  .offset = view.offset,
+                  .is_face = has_faces(scene.lights[view.light])};
+}
+
+Filtered fixed_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
+    const double taps = double(scene.taps());
+    const auto at = biased_lookup(scene, view, receiver, {.radius = std::sqrt(0.5) * taps + 0.5, .reach = taps});
+    return at ? filter_map(scene.maps, *at, scene.taps()) : Filtered{};
+}
+
+ImageSet visibility_model(const StageInput& input, const Settings& settings, LookUp look_up) {
+    const auto maps = input.before.find("shadow_maps"), depth = input.before.find("depth_layers");
+    if (maps == input.before.end() || depth == input.before.end() || !input.before.contains("surface_normal")) return {};
+    const LookupScene scene(input.frame, maps->second, settings.as<ShadowFilter>());
+    const std::vector<std::uint32_t> shadowed = shadowed_lights(scene.views);
+    const ReferenceImage& shape = depth->second;
+    const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;
+    ReferenceImage visibility(shape.width, shape.height, layers, glm::dvec4(1, 0, 0, 1));
+    std::vector<char> undecided(visibility.texels.size(), 0);  // rows run in parallel: no packed bits
+    for_each_receiver(input, [&](const Receiver& receiver) {
+        for (std::uint32_t k = 0; k < shadowed.size(); ++k) {
+            const Filtered result = look_up_light(scene, shadowed[k], receiver, look_up);
+            const std::size_t texel = visibility.index(receiver.x, receiver.y, k * shape.layers + receiver.sample);
+            visibility.texels[texel].x = result.lit;
+            undecided[texel] = result.undecided;
+        }
+    });
+    visibility.undecided.assign(undecided.begin(), undecided.end());
+    return {{"visibility", visibility}};
+}
+
+}  // namespace strata::shadows

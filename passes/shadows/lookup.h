@@ -1,0 +1,40 @@
+// Lookups of shadow maps in double: what the models of the stage's techniques go through. The maps are those the device drew.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "passes/shadows/kernel.h"
+#include "passes/shadows/receivers.h"
+#include "passes/shadows/shadow_filter.h"
+#include "passes/shadows/shadow_views.h"
+#include "passes/technique.h"
+
+namespace strata::shadows {
+
+struct LookupScene {
+    const Frame& frame;
+    const ReferenceImage& maps;
+    std::vector<ShadowView> views;
+    std::vector<Light> lights;
+    ShadowFilter filter;
+
+    LookupScene(const Frame&, const ReferenceImage& maps, const ShadowFilter&);
+    std::int64_t taps() const { return std::int64_t(2) << filter.kernel; }
+};
+
+/// Where a receiver that moves towards the light by its bias is looked up in a map. The slope bias is that of a kernel with this
+/// radius in texels; `reach` is how many texels outside the map the kernel may still touch it. Nothing where it does not.
+struct KernelSize {
+    double radius = 0, reach = 0;
+};
+std::optional<Lookup> biased_lookup(const LookupScene&, const ShadowView&, const Receiver&, KernelSize);
+
+/// The share of one map that a fixed kernel lights.
+Filtered fixed_lookup(const LookupScene&, const ShadowView&, const Receiver&);
+
+/// "visibility" by a lookup per map: cascades blend, cubes have faces.
+using LookUp = Filtered (*)(const LookupScene&, const ShadowView&, const Receiver&);
+ImageSet visibility_model(const StageInput&, const Settings&, LookUp);
+
+}  // namespace strata::shadows

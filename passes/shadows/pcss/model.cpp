@@ -1,0 +1,60 @@
+// Percentage-closer soft shadows in double, by brute force over the maps as they were drawn.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "passes/shadows/lookup.h"
+#include "passes/shadows/pcss/soft_kernel.h"
+
+namespace strata::shadows {
+
+namespace {
+
+// Half the widest penumbra, and the other texel of a bilinear comparison.
+constexpr double soft_reach = 32 + 1;
+
+// What the plane through the biased receiver gains in depth per texel: planes go through the map's projection as covectors.
+glm::dvec2 plane_gradient(const ShadowView& view, const Lookup& at, const glm::dvec3& normal) {
+    const glm::dmat4 to_view = glm::inverse(view.view_to_map);
+    const glm::dvec4 position = to_view * glm::dvec4(at.u / double(at.size), at.depth, 1);
+    const glm::dvec4 plane(normal, -glm::dot(normal, glm::dvec3(position)) / position.w);
+    const glm::dvec4 in_map = glm::transpose(to_view) * plane;
+    if (in_map.z == 0) return glm::dvec2(0);
+    return -glm::dvec2(in_map) / in_map.z / double(view.size);
+}
+
+// Interleaved gradient noise (Jimenez 2014).
+double pixel_turn(const Receiver& receiver) {
+    const auto fraction = [](double x) { return x - std::floor(x); };
+    const double inner = 0.06711056 * receiver.x + 0.00583715 * receiver.y;
+    return 2 * std::numbers::pi * (fraction(52.9829189 * fraction(inner)) - 0.5);
+}
+
+Filtered soft_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
+    if (!view.soft) return fixed_lookup(scene, view, receiver);
+    const auto at = biased_lookup(scene, view, receiver, {.radius = 0.5, .reach = soft_reach});
+    if (!at) return {};
+    const Towards to = towards(scene.frame, scene.lights[view.light], receiver.position);
+    const glm::dvec4 depth_row = glm::transpose(view.view_to_map)[2];
+    const bool is_sun = scene.lights[view.light].type == LightType::directional;
+    const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
+    const double doubtful_metres = 2e-6 * (1 + glm::length(receiver.position) + (is_sun ? 0 : to.distance));
+    SoftLookup soft{.at = *at, .source = view.source_width, .texel = view.texel};
+    soft.gradient = plane_gradient(view, *at, receiver.normal);
+    soft.near = is_sun ? 0 : depth_row.w;
+    soft.depth_metres = is_sun ? 1 / glm::length(glm::dvec3(depth_row)) : 0;
+    soft.turn = scene.filter.noise != 0 ? pixel_turn(receiver) : 0;
+    soft.texel_doubt += doubtful_metres / (view.texel * w) + (scene.filter.noise != 0 ? 0.02 : 0);
+    soft.search = scene.filter.search_taps;
+    soft.filter = scene.filter.filter_taps;
+    Filtered result = filter_soft(scene.maps, soft);
+    // Seen edge on from the light a plane's rise over the map is anything; such a receiver is next to unlit.
+    if (std::abs(glm::dot(receiver.normal, to.direction)) < 0.01) result.undecided = true;
+    return result;
+}
+
+}  // namespace
+
+ImageSet pcss_model(const StageInput& input, const Settings& settings) { return visibility_model(input, settings, soft_lookup); }
+
+}  // namespace strata::shadows

@@ -1,0 +1,73 @@
+// The visibility image: every shadowed light at every sample of the G-buffer. Included by the compute shaders of techniques, which
+// say before what their variant can do: `const uint shadow_features`.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "passes/shaders/camera.glsl"
+#include "passes/shadows/shadows.shared.h"
+#include "passes/gbuffer/surface.glsl"
+#include "passes/gbuffer/decoders.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 1) const uint gbuffer_layout = 0u;
+layout(constant_id = 2) const uint has_gbuffer2 = 0u;
+layout(constant_id = 3) const uint layer_kilotexels = 0u;  // of shadow_maps, all layers together
+
+layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
+layout(set = 0, binding = 1) uniform sampler2DArray depth_layers;
+layout(set = 0, binding = 2) uniform sampler2DArray gbuffer0;
+layout(set = 0, binding = 3) uniform sampler2DArray gbuffer1;
+layout(set = 0, binding = 4) uniform sampler2DArray gbuffer2;
+layout(set = 0, binding = 5, r16f) writeonly uniform image2DArray visibility;
+layout(set = 0, binding = 6, scalar) buffer Counters { ShadowCounters counters; };
+#include "passes/shaders/shadow_filter.glsl"
+
+// Depth is a sample's own, so the ray is too: then position lies on the surface. Standard places (deferred chapter 0.4).
+const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+
+vec2 sample_position(uint i) { return view.samples == 1u ? vec2(0.5) : places[i]; }
+
+void count(uint filtered_here, uint penumbra_here) {
+    const uint filtered_sum = subgroupAdd(filtered_here);
+    const uint penumbra_sum = subgroupAdd(penumbra_here);
+    if (subgroupElect()) {
+        if (filtered_sum > 0u) atomicAdd(counters.filtered, filtered_sum);
+        if (penumbra_sum > 0u) atomicAdd(counters.penumbra, penumbra_sum);
+    }
+}
+
+// Texels in units of 1024, rounded up map by map: texels themselves would leave 32 bits at 64 maps of 8192 x 8192.
+void count_texels() {
+    uint drawn = 0u;
+    for (uint slot = 0u; slot < view.shadow_count; ++slot) {
+        const uint size = shadows[slot + shadow_allocation * view.shadow_count].size;
+        drawn += (size * size + 1023u) / 1024u;
+    }
+    atomicAdd(counters.kilotexels_drawn, drawn);
+    atomicAdd(counters.kilotexels_allocated, layer_kilotexels);
+}
+
+void main() {
+    if (gl_GlobalInvocationID == uvec3(0u)) count_texels();
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, view.extent))) return;
+    const ivec3 at = ivec3(gl_GlobalInvocationID);
+    const float depth = texelFetch(depth_layers, at, 0).r;
+    vec3 position = vec3(0.0), normal = vec3(0.0);
+    if (depth > 0.0) {
+        const vec4 g2 = has_gbuffer2 != 0u ? texelFetch(gbuffer2, at, 0) : vec4(0.0);
+        const vec2 center = vec2(at.xy) + 0.5;
+        const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0), g2, center);
+        position = view_position(vec2(at.xy) + sample_position(uint(at.z)), view_z(depth));
+        normal = facing_normal(s.lighting_model, s.normal, position);
+    }
+    uint filtered_here = 0u, penumbra_here = 0u;
+    for (uint i = 0u; i < view.light_count; ++i) {
+        if (lights[i].visibility_layer == no_index) continue;
+        float share = 1.0;
+        if (depth > 0.0) {
+            share = filtered_shadow(lights[i], position, normal, shadow_features);
+            ++filtered_here;
+            if (share > 0.0 && share < 1.0) ++penumbra_here;
+        }
+        imageStore(visibility, ivec3(at.xy, int(lights[i].visibility_layer) + at.z), vec4(share));
+    }
+    count(filtered_here, penumbra_here);
+}

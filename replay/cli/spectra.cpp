@@ -1,0 +1,125 @@
+// strata spectra: what the tiles of captures need to be lit, and the shading modes that serve them at the least cost.
+#include "replay/spectra/spectra.h"
+
+#include <unistd.h>
+
+#include <memory>
+
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include "capture_format/nearest_name.h"
+#include "capture_format/whole_file.h"
+#include "replay/cli/verb_options.h"
+
+namespace strata {
+namespace {
+
+struct Options {
+    std::vector<std::filesystem::path> captures;
+    OpenOptions open;
+    ChoiceOptions choices;
+    std::string frames, cost = "weights", aim = "sum";
+    SpectraWish wish;
+    std::size_t repeats = 7;
+    bool json = false;
+    std::filesystem::path output;
+};
+
+Result<const CostSource*> find_cost_source(const std::string& name) {
+    std::vector<std::string_view> known;
+    for (const CostSource& source : cost_sources()) {
+        if (source.name == name) return &source;
+        known.push_back(source.name);
+    }
+    return fail(Fault::usage, "--cost takes {}, not '{}'{}", fmt::join(known, " or "), name, did_you_mean(name, known));
+}
+
+Result<std::unique_ptr<Session>> open_one(const Options& options, const std::filesystem::path& capture) {
+    OpenOptions one = options.open;
+    one.capture = capture;
+    return open(one);
+}
+
+Result<std::vector<FrameSpectra>> gather(const Options& options, const Technique& technique, const Request& base) {
+    std::vector<FrameSpectra> gathered;
+    std::string why = "nothing is lit";
+    for (const std::filesystem::path& capture : options.captures) {
+        auto session = open_one(options, capture);
+        if (!session) return session.error();
+        const auto frames = frame_indices(options.frames, (*session)->frame_count());
+        if (!frames) return frames.error();
+        auto made = gather_spectra(**session, technique, base, *frames);
+        if (!made) return made.error();
+        if (!made->skipped.empty()) why = made->skipped.front().reason;
+        for (FrameSpectra& frame : made->frames) {
+            if (frame.tiles.empty()) continue;
+            frame.capture = capture.string();
+            gathered.push_back(std::move(frame));
+        }
+    }
+    if (gathered.empty()) return fail(Fault::usage, "no frame has a feature spectrum: {}", why);
+    return gathered;
+}
+
+/// One line that rewrites itself, on a terminal only.
+void show_progress(std::string_view what, double done) {
+    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
+}
+
+Result<void> spectra(const Options& options) {
+    const auto source = find_cost_source(options.cost);
+    if (!source) return source.error();
+    const auto base = request_of(options.choices);
+    if (!base) return base.error();
+    const auto technique = technique_of_spectra(options.choices.uses);
+    if (!technique) return technique.error();
+    auto frames = gather(options, **technique, *base);
+    if (!frames) return frames.error();
+    auto costs = (*source)->costs({.technique = **technique,
+                                   .base = *base,
+                                   .frames = *frames,
+                                   .modes = modes_that_matter(*frames),
+                                   .open = [&](const std::string& capture) { return open_one(options, capture); },
+                                   .repeats = options.repeats,
+                                   .progress = show_progress});
+    if (!costs) return costs.error();
+    SpectraWish wish = options.wish;
+    wish.aim = options.aim == "worst" ? lighting::Aim::worst : lighting::Aim::sum;
+    SpectraReport report = find_modes(*std::move(frames), *std::move(costs), wish);
+    report.technique = (*technique)->name;
+    report.cost_source = options.cost;
+    fmt::print("{}", options.json ? as_json(report) : as_text(report));
+    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(report));
+}
+
+std::string help_of_costs() {
+    std::string help = "what a mode costs";
+    for (const CostSource& source : cost_sources()) help += fmt::format("; {}: {}", source.name, source.help);
+    return help + "; default weights";
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_spectra(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    app.add_option("captures", options->captures, ".strata files; every frame of each counts alike")->required();
+    add_options(app, options->open.device);
+    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
+    add_options(app, options->choices);
+    app.add_option("--frames", options->frames, "which frames of each, like 0,4-8; default all");
+    app.add_option("--modes", options->wish.modes, "how many shading modes at most, the full one included, default 8")
+        ->check(CLI::Range(std::size_t(1), most_settable_modes));
+    app.add_option("--cost", options->cost, help_of_costs());
+    app.add_option("--aim", options->aim, "sum: least for all frames together; worst: least for the dearest frame; default sum")
+        ->check(CLI::IsMember({"sum", "worst"}));
+    app.add_option("--dispatch", options->wish.dispatch, "what one mode more costs every frame, in the unit of costs, default 0")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--repeats", options->repeats, "timed runs of each mode after a warm-up, default 7")
+        ->check(CLI::Range(1, 1000));
+    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_option("-o,--output", options->output, "write the JSON to a file, too");
+    return [options] { return spectra(*options); };
+}
+
+}  // namespace strata

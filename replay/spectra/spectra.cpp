@@ -1,0 +1,186 @@
+#include "replay/spectra/spectra.h"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+
+#include <fmt/ranges.h>
+
+#include "passes/registry.h"
+
+namespace strata {
+namespace {
+
+constexpr std::string_view table_name = "spectra";
+
+bool offers_spectra(const Technique& technique) {
+    return std::ranges::count(technique.tables, table_name, &DebugTable::name) > 0;
+}
+
+/// The column's number of a row.
+std::uint32_t at(const NumberTable& table, const std::vector<double>& row, std::string_view column) {
+    const auto found = std::ranges::find(table.columns, column, &TableColumn::name);
+    assert(found != table.columns.end());
+    return static_cast<std::uint32_t>(row[static_cast<std::size_t>(found - table.columns.begin())]);
+}
+
+FrameSpectra spectra_of(const NumberTable& table) {
+    FrameSpectra made;
+    for (const std::vector<double>& row : table.rows) {
+        const std::uint32_t spectrum = at(table, row, "spectrum"), tiles = at(table, row, "tiles");
+        made.tiles[spectrum] += tiles;
+        made.rows.push_back({spectrum, tiles, at(table, row, "mode"), spectrum | at(table, row, "superfluous")});
+    }
+    return made;
+}
+
+std::vector<lighting::Scene> scenes_of(std::span<const FrameSpectra> frames) {
+    std::vector<lighting::Scene> scenes;
+    for (const FrameSpectra& frame : frames) scenes.push_back({.tiles = frame.tiles});
+    return scenes;
+}
+
+lighting::Histogram summed(std::span<const FrameSpectra> frames) {
+    lighting::Histogram sum;
+    for (const FrameSpectra& frame : frames)
+        for (const auto& [spectrum, tiles] : frame.tiles) sum[spectrum] += tiles;
+    return sum;
+}
+
+/// What frames cost, by the wish's aim, whose tiles are shaded as the rows say and that dispatch so many modes.
+double cost_of_rows(std::span<const std::vector<lighting::SpectrumRow>> frames, std::size_t modes, const lighting::ModeCost& cost,
+                    const SpectraWish& wish) {
+    double aimed = 0;
+    for (const std::vector<lighting::SpectrumRow>& rows : frames) {
+        double sum = wish.dispatch * double(modes);
+        for (const lighting::SpectrumRow& row : rows) sum += double(row.tiles) * cost(row.features);
+        aimed = wish.aim == lighting::Aim::sum ? aimed + sum : std::max(aimed, sum);
+    }
+    return aimed;
+}
+
+double cost_as_replayed(std::span<const FrameSpectra> frames, const lighting::ModeCost& cost, const SpectraWish& wish) {
+    std::vector<std::vector<lighting::SpectrumRow>> rows;
+    std::set<std::uint32_t> modes;
+    for (const FrameSpectra& frame : frames) {
+        rows.push_back(frame.rows);
+        for (const lighting::SpectrumRow& row : frame.rows) modes.insert(row.mode);
+    }
+    return cost_of_rows(rows, modes.size(), cost, wish);
+}
+
+/// The modes by what a tile chooses among them on the device: the weights, whatever they were found by.
+std::vector<lighting::Mode> as_chosen(std::vector<lighting::Mode> modes) {
+    for (lighting::Mode& mode : modes) mode.cost = lighting::weighted_cost(mode.features);
+    return modes;
+}
+
+}  // namespace
+
+Result<const Technique*> technique_of_spectra(std::span<const std::string> uses) {
+    std::vector<const Technique*> offering;
+    std::vector<std::string_view> names;
+    for (const Technique& technique : techniques())
+        if (offers_spectra(technique)) {
+            offering.push_back(&technique);
+            names.push_back(technique.name);
+        }
+    if (offering.empty()) return fail(Fault::usage, "no technique that is built in makes feature spectra");
+    const Technique* chosen = offering.front();
+    for (const std::string& use : uses) {
+        const auto technique = find_technique(use);
+        if (!technique) return technique.error();
+        if ((*technique)->stage != offering.front()->stage) continue;
+        if (!offers_spectra(**technique))
+            return fail(
+                Fault::usage, "{} makes no feature spectra; {}", use,
+                names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
+        chosen = *technique;
+    }
+    return chosen;
+}
+
+std::vector<std::string> settings_of(std::span<const std::uint32_t> modes) {
+    assert(!modes.empty() && modes.size() <= most_settable_modes);
+    std::vector<std::string> settings{fmt::format("modes={}", modes.size())};
+    for (std::size_t i = 0; i < modes.size(); ++i) settings.push_back(fmt::format("mode_{}={}", i, modes[i]));
+    return settings;
+}
+
+Result<GatheredFrames> gather_spectra(Session& session, const Technique& technique, const Request& base,
+                                      std::span<const std::size_t> frames) {
+    GatheredFrames gathered;
+    Request request = base;
+    request.uses.emplace_back(technique.name);
+    request.outputs = {fmt::format("{}:{}", technique.name, table_name)};
+    request.once = true;
+    for (const std::size_t frame : frames) {
+        request.frame = frame;
+        const auto run = session.run(request);
+        if (!run) return run.error();
+        const auto skipped = std::ranges::find(run->skipped, technique.stage, &SkippedStage::stage);
+        if (skipped != run->skipped.end()) {
+            gathered.skipped.push_back(*skipped);
+            continue;
+        }
+        gathered.frames.push_back(spectra_of(run->tables.at(request.outputs.front())));
+        gathered.frames.back().frame = frame;
+    }
+    return gathered;
+}
+
+std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra> frames) {
+    constexpr std::size_t most = 24, smallest_share = 64;
+    const lighting::Histogram tiles = summed(frames);
+    const auto is_worth_it = [&](std::uint32_t mode) {
+        std::uint64_t served = 0;
+        for (const auto& [spectrum, count] : tiles)
+            if (lighting::serves(mode, spectrum)) served += count;
+        return served * smallest_share >= lighting::tiles_of(tiles);
+    };
+    const lighting::ModeProblem problem{
+        .scenes = scenes_of(frames), .modes = most_settable_modes, .cost = lighting::weighted_cost};
+    std::vector<std::uint32_t> modes{problem.full};
+    const auto add = [&](std::uint32_t mode) {
+        if (modes.size() < most && std::ranges::count(modes, mode) == 0 && is_worth_it(mode)) modes.push_back(mode);
+    };
+    for (const lighting::Mode& mode : lighting::greedy_modes(problem).modes) add(mode.features);
+    const lighting::Mode full{problem.full, 0};
+    for (const lighting::SpectrumRow& row : lighting::sorted_rows(tiles, std::span(&full, 1))) add(row.spectrum);
+    return modes;
+}
+
+Result<ModeCosts> weighted_costs(const CostQuestion&) {
+    return ModeCosts{.cost = lighting::weighted_cost, .unit = "tiles of a mode without features"};
+}
+
+std::span<const CostSource> cost_sources() {
+    static constexpr CostSource table[] = {
+        {"weights", "1 and an example's weight per feature: takes no time, models no machine", weighted_costs},
+        {"measured", "timed here, on the first frame of every capture", measured_costs},
+    };
+    return table;
+}
+
+SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, const SpectraWish& wish) {
+    const lighting::ModeProblem problem{.scenes = scenes_of(frames),
+                                        .modes = wish.modes,
+                                        .cost = costs.cost,
+                                        .dispatch = wish.dispatch,
+                                        .aim = wish.aim,
+                                        .waves = costs.waves};
+    SpectraReport report{.wish = wish, .found = lighting::best_modes(problem)};
+    const std::vector<lighting::Mode> chosen = as_chosen(report.found.modes);
+    report.rows = lighting::sorted_rows(summed(frames), chosen);
+    std::vector<std::vector<lighting::SpectrumRow>> rows;
+    for (const FrameSpectra& frame : frames) rows.push_back(lighting::sorted_rows(frame.tiles, chosen));
+    report.full = lighting::cost_of(problem, {});
+    report.as_replayed = cost_as_replayed(frames, costs.cost, wish);
+    report.by_modes = cost_of_rows(rows, chosen.size(), costs.cost, wish);
+    report.ideal = lighting::ideal_cost(problem);
+    report.costs = std::move(costs);
+    report.frames = std::move(frames);
+    return report;
+}
+
+}  // namespace strata

@@ -1,0 +1,93 @@
+// The feature spectra of captures and the shading modes that serve them best (lighting chapter 3.4 to 3.7).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "passes/lighting/mode_search.h"
+#include "passes/technique.h"
+#include "replay/report/report.h"
+#include "replay/session.h"
+
+namespace strata {
+
+/// The technique that offers a table "spectra" (columns spectrum, tiles, mode, superfluous) and has the settings force, modes and
+/// mode_0 to mode_15: the one of its stage that `uses` names, which must be such a one, else the first on the list.
+Result<const Technique*> technique_of_spectra(std::span<const std::string> uses);
+
+/// What `--set` takes for this list of modes.
+std::vector<std::string> settings_of(std::span<const std::uint32_t> modes);
+inline constexpr std::size_t most_settable_modes = 16;
+
+/// The tiles of a frame that something is shaded in.
+struct FrameSpectra {
+    std::string capture;
+    std::size_t frame = 0;
+    lighting::Histogram tiles;
+    std::vector<lighting::SpectrumRow> rows;  ///< with the modes that it was replayed with
+};
+struct GatheredFrames {
+    std::vector<FrameSpectra> frames;
+    std::vector<SkippedStage> skipped;  ///< of frames without the stage
+};
+Result<GatheredFrames> gather_spectra(Session&, const Technique&, const Request& base, std::span<const std::size_t> frames);
+
+/// A mode beside the full one on the first frame of every capture, timed against the full one alone.
+struct TimedMode {
+    std::uint32_t features = 0;
+    std::uint64_t tiles = 0;  ///< that it served
+    double saved_ms = 0;      ///< on them
+};
+
+/// What modes cost.
+struct ModeCosts {
+    lighting::ModeCost cost;
+    lighting::ModeWaves waves = {};  ///< empty: not known
+    std::string unit;                ///< of a tile's cost
+    std::vector<TimedMode> timed = {};
+};
+/// What whoever prices modes may look at.
+struct CostQuestion {
+    const Technique& technique;
+    Request base;
+    std::span<const FrameSpectra> frames;
+    std::vector<std::uint32_t> modes;  ///< that matter most, and the full one; the cost of others is to be completed from these
+    std::function<Result<std::unique_ptr<Session>>(const std::string& capture)> open;
+    std::size_t repeats = 7;
+    Progress progress = {};
+};
+/// A way to price modes: `--cost NAME`.
+struct CostSource {
+    std::string_view name, help;
+    Result<ModeCosts> (*costs)(const CostQuestion&);
+};
+std::span<const CostSource> cost_sources();
+Result<ModeCosts> weighted_costs(const CostQuestion&);
+/// Times the technique on the first frame of every capture, see measured.cpp.
+Result<ModeCosts> measured_costs(const CostQuestion&);
+/// At most so many modes that are worth asking for: those a greedy search by weights takes, then the most frequent spectra; each
+/// serves at least one tile in 64, fewer drown in a timer's noise.
+std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra>);
+
+struct SpectraWish {
+    std::size_t modes = 8;  ///< at most, the full one included
+    lighting::Aim aim = lighting::Aim::sum;
+    double dispatch = 0;  ///< in the unit of costs
+};
+struct SpectraReport {
+    std::string technique = {}, cost_source = {};
+    SpectraWish wish = {};
+    ModeCosts costs = {};
+    std::vector<FrameSpectra> frames = {};
+    lighting::ModeSet found = {};
+    std::vector<lighting::SpectrumRow> rows = {};               ///< of all frames, with the modes that were found
+    double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs of all frames, by the wish's aim
+};
+SpectraReport find_modes(std::vector<FrameSpectra>, ModeCosts, const SpectraWish&);
+
+std::string as_text(const SpectraReport&);
+std::string as_json(const SpectraReport&);
+
+}  // namespace strata

@@ -1,0 +1,76 @@
+// What the host expects of a frame's lighting against what its tiles need (lighting chapter 3.6).
+#include <gtest/gtest.h>
+
+#include "passes/lighting/frame_spectrum.h"
+#include "passes/lighting/spectra.h"
+#include "passes/shaders/light_features.shared.h"
+#include "replay/spectra/spectra.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+TEST(FrameSpectrum, T3_4_HoldsEveryBitThatATileOfAnyLightingScenarioNeeds) {
+    const Technique& technique = *must(technique_of_spectra({}));
+    std::uint32_t seen = 0;
+    for (const std::string_view scenario : info(technique.stage).scenarios) {
+        Session& session = session_of_scenarios();
+        const Request request = on_scenario(scenario);
+        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.frame}));
+        const std::uint32_t expected = lighting::frame_spectrum(must(session.frame(request.frame)));
+        std::uint32_t needed = 0;
+        for (const FrameSpectra& frame : gathered.frames)
+            for (const auto& [spectrum, tiles] : frame.tiles) needed |= spectrum;
+        EXPECT_EQ(needed & ~expected, 0u) << scenario << " needs " << lighting::braced_names(needed & ~expected);
+        seen |= needed;
+    }
+    EXPECT_NE(seen, 0u);
+}
+
+Frame room() { return scenario_frames("lights_room").front(); }
+
+/// The room with one light of the type, a metre to the right and so far ahead of the eye.
+std::uint32_t spectrum_of_a_light(LightType type, double ahead, float range) {
+    Frame frame = room();
+    frame.sun.irradiance = glm::vec3(0);
+    const glm::dmat3 to_world = glm::transpose(frame.view.to_view);
+    frame.lights = {{.type = type, .position = frame.view.origin + to_world * glm::dvec3(1, 0, ahead), .range = range}};
+    return lighting::frame_spectrum(frame);
+}
+
+TEST(FrameSpectrum, LacksWhatLightsNeedWhoseRangeDoesNotMeetTheView) {
+    EXPECT_EQ(spectrum_of_a_light(LightType::tube, 20, 5), std::uint32_t(feature_tube));
+    EXPECT_EQ(spectrum_of_a_light(LightType::tube, -10, 5), 0u) << "behind the eye";
+    EXPECT_EQ(spectrum_of_a_light(LightType::tube, -10, 12), std::uint32_t(feature_tube)) << "its range comes to the front";
+    EXPECT_EQ(spectrum_of_a_light(LightType::round_spot, 20, 5), std::uint32_t(feature_round_spot));
+    EXPECT_EQ(spectrum_of_a_light(LightType::directional, -10, 1), 0u) << "needs nothing but itself";
+}
+
+TEST(FrameSpectrum, HasTheModelsOfOpaqueSurfacesInView) {
+    Frame frame = room();
+    frame.sun.irradiance = glm::vec3(0);
+    frame.lights.clear();
+    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+    for (Material& material : frame.materials) material.lighting_model = LightingModel::cloth;
+    EXPECT_EQ(lighting::frame_spectrum(frame), std::uint32_t(feature_cloth));
+    for (Material& material : frame.materials) material.alpha_mode = AlphaMode::blend;
+    EXPECT_EQ(lighting::frame_spectrum(frame), 0u) << "transparent surfaces are lit elsewhere";
+    for (Material& material : frame.materials) material = {.lighting_model = LightingModel::hair};
+    for (Draw& draw : frame.draws) draw.to_world[3] += glm::dvec4(0, 1e4, 0, 0);
+    EXPECT_EQ(lighting::frame_spectrum(frame), 0u) << "ten kilometres up";
+}
+
+TEST(FrameSpectrum, HasTapVisibilityWhereAVolumesLightStopsAtBlockers) {
+    Frame frame = room();
+    frame.sun.irradiance = glm::vec3(0);
+    frame.lights.clear();
+    frame.light_volumes = {{.occlusion = VolumeOcclusion::axial}};
+    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+    frame.blockers.emplace_back();
+    EXPECT_EQ(lighting::frame_spectrum(frame), std::uint32_t(feature_gi_tap_visibility));
+    frame.light_volumes[0].occlusion = VolumeOcclusion::fuzzy_geometry;
+    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+}
+
+}  // namespace
+}  // namespace strata

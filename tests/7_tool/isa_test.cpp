@@ -1,0 +1,173 @@
+// strata isa: what RADV makes of a frame's pipelines for GPUs that are not there, against our own arithmetic.
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
+
+json isa_json(const std::string& arguments) {
+    const Finished made = strata("isa panes.strata --json " + arguments);
+    EXPECT_EQ(made.code, 0) << made.err;
+    return made.code == 0 ? json::parse(made.out) : json();
+}
+
+TEST(Isa, CompilesEveryPipelineOfTheFrameForEveryGpu) {
+    record_panes();
+    const json report = isa_json("--no-run --gpu-model polaris10,navi21,gfx1100");
+    EXPECT_EQ(report["schema"], "strata.isa");
+    ASSERT_EQ(report["gpus"].size(), 3u);
+    for (const json& gpu : report["gpus"]) {
+        EXPECT_GE(gpu["programs"].size(), 8u) << gpu["name"];
+        EXPECT_EQ(gpu["notes"], json::array()) << gpu["name"];
+        for (const json& program : gpu["programs"]) {
+            for (const char* number : {"vector_registers", "instructions", "latency_cycles", "inverse_throughput_cycles"})
+                EXPECT_GT(program[number].get<double>(), 0) << number << " of " << program;
+            EXPECT_EQ(program["spilled_registers"], 0) << program;
+            EXPECT_GE(program["occupancy"]["waves_per_simd"], 1) << program;
+        }
+        // Every pass is one of a pipeline that was compiled.
+        for (const json& pass : gpu["passes"])
+            EXPECT_TRUE(std::ranges::any_of(gpu["programs"], [&](const json& p) { return p["pipeline"] == pass["pipeline"]; }))
+                << pass;
+    }
+}
+
+TEST(Isa, TheCompilersOwnWavesAreWhatItsRuleGivesAndOursWhereGroupsStayWhole) {
+    record_panes();
+    const json report = isa_json("--no-run --gpu-model bonaire,vega10,navi10");
+    std::size_t compared = 0;
+    for (const json& gpu : report["gpus"])
+        for (const json& program : gpu["programs"]) {
+            if (program["stage"] != "compute") continue;
+            EXPECT_EQ(program["stated_by_compiler"], program["stated_by_rule"]) << gpu["name"] << program;
+            // What is rounded up where groups do not fill a unit, or where they share LDS, is the occupancy chapter's matter.
+            if (program["occupancy"]["lost_to_whole_groups"] > 0 || program["lds_bytes"] > 0) continue;
+            const bool counts_halves = gpu["model"]["unit"] == "work group processor";  // a wave of 64 as two
+            const double stated = program["stated_by_compiler"].get<double>() / (counts_halves ? 2 : 1);
+            EXPECT_EQ(program["occupancy"]["waves_per_simd"], stated) << gpu["name"] << program;
+            ++compared;
+        }
+    EXPECT_GE(compared, 9u);
+}
+
+TEST(Isa, ModelsTimesOfWhatIsCountedAndSaysThatItDoes) {
+    record_panes();
+    const json gpu = isa_json("--gpu-model navi21")["gpus"][0];
+    const double cycles_per_ms = gpu["model"]["units"].get<double>() * gpu["model"]["simds_per_unit"].get<double>() *
+                                 gpu["model"]["clock_mhz"].get<double>() * 1e3;
+    double sum = 0;
+    std::size_t modelled = 0;
+    for (const json& pass : gpu["passes"]) {
+        if (pass["modelled_ms"].is_null()) continue;
+        const auto program = std::ranges::find_if(
+            gpu["programs"], [&](const json& p) { return p["pipeline"] == pass["pipeline"] && p["stage"] != "vertex"; });
+        const double expected =
+            pass["invocations"].get<double>() / 64 * program->at("inverse_throughput_cycles").get<double>() / cycles_per_ms;
+        EXPECT_NEAR(pass["modelled_ms"].get<double>(), expected, 1e-9 * expected) << pass;
+        sum += pass["modelled_ms"].get<double>();
+        ++modelled;
+    }
+    EXPECT_GE(modelled, 4u);
+    EXPECT_NEAR(gpu["modelled_ms"].get<double>(), sum, 1e-12);
+    EXPECT_THAT(strata("isa panes.strata --gpu-model navi21").out, HasSubstr("modelled, not measured"));
+}
+
+TEST(Isa, AFullScreenOfThreadsIsCountedByItsDispatch) {
+    record_panes();  // 64 x 36: five rows of groups of 8 x 8, whose last is half empty
+    std::size_t whole_screens = 0;
+    const json report = isa_json("--no-run --gpu-model bonaire");
+    for (const json& pass : report["gpus"][0]["passes"]) {
+        EXPECT_EQ(pass["counted_by"] == "unknown", pass["invocations"].is_null()) << pass;
+        whole_screens += pass["invocations"] == 64 * 40;
+    }
+    EXPECT_GE(whole_screens, 2u);
+}
+
+TEST(Isa, OneShaderWithOtherConstantsIsARowOfItsOwn) {
+    record_panes();
+    const auto labels = [](const std::string& arguments) {
+        std::vector<std::string> found;
+        const json report = isa_json("--no-run --gpu-model bonaire " + arguments);
+        for (const json& program : report["gpus"][0]["programs"]) found.push_back(program["label"]);
+        return found;
+    };
+    const std::vector<std::string> plain = labels(""), forced = labels("--force all");
+    EXPECT_THAT(plain, testing::Contains(HasSubstr("has_surfaces=1")));
+    EXPECT_NE(plain, forced);
+}
+
+TEST(Isa, DumpsTheDisassemblyAndWhereThereIsNoneTheCompilersLastForm) {
+    record_panes();
+    const Finished made = strata("isa panes.strata --no-run --gpu-model bonaire,navi21 --dump code");
+    ASSERT_EQ(made.code, 0) << made.err;
+    std::size_t assembly = 0, ir = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "code")) {
+        std::ifstream file(entry.path());
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        EXPECT_GT(text.size(), 200u) << entry.path();
+        if (entry.path().extension() == ".s") {
+            EXPECT_THAT(text, HasSubstr("s_endpgm")) << entry.path();
+            ++assembly;
+        } else {
+            EXPECT_THAT(text, HasSubstr("ACO shader stage")) << entry.path();
+            ++ir;
+        }
+    }
+    EXPECT_GE(assembly, 8u);
+    EXPECT_TRUE(ir == 0 || made.err.find("no disassembler for bonaire") != std::string::npos) << made.err;
+}
+
+TEST(Isa, WithoutACaptureListsTheGpusThatAreKnown) {
+    const Finished listed = strata("isa");
+    EXPECT_EQ(listed.code, 0) << listed.err;
+    for (const char* name : {"bonaire", "ps4", "polaris10", "navi10", "navi21", "gfx1100"})
+        EXPECT_THAT(listed.out, HasSubstr(name));
+}
+
+TEST(Isa, WrongRequestsAreUsageErrorsWithASentence) {
+    record_panes();
+    const std::pair<const char*, const char*> wrongs[] = {
+        {"--gpu-model nav21", "did you mean navi21?"},
+        {"--gpu-model h200", "RADV does not compile for h200"},
+        {"--gpu-model bonaire --frame 9", "there is no frame 9"},
+        {"--gpu-model bonaire --use nothing/here", "nothing/here"},
+        {"--gpu-model bonaire --no-run --dump panes.strata", "cannot make the folder panes.strata"},
+    };
+    for (const auto& [wrong, sentence] : wrongs) {
+        const Finished failed = strata(std::string("isa panes.strata ") + wrong);
+        EXPECT_EQ(failed.code, 2) << wrong;
+        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
+    }
+}
+
+TEST(Isa, WithoutRadvItSaysWhatToInstall) {
+    record_panes();
+    const Finished failed = strata_after(
+        "export XDG_DATA_DIRS=/nonexistent VK_ICD_FILENAMES=/usr/share/vulkan/icd.d/lvp_icd.x86_64.json "
+        "VK_DRIVER_FILES=/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
+        "isa panes.strata --gpu-model bonaire");
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    EXPECT_THAT(failed.err, HasSubstr("install mesa-vulkan-drivers"));
+}
+
+TEST(Isa, ADeviceThatDoesNotSayWhatItCompiledIsNamed) {
+    record_panes();
+    const Finished made = strata("isa panes.strata --gpu llvmpipe");
+    EXPECT_EQ(made.code, 4) << made.err;
+    EXPECT_THAT(made.err, HasSubstr("VK_KHR_pipeline_executable_properties"));
+}
+
+TEST(Isa, ItsCompilersVerbIsNoPartOfTheHelp) { EXPECT_THAT(strata("help").out, testing::Not(HasSubstr("isa-compile"))); }
+
+}  // namespace
+}  // namespace strata
