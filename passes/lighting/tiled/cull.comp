@@ -20,8 +20,7 @@ layout(constant_id = 43) const uint blocker_use = blockers_per_pixel;
 layout(constant_id = 44) const uint classifies = 1u;
 layout(constant_id = 45) const uint overflow_policy = overflow_batch;
 layout(constant_id = 46) const uint is_prefiltered = 0u;
-layout(constant_id = 47) const uint spare_records = 0u;    // beside the one that each tile has
-layout(constant_id = 48) const uint shadow_features = 0u;  // of shadows that shading looks up or filters
+layout(constant_id = 47) const uint shadow_features = 0u;  // of shadows that shading looks up or filters
 
 layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
@@ -32,7 +31,7 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Records { TileRecord recor
 layout(set = 0, binding = 6, scalar) buffer UsedRecords { uint used_records; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Statistics { TileStatistics statistics[]; };
 layout(set = 0, binding = 8, scalar) buffer Counters { TiledCounters counters; };
-layout(push_constant, scalar) uniform Push { ModeOrder order; };
+layout(push_constant, scalar) uniform Push { CullPush push; };
 
 shared TileLists lists;
 

@@ -89,9 +89,8 @@ CulledTiles cull_tiles(Graph& graph, const FrameImages& frame, const TiledParams
         .fixes("classifies", params.classify)
         .fixes("overflow_policy", params.overflow)
         .fixes("is_prefiltered", is_prefiltered(frame, params) ? 1u : 0u)
-        .fixes("spare_records", memory.spare_records)
         .fixes("shadow_features", shadow_features(frame, params))
-        .push(culled.order)
+        .push(CullPush{culled.order, memory.spare_records})
         .groups({culled.across, culled.down, 1});
     graph.compute("lighting/tiled/tiles_by_mode.comp")
         .loads("Records", culled.records)

@@ -14,7 +14,7 @@ uint next_record(uint last) {
     if (gl_LocalInvocationIndex == 0u) {
         const uint spare = atomicAdd(used_records, 1u);
         lists.overflow |= overflow_lights;
-        lists.record = spare < spare_records ? gl_NumWorkGroups.x * gl_NumWorkGroups.y + spare : no_next;
+        lists.record = spare < push.spare_records ? gl_NumWorkGroups.x * gl_NumWorkGroups.y + spare : no_next;
         records[last].next = lists.record != no_next ? lists.record : next_is_light | lists.initial[0];
         if (lists.record != no_next) records[lists.record].next = no_next;
         else lists.spectrum = every_light_feature;
@@ -36,8 +36,8 @@ void add_batch(inout TileSum sum, uint batch) {
 // The first in the order of their cost that has every feature: the last has all.
 uint mode_for(uint spectrum) {
     uint place = 0u;
-    while (place + 1u < order.count && (spectrum & ~order.modes[place] & every_light_feature) != 0u) ++place;
-    return order.modes[place] >> 16;
+    while (place + 1u < push.order.count && (spectrum & ~push.order.modes[place] & every_light_feature) != 0u) ++place;
+    return push.order.modes[place] >> 16;
 }
 
 void write_empty_tile() {
@@ -76,7 +76,7 @@ void write_tile(uint last, TileSum sum) {
     const bool has_more = !is_unlisted && overflow_policy == overflow_batch && view.light_count > most_listed;
     if (has_more) records[last].next = next_is_light | most_listed;
     const uint spectrum = has_more ? every_light_feature : lists.spectrum;
-    const uint mode = mode_for(spectrum | order.force);
+    const uint mode = mode_for(spectrum | push.order.force);
     const uint tile = tile_index();
     records[tile].counts = sum.in_first_record | lists.overflow << 8 | mode << 16;
     records[tile].spectrum = spectrum;

@@ -34,22 +34,40 @@ vec3 light_term(uint index, uvec2 masks, MaterialPoint m, ivec3 at, uint feature
     return term;
 }
 
+// Where a walk over a tile's lights is: a place in a record, or among the lights without one.
+struct LightWalk {
+    uint record;
+    uint place;
+    uint light;
+    uvec2 masks;
+};
+
+// Goes to the next light; false where there is none.
+bool next_light(inout LightWalk walk) {
+    while ((walk.record & next_is_light) == 0u && walk.place >= (records[walk.record].counts & 255u)) {
+        walk.record = records[walk.record].next;
+        walk.place = 0u;
+    }
+    if (walk.record == no_next) return false;
+    if ((walk.record & next_is_light) == 0u) {
+        walk.light = records[walk.record].lights[walk.place / 2u] >> (16u * (walk.place & 1u)) & 0xffffu;
+        walk.masks = uvec2(records[walk.record].blockers[walk.place], records[walk.record].portals[walk.place]);
+        ++walk.place;
+        return true;
+    }
+    walk.light = walk.record & ~next_is_light;
+    if (walk.light >= view.light_count) return false;
+    walk.masks = asks_blockers != 0u ? all_asked(lights[walk.light]) : uvec2(0u);
+    ++walk.record;
+    return true;
+}
+
+// One loop, so that a light's code, which is most of the shader, is there once.
 vec3 lights_of_tile(uint tile, MaterialPoint m, ivec3 at, inout Shaded shaded) {
     const uint features = features_of(tile);
     precise vec3 sum = vec3(0.0);
-    uint record = tile;
-    for (; (record & next_is_light) == 0u; record = records[record].next) {
-        const uint count = records[record].counts & 255u;
-        for (uint i = 0u; i < count; ++i) {
-            const uint index = records[record].lights[i / 2u] >> (16u * (i & 1u)) & 0xffffu;
-            sum += light_term(index, uvec2(records[record].blockers[i], records[record].portals[i]), m, at, features, shaded);
-        }
-    }
-    if (record == no_next) return sum;
-    for (uint i = record & ~next_is_light; i < view.light_count; ++i) {
-        const uvec2 masks = asks_blockers != 0u ? all_asked(lights[i]) : uvec2(0u);
-        sum += light_term(i, masks, m, at, features, shaded);
-    }
+    LightWalk walk = LightWalk(tile, 0u, 0u, uvec2(0u));
+    while (next_light(walk)) sum += light_term(walk.light, walk.masks, m, at, features, shaded);
     return sum;
 }
 

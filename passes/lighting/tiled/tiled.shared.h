@@ -55,6 +55,11 @@ struct ModeOrder {
     uint modes[most_modes];  // features in the lower, number in the upper half
 };
 
+struct CullPush {
+    ModeOrder order;
+    uint spare_records;  // beside the one that each tile has; not a constant, which would compile anew for every number of lights
+};
+
 // Why a tile's record may hold less than there is; the image is the same but for the first, with overflow=drop.
 const uint overflow_lights = 1u;
 const uint overflow_blocker_pairs = 2u;
