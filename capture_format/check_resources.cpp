@@ -37,7 +37,7 @@ void inspect_texture_use(Inspection& inspection, std::size_t textures, const Tex
 
 void inspect_material(Inspection& inspection, std::size_t textures, const Material& material) {
     inspection.expect(material.name.size() <= longest_text, "names may have {} bytes", longest_text);
-    inspection.expect(known(material.lighting_model, LightingModel::ggx), "there is no lighting model {}",
+    inspection.expect(known(material.lighting_model, last_lighting_model), "there is no lighting model {}",
                       static_cast<std::uint32_t>(material.lighting_model));
     inspection.expect(known(material.alpha_mode, AlphaMode::additive), "there is no alpha mode {}",
                       static_cast<std::uint32_t>(material.alpha_mode));

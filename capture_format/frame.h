@@ -43,7 +43,16 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx };
+/// How a surface reflects. Burley is renormalized, plain_burley as published. Hair's tangents run along its fibres, from root to
+/// tip; without tangents fibres stick out along the normals.
+enum class LightingModel : std::uint32_t { unlit, lambert, burley, ggx, cloth, skin, hair, plain_burley, multiscatter_ggx };
+/// The last lighting model.
+inline constexpr LightingModel last_lighting_model = LightingModel::multiscatter_ggx;
+/// Whether `metallic` means anything to a lighting model; elsewhere it counts as 0.
+inline bool has_metals(LightingModel model) {
+    return model == LightingModel::burley || model == LightingModel::ggx || model == LightingModel::plain_burley ||
+           model == LightingModel::multiscatter_ggx;
+}
 enum class AlphaMode : std::uint32_t { opaque, mask, blend, premultiplied, additive };
 /// Whether something behind it may be seen through a covered sample.
 inline bool is_transparent(AlphaMode mode) { return mode != AlphaMode::opaque && mode != AlphaMode::mask; }
@@ -60,7 +69,7 @@ struct Material {
     LightingModel lighting_model = LightingModel::ggx;
     AlphaMode alpha_mode = AlphaMode::opaque;
     glm::vec4 base_color{1};  ///< linear, unpremultiplied; a is coverage
-    float metallic = 0;
+    float metallic = 0;       ///< of models that have metals
     float roughness = 1;
     glm::vec3 emissive{0};  ///< radiance
     float normal_scale = 1;

@@ -35,6 +35,8 @@ constexpr auto table = std::to_array<Scenario>({
     {"sun_and_boxes", "Where do the cascades of the sun's shadow meet, and does it show?", 160, 90, scenario::sun_and_boxes},
     {"spot_and_box", "Is the shadow of one box in one spot light where it should be?", 96, 54, scenario::spot_and_box},
     {"materials", "Do the lighting models differ where they should, roughness by roughness?", 160, 90, scenario::materials},
+    {"lighting_models", "Does every lighting model shine, from in front and from behind, as its formulas say?", 160, 90,
+     scenario::lighting_models},
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
     {"light_types", "Is each type of light as bright, as large and as soft as it is, surface by surface?", 96, 54,
      scenario::light_types},

@@ -36,8 +36,8 @@ void add_surfaces(Losses& losses, const Frame& frame) {
     losses.add(count(frame.materials, [](M m) { return m.alpha_mode == AlphaMode::additive; }),
                "materials add light; they are written as blending ones");
     losses.add(count(frame.materials,
-                     [](M m) { return m.lighting_model == LightingModel::lambert || m.lighting_model == LightingModel::burley; }),
-               "materials are lit by lambert or burley; glTF knows its own model and none");
+                     [](M m) { return m.lighting_model != LightingModel::unlit && m.lighting_model != LightingModel::ggx; }),
+               "materials are lit by a model of their own; glTF knows ggx and none");
     losses.add(count(frame.materials, [](M m) { return m.distortion != 0; }), "materials distort what is behind them; left out");
     losses.add(count(frame.materials, [](M m) { return !is_transparent(m.alpha_mode) && m.transmission != glm::vec3(0); }),
                "opaque materials have a transmission; left out");

@@ -36,6 +36,7 @@ Frame empty(std::uint32_t frame, const ScenarioOptions&);
 Frame opaque_only(std::uint32_t frame, const ScenarioOptions&);
 Frame one_sphere(std::uint32_t frame, const ScenarioOptions&);
 Frame materials(std::uint32_t frame, const ScenarioOptions&);
+Frame lighting_models(std::uint32_t frame, const ScenarioOptions&);
 // illumination.cpp
 Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);

@@ -96,4 +96,36 @@ Frame materials(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
+Frame lighting_models(std::uint32_t frame, const ScenarioOptions& options) {
+    FrameBuilder builder(frame, options);
+    builder.look({.eye = {0, 0, 7}, .target = {0, 0, 0}});
+    const std::uint32_t ball = builder.add(sphere(0.55f, 32));
+    constexpr auto models = std::to_array<LightingModel>({LightingModel::lambert, LightingModel::burley, LightingModel::ggx,
+                                                          LightingModel::cloth, LightingModel::skin, LightingModel::hair,
+                                                          LightingModel::plain_burley, LightingModel::multiscatter_ggx});
+    for (int row = 0; row < 4; ++row) {
+        for (std::size_t column = 0; column < models.size(); ++column) {
+            Material material = lambert("ball", {0.7f, 0.42f, 0.3f});
+            material.lighting_model = models[column];
+            material.roughness = 0.25f * static_cast<float>(1 + row);
+            material.metallic = row == 1 ? 0.3f : row == 3 ? 1.0f : 0.0f;
+            const glm::dvec3 at(1.25 * (static_cast<double>(column) - 3.5), 1.35 * (1.5 - row), 0);
+            builder.draw(ball, builder.add(material), {.position = at});
+        }
+    }
+    Light lamp;
+    lamp.name = "lamp";
+    lamp.position = {-3, 3, 5};
+    lamp.intensity = glm::vec3(70);
+    lamp.range = 25;
+    builder.frame.lights.push_back(lamp);
+    lamp.name = "lamp behind";
+    lamp.position = {3, 2, -5};
+    lamp.intensity = {12, 15, 20};
+    builder.frame.lights.push_back(lamp);
+    builder.frame.hemisphere = {.sky = {0.2f, 0.25f, 0.3f}, .ground = glm::vec3(0.1f)};
+    builder.frame.background = glm::vec3(0.05f);
+    return std::move(builder.frame);
+}
+
 }  // namespace strata::scenario

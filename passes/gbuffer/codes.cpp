@@ -19,6 +19,32 @@ std::uint32_t level(double value, std::uint32_t levels) {
     return static_cast<std::uint32_t>(std::floor(std::clamp(value, 0.0, 1.0) * levels + 0.5));
 }
 
+/// The material numbers that a lighting model has.
+struct MaterialNumbers {
+    std::uint32_t first, count;
+};
+
+/// Models with metals have 58 numbers each and come first; within both groups the order is the enumerators'.
+MaterialNumbers numbers_of(LightingModel model) {
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(last_lighting_model); ++i) {
+        const auto other = static_cast<LightingModel>(i);
+        const bool before = has_metals(other) == has_metals(model) ? other < model : has_metals(other);
+        if (before) first += has_metals(other) ? 58 : 1;
+    }
+    return {first, has_metals(model) ? 58u : 1u};
+}
+
+LightingModel model_of(std::uint32_t number) {
+    for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(last_lighting_model); ++i) {
+        const auto model = static_cast<LightingModel>(i);
+        const MaterialNumbers numbers = numbers_of(model);
+        if (number >= numbers.first && number < numbers.first + numbers.count) return model;
+    }
+    assert(false && "no lighting model has this number");
+    return LightingModel::unlit;
+}
+
 }  // namespace
 
 std::uint16_t half_bits(double value) {
@@ -56,14 +82,15 @@ double nearest_half(double value) {
 }
 
 std::uint32_t material_code(const SurfacePoint& p) {
-    return (static_cast<std::uint32_t>(p.model) * 60 + level(p.metallic, 59)) * 256 + level(p.occlusion, 255);
+    const MaterialNumbers numbers = numbers_of(p.model);
+    return (numbers.first + level(p.metallic, numbers.count - 1)) * 256 + level(p.occlusion, 255);
 }
 
 SurfacePoint stored_material(SurfacePoint p) {
     const std::uint32_t code = code_of_half(half_of_code(material_code(p)));
     p.occlusion = double(code % 256) / 255;
-    p.metallic = double(code / 256 % 60) / 59;
-    p.model = static_cast<LightingModel>(code / 256 / 60);
+    const MaterialNumbers numbers = numbers_of(p.model = model_of(code / 256));
+    p.metallic = numbers.count == 1 ? 0 : double(code / 256 - numbers.first) / (numbers.count - 1);
     for (int c = 0; c < 3; ++c)
         p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
     p.roughness = level(p.roughness, 255) / 255.0;

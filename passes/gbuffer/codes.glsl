@@ -1,6 +1,7 @@
 // Integers in half-float channels, and half floats that no device can round differently (deferred 2.6, 0.3).
 #ifndef PASSES_GBUFFER_CODES_GLSL
 #define PASSES_GBUFFER_CODES_GLSL
+#include "passes/shaders/material_point.glsl"
 #include "passes/shaders/srgb.glsl"
 
 // Codes 0..61439 are the bit patterns of the normal half floats: 0400..7bff, then 8400..fbff. Subnormals may be flushed and NaN
@@ -29,11 +30,20 @@ float nearest_half(float value) {
     return uintBitsToFloat((bits + 0x0fffu + ((bits >> 13) & 1u)) & 0xffffe000u);
 }
 
-// 8 bits of occlusion under 240 material numbers: lighting model * 60 + metallic in 60 steps.
+// 8 bits of occlusion under 237 material numbers: 58 steps of metallic for each model that has metals, in their order, then one
+// number for each that has none.
+const uint metallic_steps = 58u;
+const uint first_without_metals = 4u * metallic_steps;
+
+uint material_number(float metallic, uint model) {
+    if (!has_metals(model)) return first_without_metals + (model < model_burley ? model : model - 2u);
+    const uint place = model <= model_ggx ? model - model_burley : model - model_plain_burley + 2u;
+    return place * metallic_steps + uint(floor(clamp(metallic, 0.0, 1.0) * float(metallic_steps - 1u) + 0.5));
+}
+
 float pack_material(float occlusion, float metallic, uint lighting_model) {
     const uint levels = uint(floor(clamp(occlusion, 0.0, 1.0) * 255.0 + 0.5));
-    const uint steps = uint(floor(clamp(metallic, 0.0, 1.0) * 59.0 + 0.5));
-    return half_of_code((lighting_model * 60u + steps) * 256u + levels);
+    return half_of_code(material_number(metallic, lighting_model) * 256u + levels);
 }
 
 struct PackedMaterial {
@@ -45,7 +55,14 @@ struct PackedMaterial {
 PackedMaterial unpack_material(float value) {
     const uint code = code_of_half(value);
     const uint number = code / 256u;
-    return PackedMaterial(float(code % 256u) / 255.0, float(number % 60u) / 59.0, number / 60u);
+    const float occlusion = float(code % 256u) / 255.0;
+    if (number >= first_without_metals) {
+        const uint place = number - first_without_metals;
+        return PackedMaterial(occlusion, 0.0, place < 2u ? place : place + 2u);
+    }
+    const uint place = number / metallic_steps;
+    const float metallic = float(number % metallic_steps) / float(metallic_steps - 1u);
+    return PackedMaterial(occlusion, metallic, place < 2u ? place + model_burley : place - 2u + model_plain_burley);
 }
 
 // Base color with the sRGB curve, so that 8 bits suffice for dark colors, and linear roughness; snapped to the codes of an

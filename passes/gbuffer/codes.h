@@ -19,7 +19,8 @@ std::uint32_t code_of_half(std::uint16_t bits);
 /// What codes.glsl's nearest_half gives: no subnormals (0 or 2^-14 instead), no infinity (65504 instead).
 double nearest_half(double value);
 
-/// 8 bits of occlusion under lighting model * 60 + metallic in 60 steps.
+/// 8 bits of occlusion under a material number: 58 steps of metallic for each lighting model that has metals, then one number
+/// for each that has none.
 std::uint32_t material_code(const SurfacePoint&);
 
 /// The point with base color, roughness, metallic, occlusion and lighting model as 8-bit sRGB and the material code keep them.

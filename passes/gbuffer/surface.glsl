@@ -6,7 +6,7 @@
 
 struct Surface {
     bool exists;      // false on the background: nothing else is then defined
-    vec3 normal;      // view space, unit
+    vec3 normal;      // view space, unit; of hair: along the fibre, towards its tip
     float z;          // view depth at the pixel's center, metres
     vec3 base_color;  // linear
     float roughness;

@@ -176,7 +176,7 @@ glm::dvec3 exact_reflected_area(const SurfacePoint& surface, const PlacedLight& 
         const auto reflected_from = [&](dvec2 p) {
             const EmitterPoint point = piece(p);
             const dvec3 l = glm::normalize(point.to);
-            const double cosine = light_cosine(surface, l);
+            const double cosine = brdf_cosine(surface, l);
             if (cosine <= 0 || point.weight <= 0) return dvec3(0);
             const double seen = options.visible ? options.visible(glm::dvec4(surface.position + point.to, 1)) : 1;
             if (seen == 0) return dvec3(0);

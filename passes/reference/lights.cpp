@@ -98,7 +98,7 @@ bool clipped(const Frame& frame, const SurfacePoint& surface, const Light& light
 glm::dvec3 reflected_punctual(const SurfacePoint& surface, const PlacedLight& at) {
     const Incident arriving = incident(at, surface);
     if (arriving.irradiance == glm::dvec3(0)) return glm::dvec3(0);
-    const double cosine = light_cosine(surface, arriving.to_light);
+    const double cosine = brdf_cosine(surface, arriving.to_light);
     if (cosine <= 0) return glm::dvec3(0);
     return brdf(surface, arriving.to_light, glm::normalize(-surface.position)) * arriving.irradiance * cosine;
 }
@@ -149,10 +149,6 @@ glm::dvec3 emitted_color(const PlacedLight& at, const glm::dvec2& place, double 
     const double level = std::clamp(lod, 0.0, double(texture.mips - 1));
     const auto mip = static_cast<std::uint32_t>(level);
     return level == mip ? inside(uv, mip) : glm::mix(inside(uv, mip), inside(uv, mip + 1), level - mip);
-}
-
-double light_cosine(const SurfacePoint& surface, const glm::dvec3& to_light) {
-    return std::clamp(glm::dot(surface.normal, to_light), 0.0, 1.0);
 }
 
 glm::dvec3 reflected(const Frame& frame, const SurfacePoint& surface, const Light& light) {

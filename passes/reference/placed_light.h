@@ -23,9 +23,6 @@ bool is_behind(const PlacedLight&);
 /// Of radiance, between -1 and 1 over the rectangle; 1 without a picture.
 glm::dvec3 emitted_color(const PlacedLight&, const glm::dvec2& place, double lod);
 
-/// What the BRDF is multiplied with: the cosine of the light's direction, 0 behind the surface.
-double light_cosine(const SurfacePoint&, const glm::dvec3& to_light);
-
 /// Real-time and exact form for tubes, spheres, discs and rectangles, without window and clip planes.
 glm::dvec3 reflected_area(const SurfacePoint&, const PlacedLight&);
 glm::dvec3 exact_reflected_area(const SurfacePoint&, const PlacedLight&, const ExactOptions&);

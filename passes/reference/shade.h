@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
+#include "passes/reference/brdf.h"
 #include "passes/reference/fragments.h"
 
 namespace strata {
@@ -11,7 +12,7 @@ namespace strata {
 /// A point of a surface with its material evaluated. View space.
 struct SurfacePoint {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0, 0, -1};  ///< shading normal, unit, facing the eye
+    glm::dvec3 normal{0, 0, -1};  ///< shading normal, unit, facing the eye; of hair: along the fibre, towards its tip
     glm::dvec3 base_color{1};     ///< linear
     double alpha = 1;             ///< after base color, vertex color and texture
     double metallic = 0, roughness = 1, occlusion = 1;
@@ -28,13 +29,6 @@ SurfacePoint surface_at(const Frame&, const RasterPoint&);
 Light sun_light(const Frame&);
 /// Diffuse light from the hemisphere: albedo (1 - metallic) mix(ground, sky, .5 + .5 n_world.y), times occlusion.
 glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
-
-/// BRDF times nothing: f(l, v) per steradian for unit vectors, both on the normal's side (lighting chapter 0.5).
-glm::dvec3 brdf(const SurfacePoint&, glm::dvec3 to_light, glm::dvec3 to_eye);
-
-/// Burley's diffuse lobe relative to Lambert: plain, and with Frostbite's energy bias and factor. Cosines in 0..1.
-double burley(double roughness, double n_l, double n_v, double l_h);
-double renormalized_burley(double roughness, double n_l, double n_v, double l_h);
 
 /// Remaining share and added radiance of the fog at view depth z.
 struct FogAt {

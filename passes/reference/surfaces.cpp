@@ -73,6 +73,12 @@ glm::dvec3 shading_normal(const Frame& frame, const RasterPoint& point, const Co
     return point.front_facing ? normal : -normal;
 }
 
+// Where hair's fibre points: along the tangent, or out of the surface where there is none.
+glm::dvec3 fibre(const Frame& frame, const RasterPoint& point, const Footprint& footprint, const glm::dvec3& normal) {
+    const glm::dvec3 along = draw_space(frame, point.draw).linear * glm::dvec3(footprint.here.tangent);
+    return glm::length(along) < shortest_tangent ? normal : glm::normalize(along);
+}
+
 SurfacePoint particle_surface(const Frame& frame, const RasterPoint& point, const Footprint& footprint, SurfacePoint surface) {
     TextureUse use;
     use.texture = frame.emitters[point.draw - frame.draws.size()].texture;
@@ -103,9 +109,10 @@ SurfacePoint surface_at(const Frame& frame, const RasterPoint& point, const Corn
     const glm::dvec4 rough_metal = texture_at(frame, material->metallic_roughness_texture, footprint);
     const double occlusion = texture_at(frame, material->occlusion_texture, footprint).x;
     surface.normal = shading_normal(frame, point, corners, footprint);
+    if (material->lighting_model == LightingModel::hair) surface.normal = fibre(frame, point, footprint, surface.normal);
     surface.base_color = glm::dvec3(base);
     surface.alpha = base.w;
-    surface.metallic = double(material->metallic) * rough_metal.z;
+    if (has_metals(material->lighting_model)) surface.metallic = double(material->metallic) * rough_metal.z;
     surface.roughness = double(material->roughness) * rough_metal.y;
     surface.occlusion = 1 + double(material->occlusion_strength) * (occlusion - 1);
     surface.emissive = glm::dvec3(material->emissive) * glm::dvec3(texture_at(frame, material->emissive_texture, footprint));

@@ -74,7 +74,8 @@ vec3 reflected(MaterialPoint m, LightRecord light, uint features) {
 // Diffuse light of sky and ground. The material's own occlusion is in it; traced or screen-space occlusion is not.
 vec3 hemisphere_light(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return vec3(0.0);
-    const float up = 0.5 + 0.5 * (view.to_world * m.normal).y;
+    const vec3 normal = facing_normal(m.lighting_model, m.normal, m.position);
+    const float up = 0.5 + 0.5 * (view.to_world * normal).y;
     return m.base_color * (1.0 - m.metallic) * mix(view.ground, view.sky, up) * m.occlusion;
 }
 

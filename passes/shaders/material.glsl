@@ -70,6 +70,9 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec
     return normalize(t * local.x + cross(n, t) * (hand * local.y) + n * local.z);
 }
 
+// Hair's tangent runs along its fibres; fibres without one stick out.
+vec3 fibre(vec3 normal, vec4 tangent) { return dot(tangent.xyz, tangent.xyz) < 1e-20 ? normal : normalize(tangent.xyz); }
+
 // The varyings of draw.vert, as they are. A normal of a back face is turned around.
 MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 varying_uv, vec4 color, bool front_facing) {
     const MaterialRecord material = materials[draws[draw].material];
@@ -81,9 +84,10 @@ MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent
     MaterialPoint m;
     m.position = position;
     m.normal = front_facing ? facing : -facing;
+    if (material.lighting_model == model_hair) m.normal = fibre(m.normal, tangent);
     m.base_color = base.rgb;
     m.alpha = base.a;
-    m.metallic = material.metallic * surface.b;
+    m.metallic = has_metals(material.lighting_model) ? material.metallic * surface.b : 0.0;
     m.roughness = material.roughness * surface.g;
     m.occlusion = 1.0 + material.occlusion_strength * (texels.of[occlusion_texture].r - 1.0);
     m.emissive = material.emissive * texels.of[emissive_texture].rgb;

@@ -13,7 +13,7 @@ namespace {
 
 void visit_row(const StageInput& input, std::uint32_t y, const std::function<void(const Receiver&)>& visit) {
     const ReferenceImage& depth = input.before.at("depth_layers");
-    const auto normals = input.before.find("surface_normal");
+    const auto normals = input.before.find("surface_normal"), materials = input.before.find("surface_material");
     for (std::uint32_t sample = 0; sample < depth.layers; ++sample) {
         const glm::dvec2 offset = sample_position(depth.layers, sample);
         for (std::uint32_t x = 0; x < depth.width; ++x) {
@@ -22,7 +22,14 @@ void visit_row(const StageInput& input, std::uint32_t y, const std::function<voi
             Receiver receiver{x, y, sample};
             receiver.position =
                 pixel_ray(input.frame, x + offset.x, y + offset.y) * (double(input.frame.view.near) / device_depth);
-            if (normals != input.before.end()) receiver.normal = glm::dvec3(normals->second.at(x, y, sample));
+            if (normals != input.before.end()) {
+                SurfacePoint point;
+                point.position = receiver.position;
+                point.normal = glm::dvec3(normals->second.at(x, y, sample));
+                if (materials != input.before.end())
+                    point.model = static_cast<LightingModel>(static_cast<std::uint32_t>(materials->second.at(x, y, sample).x));
+                receiver.normal = facing_normal(point);
+            }
             visit(receiver);
         }
     }

@@ -14,7 +14,7 @@ namespace strata {
 struct Receiver {
     std::uint32_t x = 0, y = 0, sample = 0;
     glm::dvec3 position{0};
-    glm::dvec3 normal{0};  ///< unit and shading, from "surface_normal"; zero where the input has none
+    glm::dvec3 normal{0};  ///< unit and shading, from "surface_normal", of hair facing the eye; zero where the input has none
 };
 
 /// Calls `visit` for every sample of "depth_layers" that a surface covers; rows run in parallel.

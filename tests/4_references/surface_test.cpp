@@ -89,6 +89,16 @@ TEST(Surfaces, ANormalMapTurnsTheNormalInItsTangentFrame) {
     }
 }
 
+TEST(Surfaces, OfHairLieAlongTheTangentAndStickOutWithoutOne) {
+    Frame frame = quad_with_tangents();
+    frame.materials[0].lighting_model = LightingModel::hair;
+    frame.meshes[0].tangents.assign(4, {0.6f, 0.8f, 0, -1});
+    frame.draws[0].to_world[0][0] = -1;
+    EXPECT_LT(glm::length(surface_of(frame).normal - glm::dvec3(-0.6, 0.8, 0)), 1e-7) << "mirrored as the mesh is";
+    frame.meshes[0].tangents.clear();
+    EXPECT_LT(glm::length(surface_of(frame).normal - glm::dvec3(0, 0, -1)), 1e-12);
+}
+
 TEST(Surfaces, FactorsMultiplyTextures) {
     Frame frame = quad_with_tangents();
     frame.textures = {one_texel({51, 102, 204, 128})};
@@ -104,7 +114,9 @@ TEST(Surfaces, FactorsMultiplyTextures) {
     const SurfacePoint s = surface_of(frame);
     EXPECT_LT(glm::length(s.base_color - glm::dvec3(0.1, 0.2, 0.2)), 1e-12);
     EXPECT_NEAR(s.alpha, 0.5 * 128 / 255, 1e-12);
-    EXPECT_NEAR(s.metallic, 0.4, 1e-12);
+    EXPECT_EQ(s.metallic, 0) << "unlit: a model that has no metals";
+    m.lighting_model = LightingModel::multiscatter_ggx;
+    EXPECT_NEAR(surface_of(frame).metallic, 0.4, 1e-12);
     EXPECT_NEAR(s.roughness, 0.2, 1e-12);
     EXPECT_NEAR(s.occlusion, 0.6, 1e-12);
     EXPECT_LT(glm::length(s.emissive - glm::dvec3(2, 0, 0.8)), 1e-12);

@@ -26,7 +26,7 @@ Technique octahedral() {
         .tolerance = {.rmse = 2e-3,
                       .worst = 0.04,
                       .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is 0.0087 "
-                                 "linear, 1/59 of metallic 0.017; emission is rounded to half floats (5e-4 to 1e-3)"}};
+                                 "linear, 1/57 of metallic 0.018; emission is rounded to half floats (5e-4 to 1e-3)"}};
 }
 
 }  // namespace strata::gbuffer

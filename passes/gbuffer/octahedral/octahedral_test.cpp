@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/octahedral/model.h"
@@ -42,18 +43,22 @@ TEST(OctahedralGBuffer, CodesOfTenBitOcclusionAreTheOnesOfTheChapter) {
 }
 
 TEST(OctahedralGBuffer, AllMaterialNumbersAndOcclusionsComeBack) {
-    for (std::uint32_t model = 0; model < 4; ++model)
-        for (std::uint32_t metallic = 0; metallic < 60; ++metallic)
+    std::set<std::uint32_t> codes;
+    for (std::uint32_t model = 0; model <= static_cast<std::uint32_t>(last_lighting_model); ++model)
+        for (std::uint32_t metallic = 0; metallic < (has_metals(LightingModel(model)) ? 58u : 1u); ++metallic)
             for (std::uint32_t occlusion = 0; occlusion < 256; ++occlusion) {
                 SurfacePoint p;
                 p.model = static_cast<LightingModel>(model);
-                p.metallic = metallic / 59.0;
+                p.metallic = metallic / 57.0;
                 p.occlusion = occlusion / 255.0;
+                ASSERT_LT(material_code(p), code_count);
+                ASSERT_TRUE(codes.insert(material_code(p)).second) << "no two materials have one code";
                 const SurfacePoint stored = stored_material(p);
                 ASSERT_EQ(stored.model, p.model);
                 ASSERT_DOUBLE_EQ(stored.metallic, p.metallic);
                 ASSERT_DOUBLE_EQ(stored.occlusion, p.occlusion);
             }
+    EXPECT_EQ(codes.size(), (4u * 58u + 5u) * 256u);
 }
 
 TEST(OctahedralGBuffer, AxesAreExact) {
