@@ -157,15 +157,16 @@ struct Light {
     std::vector<std::uint32_t> portals;   ///< indices into Frame::portals, at most 32
 };
 
-/// A rectangle that stops light: center +- u * half_u +- v * half_v.
+/// A rectangle that stops light: center +- u * half_u +- v * half_v. One without area stops nothing.
 struct Blocker {
     glm::dvec3 center{0};
     glm::vec3 u{1, 0, 0}, v{0, 1, 0};
     float half_u = 1, half_v = 1;
-    bool one_sided = false;
+    bool one_sided = false;  ///< stops only light from the side to which cross(u, v) points
 };
 
-/// A hole in a blocker.
+/// A hole in one blocker, projected onto it along its normal; what lies outside of it opens nothing. A door through both faces of
+/// a thick wall is two portals.
 struct Portal {
     glm::dvec3 center{0};
     glm::vec3 u{1, 0, 0}, v{0, 1, 0};

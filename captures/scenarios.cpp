@@ -40,6 +40,7 @@ constexpr auto table = std::to_array<Scenario>({
     {"lights_room", "Does a tile see every one of 32 lights that reaches it, and no other?", 160, 90, scenario::lights_room},
     {"light_types", "Is each type of light as bright, as large and as soft as it is, surface by surface?", 96, 54,
      scenario::light_types},
+    {"blocker_rooms", "Does the light of a room leave it by the door alone?", 96, 54, scenario::blocker_rooms},
     {"city_of_boxes", "Of 400 boxes, how many are drawn when most are out of sight?", 160, 90, scenario::city_of_boxes},
     {"foggy_panes", "Is fog between the layers, rather than over the picture?", 96, 54, scenario::foggy_panes},
     {"facade_at_150m", "Are panes 0.3 m apart told apart at 150 m, and from the smoke and the cars behind them?", 96, 54,

@@ -41,6 +41,7 @@ Frame lighting_models(std::uint32_t frame, const ScenarioOptions&);
 Frame sun_and_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame spot_and_box(std::uint32_t frame, const ScenarioOptions&);
 Frame lights_room(std::uint32_t frame, const ScenarioOptions&);
+Frame blocker_rooms(std::uint32_t frame, const ScenarioOptions&);
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions&);
 // light_types.cpp
 Frame light_types(std::uint32_t frame, const ScenarioOptions&);

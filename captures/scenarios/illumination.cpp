@@ -107,6 +107,53 @@ Frame lights_room(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(builder.frame);
 }
 
+namespace {
+
+/// From x = -4 to 4 and z = -4 to 0 with a wall at x = 0, 20 cm thick and 2.4 m high, and a door of 80 cm by 2 m in it.
+void build_rooms(FrameBuilder& builder) {
+    const std::uint32_t paint = builder.add(lambert("paint", glm::vec3(0.6f)));
+    builder.draw(builder.add(box({4, 0.1f, 2})), builder.add(lambert("floor", {0.5f, 0.45f, 0.4f})), {.position = {0, -0.1, -2}});
+    builder.draw(builder.add(box({4, 1.2f, 0.1f})), paint, {.position = {0, 1.2, -4.1}});
+    const std::uint32_t beside_door = builder.add(box({0.1f, 1.2f, 0.8f}));
+    for (const double z : {-0.8, -3.2}) builder.draw(beside_door, paint, {.position = {0, 1.2, z}});
+    builder.draw(builder.add(box({0.1f, 0.2f, 0.4f})), paint, {.position = {0, 2.2, -2}});
+    builder.draw(builder.add(box({0.5f, 0.02f, 0.4f})), paint, {.position = {2.4, 0.9, -2.6}});
+    Material curtain = lambert("curtain", {0.8f, 0.7f, 0.6f});
+    curtain.alpha_mode = AlphaMode::blend;
+    curtain.base_color.w = 0.5f;
+    curtain.double_sided = true;
+    builder.draw(builder.add(quad({1.4f, 1.1f})), builder.add(curtain), {.position = {1.2, 1.1, -1.8}, .yaw = -0.9});
+}
+
+}  // namespace
+
+/// The lamps are held by the wall and pass the door in it. The board in the right room keeps a dark away from what is under it.
+Frame blocker_rooms(std::uint32_t frame, const ScenarioOptions& options) {
+    FrameBuilder builder(frame, options);
+    builder.look({.eye = {0.6, 2.9, 4.2}, .target = {0, 0.7, -2}, .swing = 0.1});
+    build_rooms(builder);
+    Frame& f = builder.frame;
+    f.blockers = {
+        {.center = {0, 1.2, -2}, .u = {0, 0, 1}, .v = {0, 1, 0}, .half_u = 2, .half_v = 1.2f},
+        {.center = {2.4, 0.9, -2.6}, .u = {0, 0, 1}, .v = {1, 0, 0}, .half_u = 0.4f, .half_v = 0.5f, .one_sided = true}};
+    f.portals = {{.center = {0, 1, -2}, .u = {0, 0, 1}, .v = {0, 1, 0}, .half_u = 0.4f, .half_v = 1}};
+    Light warm = lamp("warm", {-2.2, 1.7, -1.6}, {2.5f, 1.6f, 0.8f}), cold = lamp("cold", {2.6, 1.9, -1.2}, {0.6f, 1.2f, 2.2f});
+    for (Light* light : {&warm, &cold}) {
+        light->range = 7;
+        light->blockers = {0};
+        light->portals = {0};
+    }
+    cold.blockers = {0, 1};
+    Light dark;
+    dark.name = "dark";
+    dark.type = LightType::directional;
+    dark.intensity = glm::vec3(-0.25f);
+    dark.blockers = {1};
+    f.lights = {warm, cold, dark};
+    f.hemisphere = {.sky = glm::vec3(0.15f), .ground = glm::vec3(0.12f)};
+    return std::move(f);
+}
+
 Frame city_of_boxes(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 1.7, 2}, .target = {0, 2, -10}, .swing = 0.05});

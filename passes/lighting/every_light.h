@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "passes/reference/blockers.h"
 #include "passes/reference/lights.h"
 #include "passes/stages.h"
 
@@ -25,6 +26,8 @@ public:
 private:
     struct ShadowedLight {
         Light light;
+        glm::dvec4 from{0};  ///< light_point()
+        LightBlockers blockers;
         std::uint32_t visibility_layer = no_index;  ///< of sample 0
     };
     SurfacePoint surface(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "capture_format/frame_features.h"
+#include "passes/reference/blockers.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/ordering.h"
 #include "passes/reference/raster.h"
@@ -25,13 +26,25 @@ constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;
 double finite(double value) { return std::isfinite(value) ? value : 0; }
 glm::dvec3 finite(const glm::dvec3& v) { return {finite(v.x), finite(v.y), finite(v.z)}; }
 
-// Radiance a transparent mesh reflects without shadows; unlit surfaces show their base color.
-glm::dvec3 lit(const Frame& frame, const SurfacePoint& surface) {
+struct LitFrame {
+    explicit LitFrame(const Frame& f) : frame(f) {
+        for (const Light& light : f.lights) blockers.push_back(light_blockers(f, light));
+    }
+    const Frame& frame;
+    std::vector<LightBlockers> blockers;  ///< of Frame::lights; none stops the sun
+};
+
+// Radiance a transparent mesh reflects with blockers and without shadows; unlit surfaces show their base color.
+glm::dvec3 lit(const LitFrame& scene, const SurfacePoint& surface) {
     if (surface.model == LightingModel::unlit) return surface.base_color;
+    const Frame& frame = scene.frame;
     glm::dvec3 sum = hemisphere_light(frame, surface);
     const Light sun = sun_light(frame);
     if (sun.intensity != glm::vec3(0)) sum += reflected(frame, surface, sun);
-    for (const Light& light : frame.lights) sum += reflected(frame, surface, light);
+    const glm::dvec3 off = off_surface(surface.position, surface.normal);
+    for (std::size_t i = 0; i < frame.lights.size(); ++i)
+        if (lets_through(scene.blockers[i], light_point(frame, frame.lights[i]), off))
+            sum += reflected(frame, surface, frame.lights[i]);
     return sum;
 }
 
@@ -71,8 +84,9 @@ void fog(const Frame& frame, double z, Fragment& fragment) {
 }
 
 // The event of a point, or nothing where it is too faint to count.
-std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, const RasterTriangle& triangle,
+std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point, const RasterTriangle& triangle,
                                  double opaque_depth) {
+    const Frame& frame = scene.frame;
     const double z = double(frame.view.near) / point.depth;
     if (!std::isfinite(z)) return std::nullopt;
     const SurfacePoint surface = surface_at(frame, point, triangle.corners);
@@ -80,7 +94,7 @@ std::optional<Fragment> event_at(const Frame& frame, const RasterPoint& point, c
     double depth_offset = 0;
     if (const Material* material = material_of(frame, point.draw)) {
         const double alpha = std::clamp(finite(surface.alpha), 0.0, 1.0);
-        fragment = event(material->alpha_mode, alpha, surface, lit(frame, surface));
+        fragment = event(material->alpha_mode, alpha, surface, lit(scene, surface));
         fragment.distortion = double(material->distortion) * glm::dvec2(surface.normal.x, -surface.normal.y);
     } else {
         const Emitter& emitter = frame.emitters[point.draw - frame.draws.size()];
@@ -201,6 +215,7 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
     FragmentLists lists(view.width, view.height, view.samples);
     const std::vector<std::uint32_t> draws = transparent_draws(frame);
     const Raster raster(frame, draws);
+    const LitFrame scene(frame);
     const bool has_interfaces = frame_features(frame).has(Feature::interface_layers);
     oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
         FragmentLists::Row& row = lists.rows_[y];
@@ -209,7 +224,7 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
             const double opaque_depth = depth.at(point.x, point.y, point.sample).x;
             const DepthTest test = depth_test(point, opaque_depth);
             if (test == DepthTest::fails) return;
-            std::optional<Fragment> fragment = event_at(frame, point, triangle, opaque_depth);
+            std::optional<Fragment> fragment = event_at(scene, point, triangle, opaque_depth);
             if (!fragment) return;
             if (has_interfaces) {
                 fragment->layer = layer_of(frame, point.draw);

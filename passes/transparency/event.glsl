@@ -4,6 +4,7 @@
 // event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
 #ifndef PASSES_TRANSPARENCY_EVENT_GLSL
 #define PASSES_TRANSPARENCY_EVENT_GLSL
+#include "passes/shaders/blockers.glsl"
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
 #include "passes/shaders/material.glsl"
@@ -48,11 +49,16 @@ float faded() {
     return opaque > 0.0 ? clamp((view_z(opaque) - position_here().z) / metres, 0.0, 1.0) : 1.0;
 }
 
-// All lights without shadows, sky and ground; an unlit material is its own light.
+bool reached(LightRecord light, MaterialPoint m) {
+    return (light_features & feature_blockers) == 0u || light_reaches(light, m.position, m.normal);
+}
+
+// All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
 vec3 lit(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
-    for (uint i = 0u; i < view.light_count; ++i) sum += reflected(m, lights[i], light_features);
+    for (uint i = 0u; i < view.light_count; ++i)
+        if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
     return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <string_view>
 
 #include "passes/reference/ltc_table.h"
 
@@ -33,13 +34,21 @@ constexpr BufferRow rows[] = {
     {"Texels", bytes_of<&SceneRecords::texels>},
     {"Lights", bytes_of<&SceneRecords::lights>},
     {"Shadows", bytes_of<&SceneRecords::shadows>},
+    {"Blockers", bytes_of<&SceneRecords::blockers>},
+    {"LightBlockers", bytes_of<&SceneRecords::light_blockers>},
+    {"BlockerPortals", bytes_of<&SceneRecords::blocker_portals>},
     {"ClipPlanes", bytes_of<&SceneRecords::clip_planes>},
     {"LtcTable", ltc_bytes},
     // Not offered to shaders as such, but the source of every draw list.
     {"DrawCommands", bytes_of<&SceneRecords::commands>},
     {"Indices", bytes_of<&SceneRecords::indices>},
 };
-constexpr std::size_t commands_row = 10, indices_row = 11;
+
+consteval std::size_t row_of(std::string_view name) {
+    std::size_t row = 0;
+    while (rows[row].name != name) ++row;
+    return row;
+}
 
 // A buffer of nothing still has to exist: a storage buffer of zero bytes is no buffer.
 constexpr std::array<std::byte, 16> nothing{};
@@ -76,7 +85,7 @@ void DeviceScene::import_into(Graph& graph, FrameImages& images) const {
         graph.offer(rows[i].name, buffers[i]);
     }
     const auto list = [&](CommandRange range) {
-        return DrawList{buffers[commands_row], buffers[indices_row], range.first, range.count};
+        return DrawList{buffers[row_of("DrawCommands")], buffers[row_of("Indices")], range.first, range.count};
     };
     images.all_opaque = images.opaque = list(opaque_);
     images.casters = list(casters_);

@@ -83,6 +83,7 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
         scene.lights.push_back(record(frame, light));
         add_clip_planes(frame, light, scene);
     }
+    add_blockers(frame, scene);
 
     std::uint32_t shadowed = 0;
     for (const ShadowView& view : shadow_views(frame)) {

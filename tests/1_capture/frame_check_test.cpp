@@ -75,6 +75,7 @@ TEST(FrameCheck, StreamsAndTexelsHaveTheirLengths) {
         {"names may have 255 bytes", [](Frame& f) { f.draws[0].name.assign(256, 'x'); }},
         {"up to 6 clip planes, not 7", [](Frame& f) { f.lights[0].clip_planes.resize(7); }},
         {"up to 32 blockers, not 33", [](Frame& f) { f.lights[0].blockers.assign(33, 0); }},
+        {"up to 32 portals, not 33", [](Frame& f) { f.lights[0].portals.assign(33, 0); }},
     });
 }
 
@@ -125,6 +126,10 @@ TEST(FrameCheck, FloatsThatWouldBreakAReplayAreRefused) {
          }},
         {"perpendicular to its direction", [](Frame& f) { f.lights[0].axis_u = f.lights[0].direction; }},
         {"its u and v must be unit", [](Frame& f) { f.blockers[0].u *= 2; }},
+        {"portal 0: its u and v must be unit and perpendicular", [](Frame& f) { f.portals[0].v = f.portals[0].u; }},
+        {"blocker 0: its center is not finite", [](Frame& f) { f.blockers[0].center.y = nan; }},
+        {"portal 0: its half sizes must be 0 m or above", [](Frame& f) { f.portals[0].half_v = -1; }},
+        {"blocker 0: its half sizes must be 0 m or above", [](Frame& f) { f.blockers[0].half_u = infinity; }},
         {"fog's density must be 0 or above", [](Frame& f) { f.fog.density = nan; }},
         {"setting 'falloff' is not finite", [](Frame& f) { f.recorded_with[0].settings[1].value = double{nan}; }},
     });
@@ -133,6 +138,13 @@ TEST(FrameCheck, FloatsThatWouldBreakAReplayAreRefused) {
 TEST(FrameCheck, AnOmniLightMayShineAnywhere) {
     Frame frame = rich_frame();
     frame.lights[1].direction = {0, 0, 0};
+    EXPECT_TRUE(check_frame(frame));
+}
+
+TEST(FrameCheck, BlockersAndPortalsWithoutAreaStopAndOpenNothingAndAreAllowed) {
+    Frame frame = rich_frame();
+    frame.blockers[0].half_u = 0;
+    frame.portals[0].half_v = 0;
     EXPECT_TRUE(check_frame(frame));
 }
 

@@ -9,6 +9,7 @@
 
 #include "passes/graph/shader.h"
 #include "passes/registry.h"
+#include "passes/shaders/ltc.shared.h"
 #include "passes/shaders/scene.shared.h"
 
 namespace strata {
@@ -126,6 +127,16 @@ std::vector<Record> light_records() {
               {"axis_u", offsetof(L, axis_u)},
               {"cos_inner", offsetof(L, cos_inner)},
               {"cos_outer", offsetof(L, cos_outer)},
+              {"tan_half", offsetof(L, tan_half)},
+              {"half_extent", offsetof(L, half_extent)},
+              {"texture", offsetof(L, texture)},
+              {"features", offsetof(L, features)},
+              {"first_blocker", offsetof(L, first_blocker)},
+              {"blockers", offsetof(L, blockers)},
+              {"first_portal", offsetof(L, first_portal)},
+              {"portals", offsetof(L, portals)},
+              {"first_clip", offsetof(L, first_clip)},
+              {"clips", offsetof(L, clips)},
               {"shadow", offsetof(L, shadow)},
               {"shadow_slots", offsetof(L, shadow_slots)},
               {"visibility_layer", offsetof(L, visibility_layer)}}},
@@ -140,9 +151,42 @@ std::vector<Record> light_records() {
               {"texel", offsetof(S, texel)}}}};
 }
 
+std::vector<Record> blocker_records() {
+    using B = BlockerRecord;
+    using U = LightBlockerRecord;
+    using P = BlockerPortalRecord;
+    return {{"BlockerRecord",
+             sizeof(B),
+             {{"normal", offsetof(B, normal)},
+              {"half_u", offsetof(B, half_u)},
+              {"center", offsetof(B, center)},
+              {"half_v", offsetof(B, half_v)},
+              {"u", offsetof(B, u)},
+              {"one_sided", offsetof(B, one_sided)}}},
+            {"ClipPlaneRecord",
+             sizeof(ClipPlaneRecord),
+             {{"normal", offsetof(ClipPlaneRecord, normal)}, {"distance", offsetof(ClipPlaneRecord, distance)}}},
+            {"LtcRecord",
+             sizeof(LtcRecord),
+             {{"m11", offsetof(LtcRecord, m11)},
+              {"m13", offsetof(LtcRecord, m13)},
+              {"m22", offsetof(LtcRecord, m22)},
+              {"m31", offsetof(LtcRecord, m31)},
+              {"m33", offsetof(LtcRecord, m33)},
+              {"albedo", offsetof(LtcRecord, albedo)},
+              {"fresnel", offsetof(LtcRecord, fresnel)}}},
+            {"LightBlockerRecord", sizeof(U), {{"blocker", offsetof(U, blocker)}, {"portals", offsetof(U, portals)}}},
+            {"BlockerPortalRecord",
+             sizeof(P),
+             {{"center", offsetof(P, center)},
+              {"half_extent", offsetof(P, half_extent)},
+              {"turn", offsetof(P, turn)},
+              {"blocker", offsetof(P, blocker)}}}};
+}
+
 std::map<std::string_view, Record> scene_records() {
     std::map<std::string_view, Record> all;
-    for (const auto& group : {view_records(), geometry_records(), material_records(), light_records()})
+    for (const auto& group : {view_records(), geometry_records(), material_records(), light_records(), blocker_records()})
         for (const Record& record : group) all.emplace(record.name, record);
     return all;
 }
@@ -174,10 +218,20 @@ TEST(Layout, SceneRecordsLieWhereTheShadersReadThem) {
 
 TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
     const std::map<std::string_view, std::size_t> strides = {
-        {"vertices", sizeof(Vertex)},        {"draws", sizeof(DrawRecord)},   {"materials", sizeof(MaterialRecord)},
-        {"textures", sizeof(TextureRecord)}, {"lights", sizeof(LightRecord)}, {"shadows", sizeof(ShadowRecord)},
+        {"vertices", sizeof(Vertex)},
+        {"draws", sizeof(DrawRecord)},
+        {"materials", sizeof(MaterialRecord)},
+        {"textures", sizeof(TextureRecord)},
+        {"lights", sizeof(LightRecord)},
+        {"shadows", sizeof(ShadowRecord)},
+        {"blockers", sizeof(BlockerRecord)},
+        {"light_blockers", sizeof(LightBlockerRecord)},
+        {"blocker_portals", sizeof(BlockerPortalRecord)},
+        {"clip_planes", sizeof(ClipPlaneRecord)},
+        {"ltc_table", sizeof(LtcRecord)},
     };
-    const std::set<std::string> scene_blocks = {"Vertices", "Draws", "Materials", "Textures", "Lights", "Shadows"};
+    const std::set<std::string> scene_blocks = {"Vertices", "Draws",         "Materials",      "Textures",   "Lights",  "Shadows",
+                                                "Blockers", "LightBlockers", "BlockerPortals", "ClipPlanes", "LtcTable"};
     for (const Shader* shader : built_in_shaders()) {
         for (const BlockMember& member : shader->members) {
             if (!scene_blocks.contains(member.block) || member.holder != member.block) continue;

@@ -40,7 +40,6 @@ Technique brute_force() {
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
         .counter_bytes = sizeof(BruteForceCounters),
-        .cannot = {Feature::blockers, Feature::portals},
         .add = add,
         .model = brute_force_model,
         .tolerance = {.rmse = 1e-3,

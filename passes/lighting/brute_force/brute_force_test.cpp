@@ -77,6 +77,28 @@ TEST(BruteForceLighting, LightsAddUpAndDarksTakeAway) {
     EXPECT_NEAR(lit(frame, white_wall(1)), both / 4, 1e-12);
 }
 
+/// Where the wall of the pixel sees the light x to the side and 2 m before it, with a blocker half way whose halves are 1 m.
+Frame behind_blocker(double x) {
+    Frame frame = one_pixel(1);
+    frame.blockers = {{.center = {-x, 0, depth - 1}}};
+    frame.portals = {{.center = {-x, 0, depth - 1}, .half_u = 0.25f, .half_v = 0.25f}};
+    frame.lights = {lamp(LightType::omni)};
+    frame.lights[0].position = {-x, 0, depth - 2};
+    frame.lights[0].range = 1e6f;
+    frame.lights[0].blockers = {0};
+    frame.lights[0].portals = {0};
+    return frame;
+}
+
+TEST(BruteForceLighting, ABlockerLetsLightThroughItsPortalAndPastItsEdges) {  // lighting chapter T2.2b
+    for (const glm::dvec2 row :
+         {glm::dvec2(0, 0.25), glm::dvec2(0.4, 0.23571651), glm::dvec2(0.6, 0), glm::dvec2(2.1, 0.08200418)})
+        EXPECT_NEAR(lit(behind_blocker(row.x), white_wall(1)) * std::numbers::pi, row.y, 1e-7) << row.x << " m aside";
+    Frame dark = behind_blocker(0.6);
+    dark.lights[0].intensity = glm::vec3(-1);
+    EXPECT_EQ(lit(dark, white_wall(1)), 0) << "a dark is stopped, too";
+}
+
 TEST(BruteForceLighting, VisibilityScalesTheLightItBelongsTo) {
     Frame frame = one_pixel(1);
     frame.lights = {lamp(LightType::omni), lamp(LightType::round_spot)};

@@ -6,6 +6,7 @@
 #include "passes/gbuffer/surface.glsl"
 #include "passes/gbuffer/decoders.glsl"
 #include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/shaders/blockers.glsl"
 #include "passes/shaders/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -34,7 +35,9 @@ float visibility_of(LightRecord l, ivec3 at) {
 
 vec3 every_light(MaterialPoint m, ivec3 at) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < view.light_count; ++i) sum += visibility_of(lights[i], at) * reflected(m, lights[i], light_features);
+    for (uint i = 0u; i < view.light_count; ++i)
+        if (light_reaches(lights[i], m.position, m.normal))
+            sum += visibility_of(lights[i], at) * reflected(m, lights[i], light_features);
     return clamp(sum, -largest_half, largest_half);
 }
 
