@@ -34,6 +34,19 @@ bool shows_picture(const Light& light) {
     return can && light.texture != no_index;
 }
 
+std::uint32_t of_model(LightingModel model) {
+    switch (model) {
+        case LightingModel::cloth:
+            return feature_cloth;
+        case LightingModel::skin:
+            return feature_skin;
+        case LightingModel::hair:
+            return feature_hair;
+        default:
+            return 0;
+    }
+}
+
 }  // namespace
 
 std::uint32_t light_features(const Light& light) {
@@ -50,6 +63,7 @@ std::uint32_t light_features(const Light& light) {
 std::uint32_t light_features(const Frame& frame) {
     std::uint32_t bits = 0;
     for (const Light& light : shadow_lights(frame)) bits |= light_features(light);
+    for (const Material& material : frame.materials) bits |= of_model(material.lighting_model);
     return bits;
 }
 

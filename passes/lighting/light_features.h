@@ -10,7 +10,7 @@ namespace strata {
 /// Of one light: its type, shadows, sign, clip planes, picture, blockers and portals.
 std::uint32_t light_features(const Light&);
 
-/// Of all lights of a frame that shine, the sun too.
+/// Of all lights of a frame that shine, the sun too, and of its materials.
 std::uint32_t light_features(const Frame&);
 
 }  // namespace strata

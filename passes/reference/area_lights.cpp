@@ -188,7 +188,20 @@ dvec3 as_one_direction(const SurfacePoint& surface, const PlacedLight& at, const
     return brdf(widened, l, glm::normalize(-surface.position)) * (cosine * irradiance) * radiance(at, {l, 1});
 }
 
-dvec3 specular(const SurfacePoint& surface, const PlacedLight& at, const Polygon& polygon) {
+// What Burley's diffuse is of Lambert's, for a light in one direction.
+double diffuse_shape(const SurfacePoint& surface, const dvec3& l) {
+    const auto shape = surface.model == LightingModel::burley         ? renormalized_burley
+                       : surface.model == LightingModel::plain_burley ? burley
+                                                                      : nullptr;
+    if (!shape) return 1;
+    const dvec3 v = glm::normalize(-surface.position);
+    const auto cosine = [](const dvec3& a, const dvec3& b, double least) { return std::clamp(glm::dot(a, b), least, 1.0); };
+    return shape(surface.roughness, cosine(surface.normal, l, 0), cosine(surface.normal, v, smallest_cosine),
+                 cosine(l, glm::normalize(l + v), 0));
+}
+
+// The highlight over a diffuse layer. Of many bounces: Turquin 2019, with the table's albedo.
+dvec3 with_highlight(const SurfacePoint& surface, const PlacedLight& at, const Polygon& polygon, const dvec3& diffuse) {
     const dvec3 v = glm::normalize(-surface.position);
     const dmat3 to_normal = frame_of(surface.normal, v);
     const Ltc lobe = ltc_at(surface.roughness, std::max(glm::dot(surface.normal, v), smallest_cosine));
@@ -196,7 +209,10 @@ dvec3 specular(const SurfacePoint& surface, const PlacedLight& at, const Polygon
     const double share = std::max(flux(polygon, glm::inverse(matrix) * to_normal).z / pi, 0.0);
     const dvec3 f0 = glm::mix(dvec3(0.04), surface.base_color, surface.metallic);
     const Lobe from{glm::transpose(to_normal) * glm::normalize(matrix[2]), std::sqrt(std::abs(glm::determinant(matrix)))};
-    return (f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel) * share * radiance(at, from);
+    const dvec3 once = f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
+    if (surface.model != LightingModel::multiscatter_ggx) return diffuse + once * share * radiance(at, from);
+    const dvec3 all = once * (1.0 + f0 * (1 / lobe.albedo - 1));
+    return diffuse * (1.0 - all) + all * share * radiance(at, from);
 }
 
 // A bent lobe may reach below the horizon: nothing arrives from an emitter that is all there.
@@ -204,18 +220,21 @@ dvec3 by_outline(const SurfacePoint& surface, const PlacedLight& at, const Polyg
     const dmat3 to_normal = frame_of(surface.normal, -surface.position);
     const dvec3 sum = flux(polygon, to_normal);
     if (sum.z <= 0) return dvec3(0);
-    const bool lambert = surface.model == LightingModel::lambert;
     const Lobe from{glm::transpose(to_normal) * glm::normalize(sum), 1};
-    const dvec3 diffuse = surface.base_color * ((lambert ? 1 : 1 - surface.metallic) * sum.z / pi) * radiance(at, from);
-    return lambert ? diffuse : diffuse + specular(surface, at, polygon);
+    const dvec3 lambert = surface.base_color * (sum.z / pi) * radiance(at, from);
+    if (surface.model == LightingModel::lambert) return lambert;
+    return with_highlight(surface, at, polygon, lambert * ((1 - surface.metallic) * diffuse_shape(surface, from.axis)));
+}
+
+bool has_outline(LightingModel model) {
+    return model != LightingModel::cloth && model != LightingModel::skin && model != LightingModel::hair;
 }
 
 }  // namespace
 
 glm::dvec3 reflected_area(const SurfacePoint& surface, const PlacedLight& at) {
     const Polygon polygon = outline(at, surface.normal);
-    const bool has_outline = surface.model == LightingModel::lambert || surface.model == LightingModel::ggx;
-    return has_outline ? by_outline(surface, at, polygon) : as_one_direction(surface, at, polygon);
+    return has_outline(surface.model) ? by_outline(surface, at, polygon) : as_one_direction(surface, at, polygon);
 }
 
 }  // namespace strata

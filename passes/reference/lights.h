@@ -14,7 +14,8 @@ namespace strata {
 
 /// Radiance towards the eye at the origin from one light without shadow and blockers, by the methods of
 /// passes/shaders/lights.glsl: points exactly (pictures filtered over the pixel's footprint), areas by Lambert's polygons (round
-/// ones have 16 corners) and linearly transformed cosines, models other than Lambert and GGX by the emitter's mean direction.
+/// ones have 16 corners) and linearly transformed cosines, what Burley adds to Lambert, and all of cloth, skin and hair, as
+/// from the emitter's mean direction.
 glm::dvec3 reflected(const Frame&, const SurfacePoint&, const Light&);
 
 struct ExactOptions {

@@ -1,4 +1,4 @@
-// Fog and ambient light, written from transparency chapter 0.4 and lighting chapter 0.
+// Ambient light and fog, written from lighting chapter 0.3 and transparency chapter 0.4.
 #include "passes/reference/shade.h"
 
 #include <array>

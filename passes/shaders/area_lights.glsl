@@ -1,5 +1,6 @@
 // Tubes, spheres, discs and rectangles of one radiance: their outlines, and what of their light is reflected. Diffuse light by
-// Lambert's polygon formula, GGX by linearly transformed cosines; other models see the whole emitter in its mean direction.
+// Lambert's polygon formula, GGX by linearly transformed cosines; what Burley adds to Lambert, and all of cloth, skin and hair, as if
+// the light came from the emitter's mean direction.
 #ifndef PASSES_SHADERS_AREA_LIGHTS_GLSL
 #define PASSES_SHADERS_AREA_LIGHTS_GLSL
 #include "passes/shaders/brdf.glsl"
@@ -109,14 +110,31 @@ vec3 reflected_as_one_direction(MaterialPoint m, LightRecord light, Outline outl
     return brdf(m, l, normalize(-m.position), features) * brdf_cosine(m, l, features) * irradiance * radiance;
 }
 
-vec3 reflected_ggx(MaterialPoint m, LightRecord light, Outline outline, uint features) {
+// Burley's departure from Lambert, as for a light in the emitter's mean direction.
+float diffuse_shape(MaterialPoint m, vec3 l, vec3 v) {
+    if (m.lighting_model != model_burley && m.lighting_model != model_plain_burley) return 1.0;
+    return burley_shape(m, Directions(m.normal, l, v, normalize(l + v)));
+}
+
+struct Layers {
+    vec3 highlight;
+    vec3 share_left;  // for the diffuse layer
+};
+
+// Many bounces as passes/shaders/brdf.glsl has them, with the table's albedo.
+Layers ggx_layers(MaterialPoint m, LightRecord light, Outline outline, uint features) {
     const vec3 v = normalize(-m.position);
     const mat3 to_normal = to_frame(m.normal, v);
     const LtcRecord lobe = ltc_at(m.roughness, max(dot(m.normal, v), smallest_cosine));
     const float share = max(outline_flux(outline, ltc_inverse(lobe) * to_normal).z, 0.0) / pi;
     const vec3 f0 = mix(vec3(0.04), m.base_color, m.metallic);
+    vec3 sky = f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel, left = vec3(1.0);
+    if (m.lighting_model == model_multiscatter_ggx) {
+        sky *= 1.0 + f0 * (1.0 / lobe.albedo - 1.0);
+        left = 1.0 - sky;
+    }
     const LightLobe from = LightLobe(transpose(to_normal) * ltc_axis(lobe), ltc_half_width(lobe));
-    return (f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel) * share * emitted(light, light.position - m.position, from, features);
+    return Layers(sky * share * emitted(light, light.position - m.position, from, features), left);
 }
 
 // What is all below the horizon lights nothing, though a bent lobe may reach down there.
@@ -125,9 +143,10 @@ vec3 reflected_by_outline(MaterialPoint m, LightRecord light, Outline outline, u
     const vec3 flux = outline_flux(outline, to_normal);
     if (flux.z <= 0.0) return vec3(0.0);
     const LightLobe from = LightLobe(normalize(transpose(to_normal) * flux), 1.0);
-    const float share = m.lighting_model == model_lambert ? 1.0 : 1.0 - m.metallic;
-    const vec3 diffuse = m.base_color * (share * flux.z / pi) * emitted(light, light.position - m.position, from, features);
-    return m.lighting_model == model_lambert ? diffuse : diffuse + reflected_ggx(m, light, outline, features);
+    const vec3 lambert = m.base_color * (flux.z / pi) * emitted(light, light.position - m.position, from, features);
+    if (m.lighting_model == model_lambert) return lambert;
+    const Layers layers = ggx_layers(m, light, outline, features);
+    return lambert * layers.share_left * ((1.0 - m.metallic) * diffuse_shape(m, from.axis, normalize(-m.position))) + layers.highlight;
 }
 
 // Discs and rectangles shine to their front only. The window is that of the distance from the light's center.
@@ -137,7 +156,8 @@ vec3 reflected_area(MaterialPoint m, LightRecord light, uint features) {
     const bool one_sided = light.type == light_disc || light.type == light_rectangle;
     if (window <= 0.0 || m.lighting_model == model_unlit || (one_sided && dot(offset, light.direction) >= 0.0)) return vec3(0.0);
     const Outline outline = outline_of(light, offset, m.normal, features);
-    if (m.lighting_model != model_lambert && m.lighting_model != model_ggx)
+    // Those that have metals have a GGX lobe.
+    if (m.lighting_model != model_lambert && !has_metals(m.lighting_model))
         return window * reflected_as_one_direction(m, light, outline, features);
     return window * reflected_by_outline(m, light, outline, features);
 }

@@ -23,7 +23,6 @@ layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
-layout(constant_id = 9) const uint has_blockers = 0u;    // 1: the frame has lights with blockers
 layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
@@ -52,7 +51,7 @@ float faded() {
 
 // Whether no blocker stops the light.
 bool reached(LightRecord light, MaterialPoint m) {
-    if (has_blockers == 0u || light.blockers == 0u) return true;
+    if ((light_features & feature_blockers) == 0u || light.blockers == 0u) return true;
     const vec3 above = off_surface(m.position, facing_normal(m.lighting_model, m.normal, m.position));
     return blockers_pass(light, above, low_bits(light.blockers), low_bits(light.portals));
 }

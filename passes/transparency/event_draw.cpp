@@ -15,7 +15,6 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
-        .fixes("has_blockers", images.features->has(Feature::blockers) ? 1u : 0u)
         .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
         .fixes("light_features", light_features(*images.recorded));
     return fix_textures(pass, images, Surfaces::transparent);

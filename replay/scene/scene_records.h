@@ -30,7 +30,7 @@ struct SceneRecords {
     std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter
     std::vector<TextureRecord> textures;
     std::vector<std::uint32_t> texels;
-    std::vector<LightRecord> lights;  ///< the sun first, then Frame::lights
+    std::vector<LightRecord> lights;           ///< the sun first, then Frame::lights
     std::vector<ClipPlaneRecord> clip_planes;  ///< of the lights, one light's after the other's
     std::vector<ShadowRecord> shadows;
     std::vector<BlockerRecord> blockers;  ///< as Frame::blockers
@@ -46,7 +46,7 @@ SceneRecords scene_records(const Frame&);
 void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
 void add_materials(const Frame&, SceneRecords&);  // materials.cpp
 void add_textures(const Frame&, SceneRecords&);
-void add_lights(const Frame&, SceneRecords&);  // lights.cpp: lights, clip planes, shadows, view
+void add_lights(const Frame&, SceneRecords&);    // lights.cpp: lights, clip planes, shadows, view
 void add_blockers(const Frame&, SceneRecords&);  // blockers.cpp: what may stand in the way of the lights that are there
 
 }  // namespace strata

@@ -9,6 +9,7 @@
 
 #include "passes/graph/shader.h"
 #include "passes/registry.h"
+#include "passes/shaders/ltc.shared.h"
 #include "passes/shaders/scene.shared.h"
 
 namespace strata {
@@ -165,6 +166,18 @@ std::vector<Record> blocker_records() {
               {"half_v", offsetof(B, half_v)},
               {"u", offsetof(B, u)},
               {"one_sided", offsetof(B, one_sided)}}},
+            {"ClipPlaneRecord",
+             sizeof(ClipPlaneRecord),
+             {{"normal", offsetof(ClipPlaneRecord, normal)}, {"distance", offsetof(ClipPlaneRecord, distance)}}},
+            {"LtcRecord",
+             sizeof(LtcRecord),
+             {{"m11", offsetof(LtcRecord, m11)},
+              {"m13", offsetof(LtcRecord, m13)},
+              {"m22", offsetof(LtcRecord, m22)},
+              {"m31", offsetof(LtcRecord, m31)},
+              {"m33", offsetof(LtcRecord, m33)},
+              {"albedo", offsetof(LtcRecord, albedo)},
+              {"fresnel", offsetof(LtcRecord, fresnel)}}},
             {"LightBlockerRecord", sizeof(U), {{"blocker", offsetof(U, blocker)}, {"portals", offsetof(U, portals)}}},
             {"BlockerPortalRecord",
              sizeof(P),
@@ -217,9 +230,11 @@ TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
         {"blockers", sizeof(BlockerRecord)},
         {"light_blockers", sizeof(LightBlockerRecord)},
         {"blocker_portals", sizeof(BlockerPortalRecord)},
+        {"clip_planes", sizeof(ClipPlaneRecord)},
+        {"ltc_table", sizeof(LtcRecord)},
     };
-    const std::set<std::string> scene_blocks = {"Vertices", "Draws",    "Materials",     "Textures",      "Lights",
-                                                "Shadows",  "Blockers", "LightBlockers", "BlockerPortals"};
+    const std::set<std::string> scene_blocks = {"Vertices", "Draws",         "Materials",      "Textures",   "Lights",  "Shadows",
+                                                "Blockers", "LightBlockers", "BlockerPortals", "ClipPlanes", "LtcTable"};
     for (const Shader* shader : built_in_shaders()) {
         for (const BlockMember& member : shader->members) {
             if (!scene_blocks.contains(member.block) || member.holder != member.block) continue;

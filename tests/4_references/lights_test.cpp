@@ -139,6 +139,31 @@ TEST(AreaLights, TheirOutlinesHoldTheIrradianceOfTheirSurfaces) {
     }
 }
 
+TEST(AreaLights, AreOnceEachForEveryModel) {
+    // Of what the truth reflects on the whole of a floor under a small globe: sums, so that a lobe's shape is not asked for.
+    const std::array<std::pair<LightingModel, double>, 6> models = {{{LightingModel::burley, 0.02},
+                                                                     {LightingModel::plain_burley, 0.02},
+                                                                     {LightingModel::multiscatter_ggx, 0.02},
+                                                                     {LightingModel::cloth, 0.1},
+                                                                     {LightingModel::skin, 0.1},
+                                                                     {LightingModel::hair, 0.1}}};
+    const Light globe = sized(lamp(LightType::sphere, 1), 0.3f);
+    for (const auto& [model, tolerance] : models) {
+        double fast = 0, exact = 0;
+        for (int i = 0; i < 60; ++i) {
+            SurfacePoint surface = white(model == LightingModel::hair ? glm::dvec3(1, 0, 0) : glm::dvec3(0.2, 0, -1));
+            surface.model = model;
+            surface.roughness = 0.5;
+            surface.base_color = {0.7, 0.5, 0.3};
+            surface.position = {0.4 * (i % 10) - 1.8, 0.4 * double(i / 10) - 1, 5};
+            fast += reflected(view(), surface, globe).y;
+            exact += exact_reflected(view(), surface, globe).y;
+        }
+        EXPECT_GT(exact, 0.1);
+        EXPECT_NEAR(fast / exact, 1, tolerance) << int(model);
+    }
+}
+
 TEST(AreaLights, FarAwayTheyArePoints) {
     const double far = 200, radius = 0.1, half = 0.3;
     Light tube = sized(lamp(LightType::tube, far), float(radius), {float(half), 0});

@@ -46,7 +46,7 @@ TEST(LtcTable, BendsTheCosineForward) {
     for (const LtcRecord& r : ltc_table()) {
         ASSERT_GT(r.m22, 0);
         ASSERT_GT(r.m11 * r.m33 - r.m13 * r.m31, 0) << "or the outline would turn around";
-        ASSERT_LE(r.m13, 2e-3f) << "away from the eye";
+        ASSERT_LE(r.m13, 5e-3f) << "away from the eye";
     }
     const Ltc mirror = ltc_at(0.1, std::cos(pi / 4));
     EXPECT_NEAR(mirror.m13, -std::numbers::sqrt2 / 2, 5e-3);
