@@ -41,19 +41,6 @@ private:
     std::array<glm::dvec3, 4> inward_{};
 };
 
-std::uint32_t model_features(LightingModel model) {
-    switch (model) {
-        case LightingModel::cloth:
-            return feature_cloth;
-        case LightingModel::skin:
-            return feature_skin;
-        case LightingModel::hair:
-            return feature_hair;
-        default:
-            return 0;
-    }
-}
-
 std::uint32_t features_of_lights(const Frame& frame, const Frustum& frustum) {
     std::uint32_t features = 0;
     for (const Light& light : shadow_lights(frame))
@@ -66,7 +53,7 @@ std::uint32_t features_of_surfaces(const Frame& frame, const Frustum& frustum) {
     std::uint32_t features = 0;
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
         const Material& material = frame.materials[frame.draws[i].material];
-        const std::uint32_t needed = is_transparent(material.alpha_mode) ? 0 : model_features(material.lighting_model);
+        const std::uint32_t needed = is_transparent(material.alpha_mode) ? 0 : model_feature(material.lighting_model);
         if ((needed & ~features) != 0 && frustum.meets(bounding_sphere(frame, i))) features |= needed;
     }
     return features;

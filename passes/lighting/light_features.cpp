@@ -34,7 +34,9 @@ bool shows_picture(const Light& light) {
     return can && light.texture != no_index;
 }
 
-std::uint32_t of_model(LightingModel model) {
+}  // namespace
+
+std::uint32_t model_feature(LightingModel model) {
     switch (model) {
         case LightingModel::cloth:
             return feature_cloth;
@@ -47,13 +49,11 @@ std::uint32_t of_model(LightingModel model) {
     }
 }
 
-}  // namespace
-
 std::uint32_t light_features(const Light& light) {
     std::uint32_t bits = of_type(light.type);
     if (!light.blockers.empty()) bits |= feature_blockers;
     if (!light.blockers.empty() && !light.portals.empty()) bits |= feature_portals;
-    if (light.shadow.casts) bits |= feature_shadows;
+    if (light.shadow.casts) bits |= feature_shadows | (light.shadow.soft ? feature_soft_shadows : 0);
     if (shows_picture(light)) bits |= feature_projected_texture;
     if (std::min({light.intensity.x, light.intensity.y, light.intensity.z}) < 0) bits |= feature_darks;
     if (!light.clip_planes.empty()) bits |= feature_clip_planes;
@@ -63,7 +63,7 @@ std::uint32_t light_features(const Light& light) {
 std::uint32_t light_features(const Frame& frame) {
     std::uint32_t bits = 0;
     for (const Light& light : shadow_lights(frame)) bits |= light_features(light);
-    for (const Material& material : frame.materials) bits |= of_model(material.lighting_model);
+    for (const Material& material : frame.materials) bits |= model_feature(material.lighting_model);
     return bits;
 }
 

@@ -10,6 +10,9 @@ namespace strata {
 /// Of one light: its type, shadows, sign, clip planes, picture, blockers and portals.
 std::uint32_t light_features(const Light&);
 
+/// Of surfaces of a model: none for those that every variant can shade.
+std::uint32_t model_feature(LightingModel);
+
 /// Of all lights of a frame that shine, the sun too, and of its materials.
 std::uint32_t light_features(const Frame&);
 

@@ -105,7 +105,8 @@ private:
     }
 
     bool reaches(const ModelLight& l, const SurfacePoint& p) const {
-        return params_.blockers != blockers_per_pixel || lets_through(l.blockers, l.from, off_surface(p.position, facing_normal(p)));
+        return params_.blockers != blockers_per_pixel ||
+               lets_through(l.blockers, l.from, off_surface(p.position, facing_normal(p)));
     }
 
     /// By light: whether the tile shades it.
