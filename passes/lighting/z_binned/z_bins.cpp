@@ -48,10 +48,13 @@ ZBins z_bins(Graph& graph, const FrameImages& frame, const ZBinnedParams& params
         .push(made.push)
         .over({made.push.bins});
     graph.compute("lighting/z_binned/tile_masks.comp")
-        .samples("depth_layers", frame.depth_layers)
+        .samples("gbuffer0", frame.gbuffer0)
+        .samples("gbuffer1", frame.gbuffer1)
+        .samples("gbuffer2", frame.gbuffer2)
         .loads("Sorted", made.sorted)
         .loads("Header", made.header)
         .stores("Masks", made.masks)
+        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("bounds", params.bounds)
         .push(made.push)
         .groups(tiles);
