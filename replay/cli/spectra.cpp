@@ -11,6 +11,7 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
+#include "replay/isa/compile_elsewhere.h"
 
 namespace strata {
 namespace {
@@ -19,7 +20,7 @@ struct Options {
     std::vector<std::filesystem::path> captures;
     OpenOptions open;
     ChoiceOptions choices;
-    std::string frames, cost = "weights", aim = "sum";
+    std::string frames, cost, gpu_model, aim = "sum";
     SpectraWish wish;
     std::size_t repeats = 7;
     bool json = false;
@@ -67,28 +68,49 @@ void show_progress(std::string_view what, double done) {
     if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
 }
 
+/// With a GPU and no word on costs, its compiler's.
+std::string cost_of(const Options& options) {
+    if (!options.cost.empty()) return options.cost;
+    return options.gpu_model.empty() ? "weights" : "isa";
+}
+
+Result<const GpuModel*> gpu_of(const Options& options) {
+    if (options.gpu_model.empty()) return nullptr;
+    const auto found = find_gpu_model(options.gpu_model);
+    if (found && (*found)->family.empty()) return fail(Fault::usage, "RADV does not compile for {}", options.gpu_model);
+    return found;
+}
+
 Result<void> spectra(const Options& options) {
-    const auto source = find_cost_source(options.cost);
+    const auto source = find_cost_source(cost_of(options));
     if (!source) return source.error();
+    const auto gpu = gpu_of(options);
+    if (!gpu) return gpu.error();
     const auto base = request_of(options.choices);
     if (!base) return base.error();
     const auto technique = technique_of_spectra(options.choices.uses);
     if (!technique) return technique.error();
     auto frames = gather(options, **technique, *base);
     if (!frames) return frames.error();
-    auto costs = (*source)->costs({.technique = **technique,
-                                   .base = *base,
-                                   .frames = *frames,
-                                   .modes = modes_that_matter(*frames),
-                                   .open = [&](const std::string& capture) { return open_one(options, capture); },
-                                   .repeats = options.repeats,
-                                   .progress = show_progress});
+    CostQuestion question{.technique = **technique,
+                          .base = *base,
+                          .frames = *frames,
+                          .modes = modes_that_matter(*frames),
+                          .open = [&](const std::string& capture) { return open_one(options, capture); },
+                          .repeats = options.repeats,
+                          .progress = show_progress,
+                          .gpu = *gpu};
+    if (*gpu)
+        question.compile = [&](const std::vector<PipelineRequest>& pipelines) {
+            return compile_elsewhere(pipelines, {.model = *gpu, .program = "/proc/self/exe", .environment = environ});
+        };
+    auto costs = (*source)->costs(question);
     if (!costs) return costs.error();
     SpectraWish wish = options.wish;
     wish.aim = options.aim == "worst" ? lighting::Aim::worst : lighting::Aim::sum;
     SpectraReport report = find_modes(*std::move(frames), *std::move(costs), wish);
     report.technique = (*technique)->name;
-    report.cost_source = options.cost;
+    report.cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
     fmt::print("{}", options.json ? as_json(report) : as_text(report));
     return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(report));
 }
@@ -96,7 +118,7 @@ Result<void> spectra(const Options& options) {
 std::string help_of_costs() {
     std::string help = "what a mode costs";
     for (const CostSource& source : cost_sources()) help += fmt::format("; {}: {}", source.name, source.help);
-    return help + "; default weights";
+    return help + "; default weights, with --gpu-model isa";
 }
 
 }  // namespace
@@ -111,6 +133,7 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
     app.add_option("--modes", options->wish.modes, "how many shading modes at most, the full one included, default 8")
         ->check(CLI::Range(std::size_t(1), most_settable_modes));
     app.add_option("--cost", options->cost, help_of_costs());
+    app.add_option("--gpu-model", options->gpu_model, "the GPU to compile modes for; `strata isa` lists them");
     app.add_option("--aim", options->aim, "sum: least for all frames together; worst: least for the dearest frame; default sum")
         ->check(CLI::IsMember({"sum", "worst"}));
     app.add_option("--dispatch", options->wish.dispatch, "what one mode more costs every frame, in the unit of costs, default 0")

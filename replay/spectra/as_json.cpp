@@ -62,6 +62,8 @@ std::string as_json(const SpectraReport& report) {
         json["frames"].push_back({{"capture", frame.capture}, {"frame", frame.frame}, {"spectra", json_of(frame.rows)}});
     for (const TimedMode& mode : report.costs.timed)
         json["timed"].push_back({{"bits", mode.features}, {"tiles", mode.tiles}, {"saved_ms", mode.saved_ms}});
+    for (const auto& [bits, mode] : report.costs.compiled)
+        json["compiled"].push_back({{"bits", bits}, {"cycles", mode.cycles}, {"waves_per_simd", mode.waves}});
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
     json["settings"] = settings_of(modes);

@@ -38,8 +38,9 @@ std::string modes_text(const SpectraReport& report) {
         std::uint64_t tiles = 0;
         for (const lighting::SpectrumRow& row : report.rows)
             if (row.mode == i) tiles += row.tiles;
-        text += fmt::format("mode {:2}  0x{:04x}  cost {}  {} ({:.1f} %)\n", i, mode.features, short_number(mode.cost),
-                            counted(tiles, "tile"), share(double(tiles), double(all_tiles(report))));
+        text += fmt::format("mode {:2}  0x{:04x}  cost {}  {} ({:.1f} %){}\n", i, mode.features, short_number(mode.cost),
+                            counted(tiles, "tile"), share(double(tiles), double(all_tiles(report))),
+                            report.costs.waves ? fmt::format("  {} waves per SIMD", report.costs.waves(mode.features)) : "");
         text += wrapped("    ", mode.features == 0 ? "no feature" : lighting::braced_names(mode.features));
         if (const std::string unused = superfluous_text(report.rows, i); !unused.empty())
             text += wrapped("    ", "superfluous: " + unused);
@@ -60,6 +61,15 @@ std::string prediction_text(const SpectraReport& report) {
     return text + line("a mode for every spectrum", report.ideal);
 }
 
+/// Waves per SIMD of the full mode and, weighted by tiles, of the modes that were found.
+std::string waves_text(const SpectraReport& report) {
+    if (!report.costs.waves) return "";
+    double sum = 0;
+    for (const lighting::SpectrumRow& row : report.rows) sum += double(row.tiles) * report.costs.waves(row.features);
+    return fmt::format("    {:40} {} of one full mode, {:.2f} of these by tiles\n", "waves per SIMD",
+                       report.costs.waves(every_light_feature), sum / double(all_tiles(report)));
+}
+
 }  // namespace
 
 std::string as_text(const SpectraReport& report) {
@@ -69,7 +79,8 @@ std::string as_text(const SpectraReport& report) {
         "{}: {} of {}, {} with something to light, {}; costs: {}\n\n", report.technique, counted(report.frames.size(), "frame"),
         counted(captures.size(), "capture"), counted(all_tiles(report), "tile"),
         report.rows.size() == 1 ? std::string("1 spectrum") : fmt::format("{} spectra", report.rows.size()), report.cost_source);
-    text += modes_text(report) + "\n" + prediction_text(report) + "\nThe most frequent spectra by these modes:\n";
+    text += modes_text(report) + "\n" + prediction_text(report) + waves_text(report) +
+            "\nThe most frequent spectra by these modes:\n";
     text += lighting::readout(report.rows);
     text += fmt::format("\nTo replay with them: --use {}", report.technique);
     std::vector<std::uint32_t> modes;

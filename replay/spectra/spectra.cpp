@@ -158,6 +158,7 @@ std::span<const CostSource> cost_sources() {
     static constexpr CostSource table[] = {
         {"weights", "1 and an example's weight per feature: takes no time, models no machine", weighted_costs},
         {"measured", "timed here, on the first frame of every capture", measured_costs},
+        {"isa", "cycles and waves per SIMD as RADV's compiler states them for --gpu-model", compiled_costs},
     };
     return table;
 }

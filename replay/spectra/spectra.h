@@ -2,12 +2,17 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "passes/lighting/mode_costs.h"
 #include "passes/lighting/mode_search.h"
 #include "passes/technique.h"
+#include "replay/isa/compiled_pipeline.h"
+#include "replay/isa/gpu_models.h"
+#include "replay/isa/pipeline_request.h"
 #include "replay/report/report.h"
 #include "replay/session.h"
 
@@ -47,6 +52,7 @@ struct ModeCosts {
     lighting::ModeWaves waves = {};  ///< empty: not known
     std::string unit;                ///< of a tile's cost
     std::vector<TimedMode> timed = {};
+    std::map<std::uint32_t, lighting::CompiledMode> compiled = {};  ///< by features
 };
 /// What whoever prices modes may look at.
 struct CostQuestion {
@@ -57,6 +63,8 @@ struct CostQuestion {
     std::function<Result<std::unique_ptr<Session>>(const std::string& capture)> open;
     std::size_t repeats = 7;
     Progress progress = {};
+    const GpuModel* gpu = nullptr;  ///< that `compile` compiles for
+    std::function<Result<Compilation>(const std::vector<PipelineRequest>&)> compile = {};
 };
 /// A way to price modes: `--cost NAME`.
 struct CostSource {
@@ -67,6 +75,8 @@ std::span<const CostSource> cost_sources();
 Result<ModeCosts> weighted_costs(const CostQuestion&);
 /// Times the technique on the first frame of every capture, see measured.cpp.
 Result<ModeCosts> measured_costs(const CostQuestion&);
+/// By the compiler of a GPU, see compiled.cpp.
+Result<ModeCosts> compiled_costs(const CostQuestion&);
 /// At most so many modes that are worth asking for: those a greedy search by weights takes, then the most frequent spectra; each
 /// serves at least one tile in 64, fewer drown in a timer's noise.
 std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra>);
