@@ -120,19 +120,19 @@ struct LightRecord {
     float range;
     vec3 intensity;  // W/sr; irradiance when directional
     float source_radius;
-    vec3 axis_u;      // with axis_v = cross(direction, axis_u)
+    vec3 axis_u;  // with axis_v = cross(direction, axis_u)
     float cos_inner;
     float cos_outer;
-    vec2 tan_half;    // of a square spot or a projected picture: half its width and height at unit distance
-    vec2 half_extent; // rectangle; half length of a tube in x
-    uint texture;     // projected or emitted, no_index without
-    uint features;    // bits of light_features.shared.h that every evaluation of it needs
-    uint first_blocker;  // in light_blockers ...
-    uint blockers;       // ... how many, at most 32
-    uint first_portal;   // in blocker_portals ...
-    uint portals;        // ... how many, at most 32
-    uint first_clip;     // in clip_planes ...
-    uint clips;          // ... how many, at most 6
+    vec2 tan_half;          // of a square spot or a projected picture: half its width and height at unit distance
+    vec2 half_extent;       // rectangle; half length of a tube in x
+    uint texture;           // projected or emitted, no_index without
+    uint features;          // bits of light_features.shared.h that every evaluation of it needs
+    uint first_blocker;     // in light_blockers ...
+    uint blockers;          // ... how many, at most 32
+    uint first_portal;      // in blocker_portals ...
+    uint portals;           // ... how many, at most 32
+    uint first_clip;        // in clip_planes ...
+    uint clips;             // ... how many, at most 6
     uint shadow;            // first slot in shadows, no_index without
     uint shadow_slots;      // cascades of the sun, 1 for spots, 6 for omni
     uint visibility_layer;  // its first layer (sample 0) in the visibility image, no_index without
@@ -177,7 +177,7 @@ struct ShadowRecord {
     float bias;         // metres towards the light
     float range_begin;  // view depth from which this cascade serves
     float range_end;
-    float texel;  // world size of a texel at unit distance (spots, omni) or anywhere (sun), metres
+    float texel;         // world size of a texel at unit distance (spots, omni) or anywhere (sun), metres
     float source_width;  // of the light, metres; of the sun per metre from the caster
     uvec2 offset;        // of its upper left texel in the layer
     uint layer;

@@ -40,8 +40,8 @@ bool has_faces(const Light&);
 /// The face whose axis the direction is nearest to; x before y before z where two are equally near.
 std::uint32_t cube_face(const glm::dvec3& world_direction);
 
-/// Lights in the order of the device's light list: the sun first when it shines, then those of Frame::lights that do. A light of no
-/// intensity or range is not on it.
+/// Lights in the order of the device's light list: the sun first when it shines, then those of Frame::lights that do. A light of
+/// no intensity or range is not on it.
 std::vector<Light> shadow_lights(const Frame&);
 /// Whether a light has intensity and, unless it is directional, range.
 bool shines(const Light&);

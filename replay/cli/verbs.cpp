@@ -35,7 +35,8 @@ std::span<const Verb> verbs() {
         {"spectra", "what lit tiles need, and the shading modes that serve them at the least cost", declare_spectra},
         {"diff", "two captures, settings, devices or images: what differs, where, by how much", declare_diff},
         {"probe", "one pixel: its fragments in order, and T(z) of every method beside the exact steps", declare_probe},
-        {"isa", "what a GPU's compiler makes of every pipeline: registers, waves and what limits them, modelled times", declare_isa},
+        {"isa", "what a GPU's compiler makes of every pipeline: registers, waves and what limits them, modelled times",
+         declare_isa},
         {"isa-compile", "compile what strata isa asks for", declare_isa_compile},
     };
     return table;
