@@ -2,10 +2,10 @@
 // 200 lights of every type, glass in the windows, a person of cloth, skin and hair. Made for what a room costs to light.
 //
 //   z = -12  +------+------+------+------+   doors between the rooms of a row and between the rows,
-//            |      |      |      |      |   windows with glass towards the lobby
+//            |      |      |      |      |   windows with glass, and doors, towards the lobby
 //   z = -6   +--  --+--  --+--  --+--  --+
 //            |      |      |      |      |
-//   z = 0    +--[]--+--[]--+--[]--+--[]--+
+//   z = 0    + -[==]+ -[==]+ -[==]+ -[==]+
 //            |          lobby            |
 //   z = 8    +---------windows-----------+
 //           x = -12                     12
@@ -63,8 +63,9 @@ public:
             const double front = -room * row, back = front - room;
             for (std::uint32_t i = 0; i < rooms_in_row; ++i) {
                 const double left = -2 * room + room * i, right = left + room;
-                add_wall(
-                    {{left, front}, {right, front}, row == 0 ? (i % 2 == 0 ? Opening::window : Opening::door) : Opening::door});
+                if (row > 0) add_wall({{left, front}, {right, front}, Opening::door});
+                if (row == 0) add_wall({{left, front}, {left + 2, front}, Opening::door});
+                if (row == 0) add_wall({{left + 2, front}, {right, front}, Opening::window});
                 if (i > 0) add_wall({{left, front}, {left, back}, Opening::door});
             }
         }
@@ -171,7 +172,7 @@ private:
         day.name = "daylight";
         day.type = LightType::directional;
         day.direction = glm::normalize(glm::vec3(0.35f, -0.5f, -1));
-        day.intensity = {1.6f, 1.5f, 1.3f};
+        day.intensity = {4, 3.7f, 3.2f};
         for (std::uint32_t i = 0; i <= roof; ++i) day.blockers.push_back(i);
         for (std::uint32_t i = 0; i < frame.portals.size(); ++i) day.portals.push_back(i);
         frame.lights.push_back(day);
@@ -219,11 +220,11 @@ private:
         light.direction = glm::normalize(glm::vec3{random_.between(-0.3f, 0.3f), -1, random_.between(-0.3f, 0.3f)});
         light.axis_u = glm::normalize(glm::cross(light.direction, glm::vec3(0, 0, 1)));
         const glm::vec3 tint{random_.between(0.7f, 1.0f), random_.between(0.6f, 0.9f), random_.between(0.4f, 0.9f)};
-        light.intensity = tint * 0.9f;
+        light.intensity = tint * 2.5f;
         const bool spot = type == LightType::round_spot || type == LightType::square_spot;
         if (spot) {
             light.range = 4.5f;
-            light.intensity = tint * 5.0f;
+            light.intensity = tint * 14.0f;
             light.inner_angle = type == LightType::round_spot ? 0.35f : 0.45f;
             light.outer_angle = 0.6f;
             light.shadow.casts = index % 20 == 1;
@@ -233,15 +234,15 @@ private:
         if (type == LightType::tube) {
             light.half_extent = {0.6f, 0};
             light.source_radius = 0.02f;
-            light.intensity = tint * 25.0f;
+            light.intensity = tint * 60.0f;
         }
         if (type == LightType::sphere || type == LightType::disc) {
             light.source_radius = 0.15f;
-            light.intensity = tint * 12.0f;
+            light.intensity = tint * 30.0f;
         }
         if (type == LightType::rectangle) {
             light.half_extent = {0.5f, 0.3f};
-            light.intensity = tint * 4.0f;
+            light.intensity = tint * 9.0f;
             if (index % 20 == 10) light.texture = slide();
         }
         return light;
@@ -281,22 +282,22 @@ void add_guest(FrameBuilder& builder) {
     Material suit = lambert("suit", {0.12f, 0.13f, 0.16f});
     suit.lighting_model = LightingModel::cloth;
     const People people(builder);
-    people.add(builder, builder.add(suit), {.position = {1.4, 0, 3.2}, .yaw = 0.6});
+    people.add(builder, builder.add(suit), {.position = {-2.2, 0, 2.6}, .yaw = -0.9});
     Material face = lambert("face", {0.7f, 0.45f, 0.35f});
     face.lighting_model = LightingModel::skin;
     face.roughness = 0.5f;
-    builder.draw(builder.add(sphere(0.125f, 16)), builder.add(face), {.position = {1.4, 1.69, 3.22}});
+    builder.draw(builder.add(sphere(0.125f, 16)), builder.add(face), {.position = {-2.22, 1.69, 2.63}});
     Material hair = lambert("hair", {0.25f, 0.14f, 0.06f});
     hair.lighting_model = LightingModel::hair;
     hair.roughness = 0.4f;
-    builder.draw(builder.add(sphere(0.13f, 16)), builder.add(hair), {.position = {1.4, 1.74, 3.17}});
+    builder.draw(builder.add(sphere(0.13f, 16)), builder.add(hair), {.position = {-2.18, 1.74, 2.57}});
 }
 
 }  // namespace
 
 Frame agents_hq(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
-    builder.look({.eye = {-6.5, 2.1, 7.2}, .target = {0.5, 1.2, -1}, .vertical_fov = 0.95, .swing = 0.15});
+    builder.look({.eye = {-5, 1.9, 5.6}, .target = {0.5, 1.1, -1.5}, .vertical_fov = 0.95, .swing = 0.15});
     Headquarters(builder).build();
     add_guest(builder);
     builder.frame.hemisphere = {.sky = glm::vec3(0.04f), .ground = glm::vec3(0.03f)};

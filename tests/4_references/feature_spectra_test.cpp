@@ -5,6 +5,7 @@
 #include <set>
 
 #include <gmock/gmock.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "passes/lighting/mode_search.h"
@@ -85,7 +86,7 @@ TEST(FeatureSpectra, EveryBitHasANameOfItsOwn) {
     EXPECT_EQ(names[std::size_t(std::countr_zero(feature_projected_texture))], "Projected Textures");
     EXPECT_EQ(names[std::size_t(std::countr_zero(feature_hair))], "Hair");
     for (std::uint32_t bit = 0; bit < light_feature_bits; ++bit)
-        EXPECT_EQ(braced_names(1u << bit), "{" + std::string(names[bit]) + "}");
+        EXPECT_EQ(braced_names(1u << bit), fmt::format("{{{}}}", names[bit]));
     EXPECT_EQ(std::ranges::count(braced_names(every_light_feature), ','), 15);
 }
 
