@@ -4,8 +4,8 @@
 #include <random>
 #include <set>
 
-#include <gmock/gmock.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passes/lighting/mode_search.h"
