@@ -18,6 +18,7 @@ std::vector<float> members_seen_by_a_shader(const Record& record, std::string_vi
         uint count = 0;
         void see(float v) {{ seen[count++] = v; }}
         void see(uint v) {{ see(float(v)); }}
+        void see(vec2 v) {{ see(v.x); see(v.y); }}
         void see(vec3 v) {{ see(v.x); see(v.y); see(v.z); }}
         void see(vec4 v) {{ see(v.xyz); see(v.w); }}
         void see(mat3 m) {{ see(m[0]); see(m[1]); see(m[2]); }}
@@ -43,14 +44,27 @@ TEST(RoundTrip, ALightArrivesMemberByMember) {
                             .axis_u = {13, 14, 15},
                             .cos_inner = 16,
                             .cos_outer = 17,
-                            .shadow = 18,
-                            .shadow_slots = 19,
-                            .visibility_layer = 20};
-    const auto seen = members_seen_by_a_shader(light, "LightRecord",
-                                               "see(r.position); see(r.type); see(r.direction); see(r.range); see(r.intensity);"
-                                               "see(r.source_radius); see(r.axis_u); see(r.cos_inner); see(r.cos_outer);"
-                                               "see(r.shadow); see(r.shadow_slots); see(r.visibility_layer);");
-    ASSERT_EQ(seen.size(), 20u);
+                            .tan_half = {18, 19},
+                            .half_extent = {20, 21},
+                            .texture = 22,
+                            .features = 23,
+                            .first_blocker = 24,
+                            .blockers = 25,
+                            .first_portal = 26,
+                            .portals = 27,
+                            .first_clip = 28,
+                            .clips = 29,
+                            .shadow = 30,
+                            .shadow_slots = 31,
+                            .visibility_layer = 32};
+    const auto seen =
+        members_seen_by_a_shader(light, "LightRecord",
+                                 "see(r.position); see(r.type); see(r.direction); see(r.range); see(r.intensity);"
+                                 "see(r.source_radius); see(r.axis_u); see(r.cos_inner); see(r.cos_outer);"
+                                 "see(r.tan_half); see(r.half_extent); see(r.texture); see(r.features);"
+                                 "see(r.first_blocker); see(r.blockers); see(r.first_portal); see(r.portals);"
+                                 "see(r.first_clip); see(r.clips); see(r.shadow); see(r.shadow_slots); see(r.visibility_layer);");
+    ASSERT_EQ(seen.size(), 32u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 

@@ -153,11 +153,12 @@ std::vector<Counter> counters() {
         counter<&TiledCounters::blockers_none>({.name = "blockers none", .help = "(light, blocker) that shade nothing of it"}),
         counter<&TiledCounters::blockers_partial>({.name = "blockers partial", .help = "(light, blocker) with an edge in it"}),
         counter<&TiledCounters::blockers_full>({.name = "blockers full", .help = "(light, blocker) that shade all of it"}),
-        counter<&TiledCounters::tiles_over_lights>({.name = "tiles over 64 lights", .help = "done in batches, or cut"}),
+        counter<&TiledCounters::tiles_over_lights>(
+            {.name = "tiles over lights", .help = "with more than 64: done in batches, or cut"}),
         counter<&TiledCounters::tiles_over_blocker_pairs>(
-            {.name = "tiles over 256 blocker pairs", .help = "in a batch; the rest is tested by pixels"}),
+            {.name = "tiles over blocker pairs", .help = "with more than 256 in a batch: pixels test the rest"}),
         counter<&TiledCounters::tiles_over_portal_pairs>(
-            {.name = "tiles over 256 portal pairs", .help = "in a batch; the rest is tested by pixels"}),
+            {.name = "tiles over portal pairs", .help = "with more than 256 in a batch: pixels test the rest"}),
         counter<&TiledCounters::tiles_testing_pixels>(
             {.name = "tiles testing pixels", .help = "whose pixels test a blocker of any light"}),
         counter<&TiledCounters::unlisted_tiles>(

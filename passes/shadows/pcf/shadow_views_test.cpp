@@ -195,10 +195,10 @@ TEST(shadow_views, are_made_for_lights_that_shine_and_cast_and_have_maps) {
     frame.lights[2].shadow.casts = false;
     const auto views = shadow_views(frame);
     ASSERT_EQ(views.size(), 4u);
-    EXPECT_EQ(views[3].light, 4u);  // the sun is light 0
-    EXPECT_EQ(shadowed_lights(views), (std::vector<std::uint32_t>{0, 4}));
+    EXPECT_EQ(views[3].light, 3u);  // the sun is light 0; what does not shine is on no list
+    EXPECT_EQ(shadowed_lights(views), (std::vector<std::uint32_t>{0, 3}));
     frame.sun.irradiance = {};
-    EXPECT_EQ(shadow_views(frame).front().light, 3u);
+    EXPECT_EQ(shadow_views(frame).front().light, 2u);
 }
 
 }  // namespace strata::shadows
