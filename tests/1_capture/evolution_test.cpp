@@ -81,7 +81,9 @@ TEST(Evolution, TheFirstFrozenCaptureHoldsWhatWasRecorded) {
     const auto capture = Capture::open(released_captures / "1/something_of_everything.strata");
     ASSERT_TRUE(capture) << capture.error().sentence;
     EXPECT_EQ(capture->summary().notes, "one frame with something of everything");
-    EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(rich_frame()));
+    Frame recorded = rich_frame();
+    for (Light& light : recorded.lights) light.shadow.soft = false;  // the field is younger than the capture
+    EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(recorded));
 }
 
 /// Wrote the frozen capture; a released file is never written again. Run with --gtest_also_run_disabled_tests for a new version.

@@ -5,6 +5,7 @@
 
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/views.shared.h"
+#include "passes/shaders/light_features.shared.h"
 
 namespace strata::lighting {
 namespace {
@@ -52,11 +53,12 @@ Image spectra_table(Graph& graph, FrameImages& frame, const Settings& settings) 
         .push(culled.order)
         .over({culled.count()});
     Image numbers = numbers_of(graph, std::min(culled.count(), most_rows));
+    graph.clear(numbers, {{NAN, NAN, NAN, NAN}});
     graph.compute("lighting/tiled/spectra_table.comp")
         .loads("Histogram", histogram)
-        .stores("numbers", numbers)
+        .updates("numbers", numbers)
         .push(culled.order)
-        .groups({1, 1, 1});
+        .over({every_light_feature + 1});
     return numbers;
 }
 
