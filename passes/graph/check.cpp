@@ -164,10 +164,15 @@ ShaderBinding in_all_shaders(const std::vector<const Shader*>& shaders, ShaderBi
     return binding;
 }
 
-/// ... and then it must be the same place.
+/// ... and then it must be the same place, which nothing else has.
 Result<void> add_once(std::vector<PlannedBinding>& all, const PlannedBinding& planned, const Shader& shader) {
     const std::string& name = planned.binding.name;
     const auto known = std::ranges::find(all, name, [](const PlannedBinding& p) { return std::string_view(p.binding.name); });
+    const auto neighbor = std::ranges::find_if(
+        all, [&](const PlannedBinding& p) { return p.set == planned.set && p.slot == planned.slot && p.binding.name != name; });
+    if (neighbor != all.end())
+        return fail(Fault::usage, "{} declares '{}' where the step's other shader declares '{}': set {}, binding {}", shader.name,
+                    name, neighbor->binding.name, planned.set, planned.slot);
     if (known == all.end()) {
         all.push_back(planned);
     } else if (known->set != planned.set || known->slot != planned.slot || known->kind != planned.kind) {

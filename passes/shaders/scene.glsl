@@ -19,5 +19,6 @@ layout(set = 1, binding = 9, scalar) readonly buffer LightBlockers { LightBlocke
 layout(set = 1, binding = 10, scalar) readonly buffer BlockerPortals { BlockerPortalRecord blocker_portals[]; };
 layout(set = 1, binding = 11, scalar) readonly buffer ClipPlanes { ClipPlaneRecord clip_planes[]; };
 layout(set = 1, binding = 12, scalar) readonly buffer LtcTable { LtcRecord ltc_table[]; };
+layout(set = 1, binding = 13, scalar) readonly buffer Indices { uint indices[]; };
 
 #endif

@@ -51,6 +51,14 @@ TEST(LayeredDraws, TakeWhatTheGeometryShaderDeclaresFromTheOffers) {
     EXPECT_EQ(plan.steps[1].bindings[0].binding.name, "List");
 }
 
+TEST(LayeredDraws, HaveOneThingInOnePlaceWhicheverShaderDeclaresIt) {
+    Slices f;
+    Image source = f.graph.create("source", small_shape());
+    f.graph.clear(source, {});
+    f.graph.draw("shade", f.list).geometry("sort").samples("source", source).multiplies(f.slices);
+    EXPECT_THAT(refusal(f.graph), HasSubstr("where the step's other shader declares"));
+}
+
 TEST(LayeredDraws, DrawIntoAsManyLayersAsTheirAttachmentsHave) {
     Slices f;
     f.draw().multiplies(f.slices);

@@ -21,6 +21,14 @@ inline Frame dark_frame(std::string_view scenario, std::uint32_t samples = 1) {
     return frame;
 }
 
+/// The scenarios of the lighting stage whose frames have lights: the others never get there.
+inline std::vector<std::string_view> lit_scenarios() {
+    std::vector<std::string_view> lit;
+    for (const std::string_view scenario : info(Stage::lighting).scenarios)
+        if (!info(Stage::lighting).unwanted(frame_features(scenario_frames(scenario).front()))) lit.push_back(scenario);
+    return lit;
+}
+
 inline glm::dvec3 to_world(const Frame& frame, const glm::dvec3& in_view) {
     return frame.view.origin + glm::transpose(frame.view.to_view) * in_view;
 }

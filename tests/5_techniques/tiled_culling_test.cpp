@@ -159,7 +159,7 @@ Frame at_most_96(std::string_view scenario, std::uint32_t samples) {
 }
 
 TEST(TiledCulling, FindsWhatItsMirrorFindsInEveryScenario) {
-    for (const std::string_view scenario : info(Stage::lighting).scenarios)
+    for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
             SCOPED_TRACE(fmt::format("{} at {} samples", scenario, samples));
             const Frame frame = at_most_96(scenario, samples);

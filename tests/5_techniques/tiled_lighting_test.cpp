@@ -25,7 +25,7 @@ Frame small(std::string_view scenario, std::uint32_t samples) {
 }
 
 TEST(TiledLighting, IsALoopOverAllLightsInEveryScenario) {
-    for (const std::string_view scenario : info(Stage::lighting).scenarios)
+    for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
             const Frame frame = small(scenario, samples);
             expect_same(lit(frame, tiled), lit(frame, brute_force), fmt::format("{} at {} samples", scenario, samples));
@@ -138,7 +138,7 @@ TEST(ShadingModes, OfAnyNumberGiveTheSamePicture) {
 }
 
 TEST(ShadingModes, HaveEveryTileThatIsNotEmptyOnce) {
-    for (const std::string_view scenario : info(Stage::lighting).scenarios) {
+    for (const std::string_view scenario : lit_scenarios()) {
         const auto run = lit(small(scenario, 1), tiled, {}, {"modes", "spectra"});
         double in_modes = 0, in_spectra = 0;
         std::uint64_t used = 0;

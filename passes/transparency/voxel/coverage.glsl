@@ -12,7 +12,6 @@ struct DrawCommand {
     uint first_instance;
 };
 layout(set = 0, binding = 1, scalar) readonly buffer Commands { DrawCommand commands[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer Indices { uint indices[]; };
 layout(constant_id = 0) const uint first_command = 0u;
 
 struct Triangle {

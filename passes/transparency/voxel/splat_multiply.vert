@@ -9,8 +9,6 @@
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/triangle_slice.glsl"
 
-layout(set = 1, binding = 8, scalar) readonly buffer Indices { uint indices[]; };
-
 void main() {
     const uint base = gl_BaseVertex, place = gl_VertexIndex - base, first = place / 3u * 3u;
     vec3 depths;
