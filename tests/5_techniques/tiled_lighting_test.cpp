@@ -158,7 +158,7 @@ TEST(ShadingModes, ThatAreForcedAreThoseOfAllFeatures) {
 }
 
 TEST(TiledLighting, OfTheSkyShadesNothing) {
-    Frame frame = scenario_frames("one_sphere").front();
+    Frame frame = scenario_frames("lights_room").front();
     frame.view.width = 64, frame.view.height = 36;
     // Away from everything.
     frame.view.to_view = glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)) * frame.view.to_view;
