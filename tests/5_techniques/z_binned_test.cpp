@@ -22,8 +22,12 @@ Frame hall(std::uint32_t lights) {
     const Scenario* scenario = must(find_scenario("hall_of_lights_4096"));
     Frame frame = scenario->build(0, {.width = 64, .height = 36});
     frame.lights.resize(lights);
-    // Few lights would leave most pixels dark: they reach farther.
-    for (Light& light : frame.lights) light.range *= float(std::cbrt(4096.0 / lights));
+    // Few lights would leave most pixels dark: they reach farther, and are as bright there.
+    const float farther = float(std::cbrt(4096.0 / lights));
+    for (Light& light : frame.lights) {
+        light.range *= farther;
+        light.intensity *= farther * farther;
+    }
     return frame;
 }
 
