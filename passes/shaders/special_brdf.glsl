@@ -78,7 +78,8 @@ vec3 cloth(MaterialPoint m, Directions d) {
     const float lobe = mix(0.25, 1.0, m.roughness);
     const float n_l = clamp(dot(d.normal, d.l), smallest_cosine, 1.0), n_v = clamp(dot(d.normal, d.v), smallest_cosine, 1.0);
     const vec3 off = cross(d.normal, d.h);
-    const float distribution = (2.0 + 1.0 / lobe) * pow(max(dot(off, off), 1e-12), 0.5 / lobe) / (2.0 * pi);
+    const float spread = dot(d.normal, d.h) > 0.0 ? dot(off, off) : 1.0;  // leaning away from both, as ggx()
+    const float distribution = (2.0 + 1.0 / lobe) * pow(max(spread, 1e-12), 0.5 / lobe) / (2.0 * pi);
     const float visibility = 0.25 / (n_l + n_v - n_l * n_v);
     const vec3 tint = sqrt(max(m.base_color, 0.0));
     const vec3 into = 1.0 - tint * fitted_albedo(sheen_albedo_fit, sqrt(n_l), lobe);
