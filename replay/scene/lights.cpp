@@ -1,42 +1,12 @@
 // The view, the lights and their shadow maps as records.
-#include <cmath>
+#include <utility>
 
-#include "passes/lighting/light_features.h"
-#include "passes/reference/shade.h"
-#include "passes/shaders/light_features.shared.h"
+#include "passes/lighting/light_records.h"
 #include "passes/shadows/shadow_views.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
 namespace {
-
-vec2 tangents(const Light& light) {
-    const double u = std::tan(double(light.outer_angle));
-    const bool square = light.type == LightType::square_spot;
-    return {float(u), float(square ? std::tan(double(light.inner_angle)) : u)};
-}
-
-LightRecord record(const Frame& frame, const Light& light) {
-    const bool is_spot = light.type == LightType::round_spot || light.type == LightType::square_spot;
-    return {
-        .position = glm::vec3(to_view(frame, light.position)),
-        .type = static_cast<uint>(light.type),
-        .direction = glm::vec3(frame.view.to_view * glm::dvec3(light.direction)),
-        .range = light.range,
-        .intensity = light.intensity,
-        .source_radius = light.source_radius,
-        .axis_u = glm::vec3(frame.view.to_view * glm::dvec3(light.axis_u)),
-        .cos_inner = float(std::cos(double(light.inner_angle))),
-        .cos_outer = float(std::cos(double(light.outer_angle))),
-        .tan_half = is_spot ? tangents(light) : vec2(0),
-        .half_extent = light.half_extent,
-        .texture = light.texture,
-        .features = light_features(light),
-        .shadow = no_index,
-        .shadow_slots = 0,
-        .visibility_layer = no_index,
-    };
-}
 
 ShadowRecord record(const ShadowView& view) {
     return {
@@ -51,16 +21,6 @@ ShadowRecord record(const ShadowView& view) {
         .offset = view.offset,
         .layer = view.layer,
     };
-}
-
-// Keeps dot(n, p) + d >= 0 with p camera-relative.
-void add_clip_planes(const Frame& frame, const Light& light, SceneRecords& scene) {
-    scene.lights.back().first_clip = static_cast<uint>(scene.clip_planes.size());
-    scene.lights.back().clips = static_cast<uint>(light.clip_planes.size());
-    for (const ClipPlane& plane : light.clip_planes) {
-        const double distance = plane.distance + glm::dot(plane.normal, frame.view.origin);
-        scene.clip_planes.push_back({glm::vec3(frame.view.to_view * plane.normal), float(distance)});
-    }
 }
 
 ViewRecord view_record(const Frame& frame) {
@@ -95,11 +55,12 @@ ViewRecord view_record(const Frame& frame) {
 }  // namespace
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
-    for (const Light& light : shadow_lights(frame)) {
-        scene.lights.push_back(record(frame, light));
-        add_clip_planes(frame, light, scene);
-    }
-    add_blockers(frame, scene);
+    LightRecords made = light_records(frame);
+    scene.lights = std::move(made.lights);
+    scene.blockers = std::move(made.blockers);
+    scene.light_blockers = std::move(made.light_blockers);
+    scene.blocker_portals = std::move(made.blocker_portals);
+    scene.clip_planes = std::move(made.clip_planes);
 
     std::uint32_t shadowed = 0;
     const std::vector<ShadowView> views = shadow_views(frame);
@@ -107,7 +68,6 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
         LightRecord& light = scene.lights[view.light];
         if (light.shadow == no_index) {
             light.shadow = static_cast<uint>(&view - views.data());
-            light.features |= feature_shadows | (view.soft ? feature_soft_shadows : 0u);
             light.visibility_layer = shadowed++ * frame.view.samples;
         }
         ++light.shadow_slots;

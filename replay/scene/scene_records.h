@@ -46,7 +46,6 @@ SceneRecords scene_records(const Frame&);
 void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
 void add_materials(const Frame&, SceneRecords&);  // materials.cpp
 void add_textures(const Frame&, SceneRecords&);
-void add_lights(const Frame&, SceneRecords&);    // lights.cpp: lights, clip planes, shadows, view
-void add_blockers(const Frame&, SceneRecords&);  // blockers.cpp: what may stand in the way of the lights that are there
+void add_lights(const Frame&, SceneRecords&);  // lights.cpp: lights and what stops them, shadows, view
 
 }  // namespace strata

@@ -1,4 +1,4 @@
-// A recorded frame as culling reads it, made on the CPU from the formulas of capture_format/frame.h.
+// A recorded frame as culling reads it.
 #pragma once
 
 #include "capture_format/frame.h"
@@ -6,7 +6,7 @@
 
 namespace strata::lighting {
 
-/// Lights in the order of the device's list. Features are left out: a model has no shading modes.
+/// Lights in the order of the device's list. Shadows are left out: a model has no shading modes.
 CullScene cull_scene(const Frame&);
 
 }  // namespace strata::lighting
