@@ -158,7 +158,11 @@ Bytes sound_capture() {
     ScenarioOptions options{.frames = 4};
     options.width = 16;
     options.height = 9;
-    for (std::uint32_t i = 0; i < options.frames; ++i) EXPECT_TRUE(recorder->record((*scenario)->build(i, options)));
+    for (std::uint32_t i = 0; i < options.frames; ++i) {
+        Frame frame = (*scenario)->build(i, options);
+        frame.lights.push_back({.position = frame.view.origin, .range = 100});
+        EXPECT_TRUE(recorder->record(frame));
+    }
     EXPECT_TRUE(recorder->finish());
     return read_file(file.path());
 }

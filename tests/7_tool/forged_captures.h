@@ -15,7 +15,8 @@ struct ForgedCapture {
 
 std::vector<ForgedCapture> forged_captures();
 
-/// A sound capture of several frames that build on each other, with notes, and with a section of a type that does not exist.
+/// A sound capture of several frames that build on each other, with a light, so that every verb has something to do, with notes,
+/// and with a section of a type that does not exist.
 std::vector<std::byte> sound_capture();
 std::vector<std::byte> capture_with_unknown_section();
 /// A few kilobytes within every limit whose one texture takes 1 GiB.
