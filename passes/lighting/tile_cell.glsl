@@ -4,13 +4,7 @@
 #define PASSES_LIGHTING_TILE_CELL_GLSL
 #include "passes/lighting/cell.glsl"
 #include "passes/shaders/camera.glsl"
-
-// LightType of capture_format/frame.h.
-const uint shape_round_spot = 1u;
-const uint shape_square_spot = 2u;
-const uint shape_disc = 5u;
-const uint shape_rectangle = 6u;
-const uint shape_directional = 7u;
+#include "passes/shaders/light_types.glsl"
 
 // Metres. Squares of it are finite, and so are sums of them.
 const float farthest_cell = 1e18;
@@ -160,13 +154,13 @@ bool is_straddled(LightRecord light, Cell cell) {
 
 bool light_touches(LightRecord light, Cell cell) {
     const float slack = cell_slack(light, cell);
-    if (light.type == shape_directional) return !is_clipped(light, cell, slack);
+    if (light.type == light_directional) return !is_clipped(light, cell, slack);
     if (!sphere_touches(light.position, light.range + slack, cell)) return false;
-    if (light.type == shape_round_spot && !round_spot_touches(light, cell, slack)) return false;
-    if (light.type == shape_square_spot && !square_spot_touches(light, cell, slack)) return false;
-    if (light.type == shape_rectangle && !half_box_touches(light, cell, slack)) return false;
+    if (light.type == light_round_spot && !round_spot_touches(light, cell, slack)) return false;
+    if (light.type == light_square_spot && !square_spot_touches(light, cell, slack)) return false;
+    if (light.type == light_rectangle && !half_box_touches(light, cell, slack)) return false;
     // One-sided, too, but its axis_u may be anything.
-    if (light.type == shape_disc && is_beyond(light.direction, light.position, cell, slack)) return false;
+    if (light.type == light_disc && is_beyond(light.direction, light.position, cell, slack)) return false;
     return !is_clipped(light, cell, slack);
 }
 
