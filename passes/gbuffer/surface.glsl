@@ -1,4 +1,4 @@
-// What a G-buffer texel means, whichever layout wrote it. Include passes/gbuffer/decoders.glsl after it for decode_gbuffer().
+// What a G-buffer texel means, whichever layout wrote it.
 #ifndef PASSES_GBUFFER_SURFACE_GLSL
 #define PASSES_GBUFFER_SURFACE_GLSL
 #include "passes/shaders/camera.glsl"
@@ -16,6 +16,9 @@ struct Surface {
 };
 
 Surface no_surface() { return Surface(false, vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0, 0.0, 0u); }
+
+// Whether lights matter to it: what an unlit surface has is emission.
+bool takes_light(Surface s) { return s.exists && s.lighting_model != model_unlit; }
 
 // The G-buffer holds attributes of the pixel's center for every sample, so positions are reconstructed there too (deferred 2.2).
 vec3 surface_position(Surface s, uvec2 pixel) { return view_position(vec2(pixel) + 0.5, s.z); }

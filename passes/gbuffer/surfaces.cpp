@@ -1,5 +1,7 @@
 #include "passes/gbuffer/surfaces.h"
 
+#include "passes/gbuffer/surface_at.h"
+
 namespace strata::gbuffer {
 
 void add_surfaces(Graph& graph, FrameImages& frame) {
@@ -7,14 +9,10 @@ void add_surfaces(Graph& graph, FrameImages& frame) {
     frame.surface_normal = graph.create("surface_normal", shape);
     frame.surface_color = graph.create("surface_color", shape);
     frame.surface_material = graph.create("surface_material", shape);
-    graph.compute("gbuffer/surfaces.comp")
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    sample_gbuffer(graph.compute("gbuffer/surfaces.comp"), frame)
         .stores("surface_normal", frame.surface_normal)
         .stores("surface_color", frame.surface_color)
         .stores("surface_material", frame.surface_material)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

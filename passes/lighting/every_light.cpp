@@ -1,7 +1,10 @@
 #include "passes/lighting/every_light.h"
 
+#include <utility>
+
 #include <tbb/parallel_for.h>
 
+#include "passes/edges/plain_pixels.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/placed_light.h"
 #include "passes/shadows/shadow_views.h"
@@ -11,19 +14,24 @@ namespace {
 
 constexpr double largest_half = 65504;
 
+LightBlockers asked_blockers(const Frame& frame, const Light& light, LightForm form) {
+    const bool from_anywhere = form == LightForm::exact && is_area(light.type);
+    return from_anywhere ? all_blockers(frame, light) : light_blockers(frame, light);
+}
+
 }  // namespace
 
-EveryLight::EveryLight(const StageInput& input, LightForm form)
+EveryLight::EveryLight(const StageInput& input, LightForm form, LightFilter filter)
     : frame_(&input.frame),
       form_(form),
+      filter_(std::move(filter)),
       normal_(&input.before.at("surface_normal")),
       color_(&input.before.at("surface_color")),
       material_(&input.before.at("surface_material")) {
     for (const Light& light : shadow_lights(input.frame)) {
-        const bool from_anywhere = form == LightForm::exact && is_area(light.type);
         lights_.push_back({.light = light,
                            .from = light_point(input.frame, light),
-                           .blockers = from_anywhere ? all_blockers(input.frame, light) : light_blockers(input.frame, light)});
+                           .blockers = filter_.asks_blockers ? asked_blockers(input.frame, light, form) : LightBlockers{}});
     }
     const auto visibility = input.before.find("visibility");
     if (visibility == input.before.end()) return;
@@ -55,22 +63,22 @@ glm::dvec3 EveryLight::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample
     if (normal_->at(x, y, sample).w <= 0) return glm::dvec3(0);
     const SurfacePoint p = surface(x, y, sample);
     glm::dvec3 sum(0);
-    for (const ShadowedLight& l : lights_) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        if (filter_.lists && !filter_.lists({x, y}, i)) continue;
+        const ShadowedLight& l = lights_[i];
         const double visible = l.visibility_layer == no_index ? 1 : visibility_->at(x, y, l.visibility_layer + sample).x;
         if (visible > 0) sum += visible * arriving(l, p);
     }
     return sum;
 }
 
-ImageSet light_of_shaded_samples(const StageInput& input) {
-    const EveryLight every_light(input);
-    const auto edges = input.before.find("edges");
+ImageSet light_of_shaded_samples(const StageInput& input, const LightFilter& filter) {
+    const EveryLight every_light(input, LightForm::real_time, filter);
     ReferenceImage light(every_light.width(), every_light.height(), every_light.samples());
     tbb::parallel_for(0u, light.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < light.width; ++x)
             for (std::uint32_t sample = 0; sample < light.layers; ++sample) {
-                const bool plain = edges != input.before.end() && edges->second.at(x, y).x == 0;
-                const glm::dvec3 sum = every_light.at(x, y, plain ? 0 : sample);
+                const glm::dvec3 sum = every_light.at(x, y, is_plain_pixel(input, x, y) ? 0 : sample);
                 light.at(x, y, sample) = glm::dvec4(glm::clamp(sum, -largest_half, largest_half), 1);
             }
     });

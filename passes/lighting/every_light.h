@@ -1,6 +1,8 @@
-// Every light on every sample of a decoded G-buffer, in double: what the truth is and what brute force does.
+// Every light on every sample of a decoded G-buffer, in double: what the truth is and what brute force does. Techniques that keep
+// lists leave some out.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "passes/reference/blockers.h"
@@ -12,10 +14,17 @@ namespace strata::lighting {
 /// As the shaders do it, or with area lights integrated (passes/reference/lights.h).
 enum class LightForm { real_time, exact };
 
+/// What is left out.
+struct LightFilter {
+    /// Whether the pixel's list has the light, by its place in shadow_lights(); none: all are listed.
+    std::function<bool(glm::uvec2 pixel, std::size_t light)> lists = {};
+    bool asks_blockers = true;  ///< else they let light through
+};
+
 class EveryLight {
 public:
     /// Reads surface_normal, surface_color, surface_material and, where it exists, visibility.
-    explicit EveryLight(const StageInput&, LightForm = LightForm::real_time);
+    explicit EveryLight(const StageInput&, LightForm = LightForm::real_time, LightFilter = {});
 
     std::uint32_t width() const { return normal_->width; }
     std::uint32_t height() const { return normal_->height; }
@@ -35,12 +44,13 @@ private:
 
     const Frame* frame_;
     LightForm form_;
+    LightFilter filter_;
     const ReferenceImage *normal_, *color_, *material_, *visibility_ = nullptr;
     std::vector<ShadowedLight> lights_;
 };
 
-/// What a technique gives that leaves out no light that adds anything: real-time forms, sample 0 of plain pixels for all of their
-/// samples, within what a half float holds.
-ImageSet light_of_shaded_samples(const StageInput&);
+/// What a technique gives that leaves out no other light that adds anything: real-time forms, sample 0 of plain pixels for all of
+/// their samples, within what a half float holds.
+ImageSet light_of_shaded_samples(const StageInput&, const LightFilter& = {});
 
 }  // namespace strata::lighting

@@ -32,20 +32,23 @@ glm::vec2 reach_from(const glm::vec3& normal, const glm::vec3& point, const Cell
     return reach_along(normal, -dot(normal, point), cell);
 }
 
+/// How far ahead of the apex its center is, and its radius.
+glm::vec2 sphere_around_cone(float cosine, float range) {
+    const float sine = std::sqrt(std::max(0.f, 1 - cosine * cosine));
+    return cosine >= sine ? glm::vec2(range * (.5f / cosine)) : range * glm::vec2(cosine, sine);
+}
+
 bool round_spot_touches(const LightRecord& light, const Cell<float>& cell, float slack) {
     const float scale = 1 / std::sqrt(dot(light.direction, light.direction));
     const float cosine = light.cos_outer * scale - cosine_slack;
     if (cosine <= 0) return true;
     const glm::vec3 axis = light.direction * scale;
-    const float sine = std::sqrt(std::max(0.f, 1 - cosine * cosine));
-    const bool narrow = cosine >= sine;
-    const float ahead = narrow ? light.range / (2 * cosine) : light.range * cosine;
-    const float radius = narrow ? ahead : light.range * sine;
-    if (!sphere_touches(light.position + axis * ahead, radius + slack, cell)) return false;
+    const glm::vec2 around = sphere_around_cone(cosine, light.range);
+    if (!sphere_touches(light.position + axis * around.x, around.y + slack, cell)) return false;
     const glm::vec3 center = .5f * (.5f * (cell.corners[0] + cell.corners[3]) + .5f * (cell.corners[4] + cell.corners[7]));
-    float around = 0;
-    for (const glm::vec3& corner : cell.corners) around = std::max(around, length(center - corner));
-    return cone_touches({axis, cosine, light.range}, center - light.position, around + slack);
+    float farthest = 0;
+    for (const glm::vec3& corner : cell.corners) farthest = std::max(farthest, length(center - corner));
+    return cone_touches({axis, cosine, light.range}, center - light.position, farthest + slack);
 }
 
 bool square_spot_touches(const LightRecord& light, const Cell<float>& cell, float slack) {

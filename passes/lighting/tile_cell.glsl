@@ -4,13 +4,7 @@
 #define PASSES_LIGHTING_TILE_CELL_GLSL
 #include "passes/lighting/cell.glsl"
 #include "passes/shaders/camera.glsl"
-
-// LightType of capture_format/frame.h.
-const uint shape_round_spot = 1u;
-const uint shape_square_spot = 2u;
-const uint shape_disc = 5u;
-const uint shape_rectangle = 6u;
-const uint shape_directional = 7u;
+#include "passes/shaders/light_types.glsl"
 
 // Metres. Squares of it are finite, and so are sums of them.
 const float farthest_cell = 1e18;
@@ -75,16 +69,12 @@ bool round_spot_touches(LightRecord light, Cell cell, float slack) {
     const float cosine = light.cos_outer * scale - cosine_slack;
     if (cosine <= 0.0) return true;
     const vec3 axis = light.direction * scale;
-    // Up to 45 degrees the sphere through the apex and the rim of the cap, above it the one around the rim.
-    const float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
-    const bool narrow = cosine >= sine;
-    const float ahead = narrow ? light.range / (2.0 * cosine) : light.range * cosine;
-    const float radius = narrow ? ahead : light.range * sine;
-    if (!sphere_touches(light.position + axis * ahead, radius + slack, cell)) return false;
+    const vec2 around = sphere_around_cone(cosine, light.range);
+    if (!sphere_touches(light.position + axis * around.x, around.y + slack, cell)) return false;
     const vec3 center = 0.5 * (0.5 * (cell.corners[0] + cell.corners[3]) + 0.5 * (cell.corners[4] + cell.corners[7]));
-    float around = 0.0;
-    for (uint i = 0u; i < 8u; ++i) around = max(around, distance(center, cell.corners[i]));
-    return cone_touches(axis, cosine, center - light.position, around + slack, light.range);
+    float farthest = 0.0;
+    for (uint i = 0u; i < 8u; ++i) farthest = max(farthest, distance(center, cell.corners[i]));
+    return cone_touches(axis, cosine, center - light.position, farthest + slack, light.range);
 }
 
 // Least and largest dot(plane.xyz, p) + plane.w of the cell.
@@ -160,13 +150,13 @@ bool is_straddled(LightRecord light, Cell cell) {
 
 bool light_touches(LightRecord light, Cell cell) {
     const float slack = cell_slack(light, cell);
-    if (light.type == shape_directional) return !is_clipped(light, cell, slack);
+    if (light.type == light_directional) return !is_clipped(light, cell, slack);
     if (!sphere_touches(light.position, light.range + slack, cell)) return false;
-    if (light.type == shape_round_spot && !round_spot_touches(light, cell, slack)) return false;
-    if (light.type == shape_square_spot && !square_spot_touches(light, cell, slack)) return false;
-    if (light.type == shape_rectangle && !half_box_touches(light, cell, slack)) return false;
+    if (light.type == light_round_spot && !round_spot_touches(light, cell, slack)) return false;
+    if (light.type == light_square_spot && !square_spot_touches(light, cell, slack)) return false;
+    if (light.type == light_rectangle && !half_box_touches(light, cell, slack)) return false;
     // One-sided, too, but its axis_u may be anything.
-    if (light.type == shape_disc && is_beyond(light.direction, light.position, cell, slack)) return false;
+    if (light.type == light_disc && is_beyond(light.direction, light.position, cell, slack)) return false;
     return !is_clipped(light, cell, slack);
 }
 

@@ -4,9 +4,8 @@
 #ifndef PASSES_SHADERS_BLOCKERS_GLSL
 #define PASSES_SHADERS_BLOCKERS_GLSL
 #include "passes/shaders/blockers.shared.h"
+#include "passes/shaders/light_types.glsl"
 #include "passes/shaders/scene.glsl"
-
-const uint directional_light = 7u;  // LightType of capture_format/frame.h
 
 uint low_bits(uint n) { return n >= 32u ? 0xffffffffu : (1u << n) - 1u; }
 
@@ -17,7 +16,7 @@ vec3 off_surface(vec3 position, vec3 normal) {
 
 // Homogeneous: a place, or with w = 0 the direction towards the light.
 vec4 light_point(LightRecord light) {
-    return light.type == directional_light ? vec4(-light.direction, 0.0) : vec4(light.position, 1.0);
+    return light.type == light_directional ? vec4(-light.direction, 0.0) : vec4(light.position, 1.0);
 }
 
 float precise_dot(vec3 a, vec3 b) {

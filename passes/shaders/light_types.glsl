@@ -23,6 +23,13 @@ float range_window(float d, float range) {
     return d < range ? rest * rest : 0.0;
 }
 
+// The sphere around a round cone of half angle below 90 degrees: how far ahead of the apex its center is, and its radius. Up to 45
+// degrees it goes through the apex and the rim of the cap, above it is the one around the rim (lighting chapter 1.4).
+vec2 sphere_around_cone(float cosine, float range) {
+    const float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
+    return cosine >= sine ? vec2(range * (0.5 / cosine)) : range * vec2(cosine, sine);
+}
+
 // Whether a clip plane of the light takes the point away.
 bool is_clipped(LightRecord light, vec3 position) {
     for (uint i = 0u; i < light.clips; ++i) {

@@ -4,6 +4,7 @@
 #ifndef PASSES_SHADERS_SHADOW_FILTER_GLSL
 #define PASSES_SHADERS_SHADOW_FILTER_GLSL
 #include "passes/shaders/light_features.shared.h"
+#include "passes/shaders/light_types.glsl"
 #include "passes/shaders/scene.glsl"
 
 layout(constant_id = 60) const int shadow_kernel = 4;         // texels per edge of the fixed kernel
@@ -13,7 +14,6 @@ layout(constant_id = 63) const int shadow_search_taps = 16;
 layout(constant_id = 64) const int shadow_filter_taps = 32;
 layout(constant_id = 65) const uint shadow_noise = 0u;        // 1: the discs of taps are turned pixel by pixel
 
-const uint type_of_sun = 7u;  // LightType of capture_format/frame.h
 const float cascade_blend_share = 0.1;  // of a cascade's depth (lighting chapter 6.4)
 const float least_disc_radius = 0.5;     // penumbrae are 1 to 64 texels wide (6.2)
 const float greatest_disc_radius = 32.0;
@@ -143,7 +143,7 @@ vec2 plane_gradient(ShadowRecord map, vec4 at, vec3 normal) {
 // plane gains on the light over the fixed kernel's corner and half a texel. A soft kernel follows the plane, tap by tap.
 float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool soft) {
     const ShadowRecord map = shadows[record];
-    const bool sun = light.type == type_of_sun;
+    const bool sun = light.type == light_directional;
     const vec3 offset = light.position - position;
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
@@ -180,7 +180,7 @@ float filtered_shadow(LightRecord light, vec3 position, vec3 normal, uint featur
     if ((features & feature_shadows) == 0u || light.shadow == no_index) return 1.0;
     const bool soft = (features & light.features & feature_soft_shadows) != 0u;
     const uint first = light.shadow + shadow_allocation * view.shadow_count;
-    if (light.type != type_of_sun) {
+    if (light.type != light_directional) {
         const uint face = light.shadow_slots > 1u ? face_of(view.to_world * (position - light.position)) : 0u;
         return one_map(light, first + face, position, normal, soft);
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "passes/gbuffer/surface_at.h"
 #include "passes/shadows/cast.h"
 #include "passes/shadows/map_places.h"
 #include "passes/shadows/shadows.shared.h"
@@ -55,15 +56,11 @@ void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& sha
     frame.visibility =
         graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     ComputePass pass = graph.compute(shader);
-    fix_shadow_filter(pass, frame.shadow_filter)
+    fix_shadow_filter(pass, frame.shadow_filter);
+    sample_gbuffer(pass, frame)
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
         .stores("visibility", frame.visibility)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
-        .fixes("has_gbuffer2", frame.gbuffer2 ? 1u : 0u)
         .fixes("layer_kilotexels", static_cast<std::uint32_t>((texels + 1023) / 1024))
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }

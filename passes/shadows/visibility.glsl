@@ -3,19 +3,13 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/shaders/camera.glsl"
 #include "passes/shadows/shadows.shared.h"
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 1) const uint gbuffer_layout = 0u;
-layout(constant_id = 2) const uint has_gbuffer2 = 0u;
 layout(constant_id = 3) const uint layer_kilotexels = 0u;  // of shadow_maps, all layers together
 
 layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 1) uniform sampler2DArray depth_layers;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 3) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 4) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 5, r16f) writeonly uniform image2DArray visibility;
 layout(set = 0, binding = 6, scalar) buffer Counters { ShadowCounters counters; };
 #include "passes/shaders/shadow_filter.glsl"
@@ -52,9 +46,7 @@ void main() {
     const float depth = texelFetch(depth_layers, at, 0).r;
     vec3 position = vec3(0.0), normal = vec3(0.0);
     if (depth > 0.0) {
-        const vec4 g2 = has_gbuffer2 != 0u ? texelFetch(gbuffer2, at, 0) : vec4(0.0);
-        const vec2 center = vec2(at.xy) + 0.5;
-        const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0), g2, center);
+        const Surface s = surface_at(at);
         position = view_position(vec2(at.xy) + sample_position(uint(at.z)), view_z(depth));
         normal = facing_normal(s.lighting_model, s.normal, position);
     }

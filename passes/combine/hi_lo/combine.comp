@@ -1,33 +1,26 @@
 // Combine (deferred 8.2, 8.3): emission, reflected light and light from all around, seen through the fog; linear, per sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/edges/plain_pixels.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/shaders/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint gbuffer_layout = 0u;
 layout(constant_id = 1) const uint has_surfaces = 0u;
 layout(constant_id = 2) const uint has_light = 0u;
 layout(constant_id = 3) const uint has_occlusion = 0u;
 layout(constant_id = 4) const uint has_indirect = 0u;
-layout(constant_id = 5) const uint has_edges = 0u;
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 3) uniform sampler2DArray emission;
 layout(set = 0, binding = 4) uniform sampler2DArray light;
 layout(set = 0, binding = 5) uniform sampler2DArray occlusion;
 layout(set = 0, binding = 6) uniform sampler2DArray indirect;
-layout(set = 0, binding = 7) uniform usampler2DArray edges;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray color;
 
 // In a plain pixel the first sample's light stands for all.
 vec3 light_at(ivec3 at) {
     if (has_light == 0u) return vec3(0.0);
-    const bool plain = has_edges != 0u && texelFetch(edges, ivec3(at.xy, 0), 0).r == 0u;
-    return texelFetch(light, plain ? ivec3(at.xy, 0) : at, 0).rgb;
+    return texelFetch(light, is_plain(at.xy) ? ivec3(at.xy, 0) : at, 0).rgb;
 }
 
 // The material's occlusion and the screen's both multiply (deferred 8.3).
@@ -42,8 +35,7 @@ vec3 composed(ivec3 at) {
     if (has_surfaces == 0u) return view.background;
     const vec4 own = texelFetch(emission, at, 0);
     if (own.a == 0.0) return view.background;
-    const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                     texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
+    const Surface s = surface_at(at);
     return apply_fog(own.rgb + light_at(at) + ambient(lit_point(s, uvec2(at.xy)), at), s.z);
 }
 

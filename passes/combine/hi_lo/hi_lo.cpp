@@ -1,4 +1,6 @@
 // Combine and develop: linear color per sample at `combine`, display light at `film`, after everything was drawn over it.
+#include "passes/edges/plain_pixels.h"
+#include "passes/gbuffer/surface_at.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -9,22 +11,16 @@ namespace {
 
 void add_color(Graph& graph, FrameImages& frame, const Settings&) {
     frame.color = graph.create("color", {.extent = frame.extent, .format = Format::rgba32f, .layers = frame.samples});
-    graph.compute("combine/hi_lo/combine.comp")
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    sample_edges(sample_gbuffer(graph.compute("combine/hi_lo/combine.comp"), frame), frame)
         .samples("emission", frame.emission)
         .samples("light", frame.light)
         .samples("occlusion", frame.occlusion)
         .samples("indirect", frame.indirect)
-        .samples("edges", frame.edges)
         .stores("color", frame.color)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("has_surfaces", frame.emission ? 1u : 0u)
         .fixes("has_light", frame.light ? 1u : 0u)
         .fixes("has_occlusion", frame.occlusion ? 1u : 0u)
         .fixes("has_indirect", frame.indirect ? 1u : 0u)
-        .fixes("has_edges", frame.edges ? 1u : 0u)
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

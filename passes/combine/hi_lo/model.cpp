@@ -1,5 +1,6 @@
 // The same in double. What is developed is the color that the last act found, with everything drawn over it.
 #include "passes/combine/formulas.h"
+#include "passes/edges/plain_pixels.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -7,13 +8,12 @@ namespace {
 
 ReferenceImage combined(const StageInput& input) {
     const View& view = input.frame.view;
-    const auto edges = input.before.find("edges");
     ReferenceImage color(view.width, view.height, view.samples);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x) {
-                const bool plain = edges != input.before.end() && edges->second.at(x, y).x == 0;
-                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, sample, plain ? 0 : sample}), 1);
+                const std::uint32_t shaded = is_plain_pixel(input, x, y) ? 0 : sample;
+                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, sample, shaded}), 1);
             }
     return color;
 }

@@ -1,4 +1,6 @@
 // Every light on every sample: what other lighting techniques are measured against.
+#include "passes/edges/plain_pixels.h"
+#include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/light_features.h"
 #include "passes/technique.h"
@@ -12,16 +14,10 @@ namespace {
 void add(Graph& graph, FrameImages& frame, const Settings&) {
     if (!frame.gbuffer0) return;
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
-    graph.compute("lighting/brute_force/shade.comp")
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    sample_edges(sample_gbuffer(graph.compute("lighting/brute_force/shade.comp"), frame), frame)
         .samples("visibility", frame.visibility)
-        .samples("edges", frame.edges)
         .stores("light", frame.light)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("has_visibility", frame.visibility ? 1u : 0u)
-        .fixes("has_edges", frame.edges ? 1u : 0u)
         .fixes("features", light_features(*frame.recorded))
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }

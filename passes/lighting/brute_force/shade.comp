@@ -3,32 +3,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/light_term.glsl"
+#include "passes/lighting/stored_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint gbuffer_layout = 0u;
-layout(constant_id = 2) const uint has_edges = 0u;
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
-layout(set = 0, binding = 4) uniform usampler2DArray edges;
-layout(set = 0, binding = 5, rgba16f) writeonly uniform image2DArray light;
 layout(set = 0, binding = 6, scalar) buffer Counters { BruteForceCounters counters; };
-
-// Beyond this a half float is infinite, and infinity times nothing is not a number.
-const float largest_half = 65504.0;
-
-bool is_plain(ivec2 pixel) { return has_edges != 0u && texelFetch(edges, ivec3(pixel, 0), 0).r == 0u; }
 
 vec3 every_light(MaterialPoint m, ivec3 at) {
     const vec3 above = lifted(m);
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < view.light_count; ++i) sum += light_term(i, m, above, at);
-    return clamp(sum, -largest_half, largest_half);
+    return sum;
 }
 
 void count_shaded(bool shaded) {
@@ -40,15 +28,9 @@ void count_shaded(bool shaded) {
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at, imageSize(light)))) return;
-    const bool plain = is_plain(at.xy);
-    if (plain && at.z > 0) return;
-    const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                     texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
-    const bool shaded = s.exists && s.lighting_model != model_unlit;
-    const vec4 radiance = vec4(shaded ? every_light(lit_point(s, uvec2(at.xy)), at) : vec3(0.0), 1.0);
-    imageStore(light, at, radiance);
-    for (int sample_index = 1; plain && sample_index < imageSize(light).z; ++sample_index)
-        imageStore(light, ivec3(at.xy, sample_index), radiance);
+    if (any(greaterThanEqual(at, imageSize(light))) || at.z > 0 && is_plain(at.xy)) return;
+    const Surface s = surface_at(at);
+    const bool shaded = takes_light(s);
+    store_light(at, shaded ? every_light(lit_point(s, uvec2(at.xy)), at) : vec3(0.0));
     count_shaded(shaded);
 }

@@ -4,8 +4,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/edges/plain_pixels.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/blocker_cells.glsl"
 #include "passes/lighting/tile_cell.glsl"
 #include "passes/lighting/tiled/tiled.shared.h"
@@ -13,8 +13,6 @@
 #include "passes/shaders/light_features.shared.h"
 
 layout(local_size_x = 256) in;
-layout(constant_id = 40) const uint gbuffer_layout = 0u;
-layout(constant_id = 41) const uint has_edges = 0u;
 layout(constant_id = 42) const uint half_z = 1u;
 layout(constant_id = 43) const uint blocker_use = blockers_per_pixel;
 layout(constant_id = 44) const uint classifies = 1u;
@@ -22,10 +20,6 @@ layout(constant_id = 45) const uint overflow_policy = overflow_batch;
 layout(constant_id = 46) const uint is_prefiltered = 0u;
 layout(constant_id = 47) const uint shadow_features = 0u;  // of shadows that shading looks up or filters
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
-layout(set = 0, binding = 3) uniform usampler2DArray edges;
 layout(set = 0, binding = 4, scalar) readonly buffer Candidates { uint candidates[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Records { TileRecord records[]; };
 layout(set = 0, binding = 6, scalar) buffer UsedRecords { uint used_records; };

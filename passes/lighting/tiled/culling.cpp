@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/edges/plain_pixels.h"
+#include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/tiled/modes.h"
 #include "passes/shaders/light_features.shared.h"
@@ -73,17 +75,11 @@ CulledTiles cull_tiles(Graph& graph, const FrameImages& frame, const TiledParams
     Buffer used_records = graph.create("tiled used records", sizeof(std::uint32_t));
     graph.clear(used_records, 0);
     const Buffer candidates = candidates_of(graph, frame, params, memory);
-    graph.compute("lighting/tiled/cull.comp")
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
-        .samples("edges", frame.edges)
+    sample_edges(sample_gbuffer(graph.compute("lighting/tiled/cull.comp"), frame), frame)
         .loads("Candidates", candidates)
         .stores("Records", culled.records)
         .updates("UsedRecords", used_records)
         .stores("Statistics", culled.statistics)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
-        .fixes("has_edges", frame.edges ? 1u : 0u)
         .fixes("half_z", params.half_z)
         .fixes("blocker_use", params.blockers)
         .fixes("classifies", params.classify)

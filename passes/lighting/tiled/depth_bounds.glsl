@@ -15,9 +15,8 @@ struct TileCells {
 
 // Bits of the view depth where something is lit: positive floats are in the order of their bits. 0 where not.
 uint lit_depth(ivec3 at) {
-    const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                     texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
-    if (!s.exists || s.lighting_model == model_unlit || !(s.z > 0.0)) return 0u;
+    const Surface s = surface_at(at);
+    if (!takes_light(s) || !(s.z > 0.0)) return 0u;
     const uint models = subgroupOr(model_feature(s.lighting_model));
     if (subgroupElect() && models != 0u) atomicOr(lists.models, models);
     return floatBitsToUint(s.z);
@@ -30,8 +29,7 @@ uvec4 lit_depths() {
     const ivec2 pixel = ivec2(gl_WorkGroupID.xy * tile_size) + lane;
     uvec4 depths = uvec4(0u);
     if (any(greaterThanEqual(pixel, extent.xy))) return depths;
-    const bool plain = has_edges != 0u && texelFetch(edges, ivec3(pixel, 0), 0).r == 0u;
-    const uint samples = plain ? 1u : min(uint(extent.z), most_samples);
+    const uint samples = is_plain(pixel) ? 1u : min(uint(extent.z), most_samples);
     for (uint i = 0u; i < samples; ++i) depths[i] = lit_depth(ivec3(pixel, i));
     return depths;
 }

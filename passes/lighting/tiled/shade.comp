@@ -3,14 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/light_arrives.glsl"
+#include "passes/lighting/stored_light.glsl"
 #include "passes/lighting/tiled/tiled.shared.h"
 
 layout(local_size_x = 256) in;
-layout(constant_id = 80) const uint gbuffer_layout = 0u;
-layout(constant_id = 81) const uint has_edges = 0u;
 layout(constant_id = 82) const uint has_shadows = 0u;
 layout(constant_id = 83) const uint shadow_source = shadows_image;
 layout(constant_id = 84) const uint branches = branches_specialized;
@@ -18,20 +16,12 @@ layout(constant_id = 85) const uint mode = 0u;
 layout(constant_id = 86) const uint mode_features = every_light_feature;
 layout(constant_id = 87) const uint asks_blockers = 1u;  // of lights without a list
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 3) uniform sampler2DArray visibility;
 layout(set = 0, binding = 4) uniform sampler2DArray shadow_maps;
-layout(set = 0, binding = 5) uniform usampler2DArray edges;
-layout(set = 0, binding = 6, rgba16f) writeonly uniform image2DArray light;
 layout(set = 0, binding = 7, scalar) readonly buffer Records { TileRecord records[]; };
 layout(set = 0, binding = 8, scalar) readonly buffer Tiles { uint tiles[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer Dispatches { ModeDispatch dispatches[]; };
 layout(set = 0, binding = 10, scalar) buffer Counters { TiledCounters counters; };
-
-// Beyond this a half float is infinite, and infinity times nothing is not a number.
-const float largest_half = 65504.0;
 
 #include "passes/shaders/shadow_filter.glsl"
 #include "passes/lighting/tiled/tile_lights.glsl"
@@ -42,19 +32,14 @@ uvec2 lane_pixel() {
     return 8u * uvec2(block & 1u, block / 2u) + uvec2(thread & 7u, thread / 8u & 7u);
 }
 
-bool is_plain(ivec2 pixel) { return has_edges != 0u && texelFetch(edges, ivec3(pixel, 0), 0).r == 0u; }
-
 void shade_sample(uint tile, ivec3 at, inout Shaded shaded) {
-    const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                     texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
+    const Surface s = surface_at(at);
     vec3 radiance = vec3(0.0);
-    if (s.exists && s.lighting_model != model_unlit) {
-        radiance = clamp(lights_of_tile(tile, lit_point(s, uvec2(at.xy)), at, shaded), -largest_half, largest_half);
+    if (takes_light(s)) {
+        radiance = lights_of_tile(tile, lit_point(s, uvec2(at.xy)), at, shaded);
         ++shaded.samples;
     }
-    imageStore(light, at, vec4(radiance, 1.0));
-    if (!is_plain(at.xy)) return;
-    for (int i = 1; i < imageSize(light).z; ++i) imageStore(light, ivec3(at.xy, i), vec4(radiance, 1.0));
+    store_light(at, radiance);
 }
 
 void count(Shaded shaded) {

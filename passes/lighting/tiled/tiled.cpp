@@ -1,5 +1,7 @@
 // Tiled lighting: per tile only the lights that reach it, less those that blockers hide, shaded by the cheapest shader that does
 // what they and the tile's surfaces need.
+#include "passes/edges/plain_pixels.h"
+#include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/modes.h"
 #include "passes/lighting/tiled/ratios.h"
@@ -24,19 +26,14 @@ constexpr std::string_view branch_kinds[] = {"specialized", "uniform"};
 void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const CulledTiles& culled, std::uint32_t mode) {
     const bool is_inline = params.shadows == shadows_inline;
     ComputePass pass = graph.compute("lighting/tiled/shade.comp");
-    fix_shadow_filter(pass, frame.shadow_filter)
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    fix_shadow_filter(pass, frame.shadow_filter);
+    sample_edges(sample_gbuffer(pass, frame), frame)
         .samples("visibility", is_inline ? Image{} : frame.visibility)
         .samples("shadow_maps", is_inline ? frame.shadow_maps : Image{})
-        .samples("edges", frame.edges)
         .updates("light", frame.light)
         .loads("Records", culled.records)
         .loads("Tiles", culled.tiles)
         .loads("Dispatches", culled.dispatches)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
-        .fixes("has_edges", frame.edges ? 1u : 0u)
         .fixes("has_shadows", has_shadows(frame, params) ? 1u : 0u)
         .fixes("shadow_source", params.shadows)
         .fixes("branches", params.branches)

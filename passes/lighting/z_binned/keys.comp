@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/lighting/z_binned/z_binned.shared.h"
-#include "passes/shaders/lights.glsl"
+#include "passes/shaders/light_types.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -16,10 +16,9 @@ ZLight entry(uint i) {
     if (light.type == light_directional) return ZLight(-z_largest, -z_largest, 0.0, i);
     float z = light.position.z, radius = light.range;
     if (light.type == light_round_spot) {
-        const bool narrow = light.cos_outer > 0.70710678;
-        radius *= narrow ? 0.5 / light.cos_outer : sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer));
-        z += light.direction.z * (narrow ? radius : light.range * light.cos_outer);
-        radius = radius * (1.0 + 1e-5) + 1e-5 * light.range;  // rounding: the window is not 0 yet there
+        const vec2 around = sphere_around_cone(light.cos_outer, light.range);
+        z += light.direction.z * around.x;
+        radius = around.y * (1.0 + 1e-5) + 1e-5 * light.range;  // rounding: the window is not 0 yet there
     }
     return ZLight(z - radius, z + radius, 0.0, i);
 }

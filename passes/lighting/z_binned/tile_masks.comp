@@ -1,18 +1,13 @@
 // A bit per sorted light and tile: set where the light touches the tile's cell (lighting chapter 1.4). One group per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/tile_cell.glsl"
 #include "passes/lighting/z_binned/bins.glsl"
 
 layout(local_size_x = 256) in;
-layout(constant_id = 0) const uint gbuffer_layout = 0u;
 layout(constant_id = 4) const uint bounds = 1u;
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 5) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 6) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 1, scalar) readonly buffer Sorted { ZLight sorted[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Header { ZHeader header; };
 layout(set = 0, binding = 3, scalar) writeonly buffer Masks { uint masks[]; };
@@ -31,9 +26,7 @@ void read_depths() {
         const ivec2 pixel = ivec2(gl_WorkGroupID.xy * push.tile_size + uvec2(i % push.tile_size, i / push.tile_size));
         if (any(greaterThanEqual(pixel, size.xy))) continue;
         for (int sample_index = 0; sample_index < size.z; ++sample_index) {
-            const ivec3 at = ivec3(pixel, sample_index);
-            const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                             texelFetch(gbuffer2, at, 0), vec2(pixel) + 0.5);
+            const Surface s = surface_at(ivec3(pixel, sample_index));
             if (!s.exists || !(s.z > 0.0)) continue;
             atomicMin(nearest_bits, floatBitsToUint(s.z));
             atomicMax(farthest_bits, floatBitsToUint(s.z));

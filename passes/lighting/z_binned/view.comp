@@ -1,18 +1,13 @@
 // What the bins and masks hold, per pixel or tile: how many lights, and how many of a pixel's do nothing there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gbuffer/surface.glsl"
-#include "passes/gbuffer/decoders.glsl"
+#include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/light_term.glsl"
 #include "passes/lighting/z_binned/lists.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const uint gbuffer_layout = 0u;
 layout(constant_id = 4) const uint shown = 0u;
 
-layout(set = 0, binding = 0) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 1) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 2) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 5, rgba32f) writeonly uniform image2D number_of_lights;
 
 uint tile_lights(Span span) {
@@ -40,8 +35,7 @@ uint pixel_lights(Span span, MaterialPoint m, ivec3 at) {
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID.xy, 0);
     if (any(greaterThanEqual(at.xy, imageSize(number_of_lights)))) return;
-    const Surface s = decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0),
-                                     texelFetch(gbuffer2, at, 0), vec2(at.xy) + 0.5);
+    const Surface s = surface_at(at);
     float number = 0.0;
     if (s.exists) {
         const Span span = span_of(at.xy, s.z);

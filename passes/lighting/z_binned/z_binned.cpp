@@ -1,4 +1,6 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
+#include "passes/edges/plain_pixels.h"
+#include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/technique.h"
@@ -15,17 +17,13 @@ constexpr std::string_view bounds[] = {"frustum", "depth"};
 constexpr std::string_view merges[] = {"lanes", "subgroup"};
 
 /// To a step that walks a sample's lights.
-template <typename Pass>
-Pass& bind_lists(Pass&& pass, const FrameImages& frame, const ZBins& lists) {
-    return pass.samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+ComputePass bind_lists(ComputePass pass, const FrameImages& frame, const ZBins& lists) {
+    return sample_gbuffer(pass, frame)
         .samples("visibility", frame.visibility)
         .loads("Sorted", lists.sorted)
         .loads("Header", lists.header)
         .loads("Bins", lists.bins)
         .loads("Masks", lists.masks)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("has_visibility", frame.visibility ? 1u : 0u)
         .fixes("features", frame_spectrum(*frame.recorded))
         .push(lists.push);
@@ -36,10 +34,8 @@ void add(Graph& graph, FrameImages& frame, const Settings& settings) {
     const auto params = settings.as<ZBinnedParams>();
     const ZBins lists = z_bins(graph, frame, params);
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
-    bind_lists(graph.compute("lighting/z_binned/shade.comp"), frame, lists)
-        .samples("edges", frame.edges)
+    sample_edges(bind_lists(graph.compute("lighting/z_binned/shade.comp"), frame, lists), frame)
         .stores("light", frame.light)
-        .fixes("has_edges", frame.edges ? 1u : 0u)
         .fixes("merge", params.merge)
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "passes/gbuffer/surface_at.h"
 #include "passes/shadows/shadow_views.h"
 
 namespace strata::lighting {
@@ -47,14 +48,10 @@ ZBins z_bins(Graph& graph, const FrameImages& frame, const ZBinnedParams& params
         .stores("Bins", made.bins)
         .push(made.push)
         .over({made.push.bins});
-    graph.compute("lighting/z_binned/tile_masks.comp")
-        .samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    sample_gbuffer(graph.compute("lighting/z_binned/tile_masks.comp"), frame)
         .loads("Sorted", made.sorted)
         .loads("Header", made.header)
         .stores("Masks", made.masks)
-        .fixes("gbuffer_layout", frame.gbuffer_layout)
         .fixes("bounds", params.bounds)
         .push(made.push)
         .groups(tiles);

@@ -1,0 +1,14 @@
+#include "passes/edges/plain_pixels.h"
+
+namespace strata {
+
+ComputePass sample_edges(ComputePass pass, const FrameImages& frame) {
+    return pass.samples("edges", frame.edges).fixes("has_edges", frame.edges ? 1u : 0u);
+}
+
+bool is_plain_pixel(const StageInput& input, std::uint32_t x, std::uint32_t y) {
+    const auto edges = input.before.find("edges");
+    return edges != input.before.end() && edges->second.at(x, y).x == 0;
+}
+
+}  // namespace strata
