@@ -12,6 +12,13 @@
 
 namespace strata {
 
+/// A scenario in a picture of 96 x 54, or its own where that is narrower.
+inline Frame at_most_96(std::string_view scenario, std::uint32_t samples) {
+    Frame frame = scenario_frames(scenario, samples).front();
+    if (frame.view.width > 96) frame.view.width = 96, frame.view.height = 54;
+    return frame;
+}
+
 /// A scenario in a picture of 64 x 36 without its lights.
 inline Frame dark_frame(std::string_view scenario, std::uint32_t samples = 1) {
     Frame frame = scenario_frames(scenario, samples).front();

@@ -152,12 +152,6 @@ void expect_counted(const Run& run, const Totals& totals) {
     EXPECT_EQ(spectra, totals.spectra);
 }
 
-Frame at_most_96(std::string_view scenario, std::uint32_t samples) {
-    Frame frame = scenario_frames(scenario, samples).front();
-    if (frame.view.width > 96) frame.view.width = 96, frame.view.height = 54;
-    return frame;
-}
-
 TEST(TiledCulling, FindsWhatItsMirrorFindsInEveryScenario) {
     for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
