@@ -168,7 +168,7 @@ TEST(TiledCulling, FindsWhatItsMirrorFindsOfRandomLightsAndBlockers) {
         SCOPED_TRACE(seed);
         Frame frame = dark_frame("lights_room");
         RandomLights random(100 + seed);
-        for (std::uint32_t i = 1 + random.below(seed % 4 == 0 ? 80 : 10); i > 0; --i)
+        for (std::uint32_t i = 1 + random.numbers.below(seed % 4 == 0 ? 80 : 10); i > 0; --i)
             random.add_blocked_light(frame, seed % 4 == 1 ? 32 : 4);
         const std::uint32_t half_z = seed % 2;
         const auto run =

@@ -82,8 +82,8 @@ TEST(TiledLighting, Of4096CoincidentLightsIsThatOfOne) {
 Frame blocked_frame(unsigned seed, std::uint32_t samples) {
     Frame frame = dark_frame(seed % 2 == 0 ? "lights_room" : "materials", samples);
     RandomLights random(seed);
-    for (std::uint32_t lights = 1 + random.below(12); lights > 0; --lights)
-        random.add_blocked_light(frame, random.below(3) == 0 ? 32 : 4);
+    for (std::uint32_t lights = 1 + random.numbers.below(12); lights > 0; --lights)
+        random.add_blocked_light(frame, random.numbers.below(3) == 0 ? 32 : 4);
     return frame;
 }
 
