@@ -135,8 +135,10 @@ TEST(VoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThroug
 
 TEST(VoxelPreparedBeforeOpaque, IsWhatTheModelSays) {
     const Technique& technique = *must(find_technique(voxel));
+    const auto session = dense_smoke(4);
     for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
-        const Accuracy accuracy = must(dense_smoke(4)->judge(prepared("prepared=before_opaque", {resolution}), technique.stage));
+        const Request request = prepared("prepared=before_opaque", {resolution});
+        const Accuracy accuracy = must(session->judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << resolution;
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << resolution;
     }
