@@ -85,7 +85,7 @@ TEST_P(DeepAsset, LooksAsOpenExrCompositesIt) {
     EXPECT_GT(visible, 1000u);
 }
 
-/// One session instead of a process each: reading the image costs more than most techniques do.
+/// One session instead of a process each: the image is read once.
 void expect_replayed_by_every_technique() {
     const auto session = must(Session::open(folder() / "image.strata", {.validation = true}));
     for (const Technique* technique : techniques_of(Stage::transparency))
