@@ -134,11 +134,9 @@ struct DebugTable {
     Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
-/// The method on one pixel (or sample): its fragments in submission order over what is behind. Linear radiance.
-using PixelModel = glm::dvec3 (*)(std::span<const Fragment>, glm::dvec3 behind, const Settings&);
 /// The method on whole images: returns the stage's outputs.
 using ImageModel = ImageSet (*)(const StageInput&, const Settings&);
-using Model = std::variant<std::monostate, PixelModel, ImageModel>;
+using Model = std::variant<std::monostate, ImageModel>;
 
 /// How far the GPU may be from the model, relative to max(|model|, its root mean square). An empty reason fails a test.
 struct Tolerance {
