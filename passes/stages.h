@@ -34,10 +34,15 @@ enum class Stage : std::uint32_t {
 /// Images of a frame by the names of frame_images.h, read back or computed in double.
 using ImageSet = std::map<std::string, ReferenceImage, std::less<>>;
 
+class FragmentLists;
+
 /// What a model or a truth starts from: the recorded frame and the images as they were before the stage ran.
 struct StageInput {
     const Frame& frame;
     const ImageSet& before;
+    /// Where the frame's transparent fragments before the stage are kept from one model to the next, made when the first wants
+    /// them; null: nowhere.
+    std::optional<FragmentLists>* fragments = nullptr;
 };
 
 /// One named number with its unit; smaller is better. The first figure of a judge is the stage's error.

@@ -134,11 +134,9 @@ struct DebugTable {
     Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
-/// The method on one pixel (or sample): its fragments in submission order over what is behind. Linear radiance.
-using PixelModel = glm::dvec3 (*)(std::span<const Fragment>, glm::dvec3 behind, const Settings&);
 /// The method on whole images: returns the stage's outputs.
 using ImageModel = ImageSet (*)(const StageInput&, const Settings&);
-using Model = std::variant<std::monostate, PixelModel, ImageModel>;
+using Model = std::variant<std::monostate, ImageModel>;
 
 /// How far the GPU may be from the model, relative to max(|model|, its root mean square). An empty reason fails a test.
 struct Tolerance {
@@ -157,8 +155,10 @@ struct KnownFailure {
 /// technique ("slices=64 bits=16"; none: its defaults), or another technique of its stage by name, with its settings.
 struct TimeRatio {
     std::string_view name;
-    std::string_view of, against;              ///< the ways; the ratio is the time of the one by that of the other
-    std::vector<std::string_view> steps = {};  ///< parts of the names of the steps that count; none: all of the technique's
+    std::string_view of, against;  ///< the ways; the ratio is the time of the one by that of the other
+    /// Parts of the names of the technique's steps that count; none: all of them. A part that ends with a colon is a stage, all
+    /// of whose steps count, whosever they are: "gbuffer:".
+    std::vector<std::string_view> steps = {};
     std::optional<double> published = {};
     std::string_view source = {};  ///< of what is published: times, machine, extent
     std::string_view scenario = "particle_storm";

@@ -198,7 +198,7 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    return info(stage).truth({loaded_->frame, found_->images});
+    return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
 }
 
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {

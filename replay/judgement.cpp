@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "passes/frame_images.h"
 #include "passes/registry.h"
 #include "replay/measure/flip.h"
@@ -13,36 +11,6 @@ namespace {
 
 // A texel of which every channel is below this is background: comparing it proves nothing.
 constexpr double trivial_below = 1e-6;
-
-/// The fragments before the stage, made when the first model wants them.
-const FragmentLists& fragments_of(const JudgedStage& stage, std::optional<FragmentLists>& own) {
-    std::optional<FragmentLists>& kept = stage.fragments ? *stage.fragments : own;
-    if (!kept) kept = transparent_fragments(stage.frame, stage.before.find("depth_layers")->second);
-    return *kept;
-}
-
-/// A pixel model on every sample of the frame.
-ImageSet run_pixels(PixelModel model, const JudgedStage& stage) {
-    const ReferenceImage& behind = stage.before.find("color")->second;
-    std::optional<FragmentLists> own;
-    const FragmentLists& fragments = fragments_of(stage, own);
-    ReferenceImage color(behind.width, behind.height, behind.layers);
-    color.undecided.resize(color.texels.size());
-    tbb::parallel_for(std::size_t(0), std::size_t(color.height) * color.layers, [&](std::size_t row) {
-        const auto y = static_cast<std::uint32_t>(row % color.height), layer = static_cast<std::uint32_t>(row / color.height);
-        for (std::uint32_t x = 0; x < color.width; ++x) {
-            const glm::dvec3 from = behind.at(x, y, layer);
-            color.at(x, y, layer) = glm::dvec4(model(fragments.at(x, y, layer), from, stage.choice.settings), 1);
-        }
-    });
-    for (std::uint32_t layer = 0; layer < color.layers; ++layer)  // one bit each: rows share words
-        for (std::uint32_t y = 0; y < color.height; ++y)
-            for (std::uint32_t x = 0; x < color.width; ++x)
-                color.undecided[color.index(x, y, layer)] = fragments.undecided(x, y, layer);
-    ImageSet set;
-    set.emplace("color", std::move(color));
-    return set;
-}
 
 /// Root mean square over the decided texels' colors: what errors are relative to.
 double root_mean_square(const ReferenceImage& image) {
@@ -103,7 +71,7 @@ void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
 
 void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const StageInfo& of_stage = info(stage.choice.technique->stage);
-    const StageInput input{stage.frame, stage.before};
+    const StageInput input{stage.frame, stage.before, stage.fragments};
     const ImageSet own = stage.truth ? ImageSet() : of_stage.truth(input);
     const ImageSet& truth = stage.truth ? *stage.truth : own;
     accuracy.method = of_stage.judge(stage.result, truth, input);
@@ -114,9 +82,8 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 
 ImageSet run_model(const JudgedStage& stage) {
     const Technique& technique = *stage.choice.technique;
-    if (const auto* pixel = std::get_if<PixelModel>(&technique.model)) return run_pixels(*pixel, stage);
-    if (const auto* image = std::get_if<ImageModel>(&technique.model))
-        return (*image)({stage.frame, stage.before}, stage.choice.settings);
+    if (const auto* model = std::get_if<ImageModel>(&technique.model))
+        return (*model)({stage.frame, stage.before, stage.fragments}, stage.choice.settings);
     return {};
 }
 

@@ -15,9 +15,8 @@ struct JudgedStage {
     const ImageSet& before;
     const ImageSet& result;
     Against against = Against::model_and_truth;
-    const ImageSet* truth = nullptr;  ///< null: computed here
-    /// Where the frame's transparent fragments before the stage are kept from one judgement to the next; null: nowhere.
-    std::optional<FragmentLists>* fragments = nullptr;
+    const ImageSet* truth = nullptr;                    ///< null: computed here
+    std::optional<FragmentLists>* fragments = nullptr;  ///< as StageInput's
 };
 
 Accuracy judge_stage(const JudgedStage&);

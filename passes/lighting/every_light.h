@@ -7,7 +7,7 @@
 
 #include "passes/reference/blockers.h"
 #include "passes/reference/lights.h"
-#include "passes/stages.h"
+#include "passes/technique.h"
 
 namespace strata::lighting {
 
@@ -52,5 +52,13 @@ private:
 /// What a technique gives that leaves out no other light that adds anything: real-time forms, sample 0 of plain pixels for all of
 /// their samples, within what a half float holds.
 ImageSet light_of_shaded_samples(const StageInput&, const LightFilter& = {});
+
+/// How far the device may be from that, and from the same sum over fewer lights.
+inline constexpr Tolerance shaded_light_tolerance = {
+    .rmse = 1e-3,
+    .worst = 4e-3,
+    .because =
+        "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe of alpha "
+        "0.002 by 1e-4 of its width"};
 
 }  // namespace strata::lighting

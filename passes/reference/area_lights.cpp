@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "passes/reference/brdf.h"
 #include "passes/reference/ltc_table.h"
 #include "passes/reference/placed_light.h"
 
@@ -16,7 +17,6 @@ using Polygon = std::vector<dvec3>;
 
 constexpr double pi = std::numbers::pi;
 constexpr int corners = 16;  // of what is round
-constexpr double smallest_cosine = 1e-4;
 constexpr double widest_sine_squared = 0.9999;
 
 // A regular polygon of these corners has the area of its circle when it is this much larger.

@@ -11,8 +11,6 @@ namespace strata {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Smallest width of a GGX lobe and smallest cosine of the eye (lighting chapter 0.5).
-constexpr double smallest_lobe = 0.002, smallest_cosine = 1e-4;
 // Reflectance of skin and hair at normal incidence: refraction of 1.4 and of 1.55.
 constexpr double skin_f0 = 0.028, hair_f0 = 0.0465;
 

@@ -7,6 +7,11 @@ namespace strata {
 
 struct SurfacePoint;
 
+/// Smallest width of a GGX lobe: below it points' highlights alias anyway (lighting chapter 0.5).
+inline constexpr double smallest_lobe = 0.002;
+/// Smallest cosine of the eye: it keeps the visibility term finite where a mapped normal leans away.
+inline constexpr double smallest_cosine = 1e-4;
+
 /// f(l, v) per steradian for unit vectors, the eye on the normal's side; times brdf_cosine() it is the radiance of one unit of
 /// irradiance. Reciprocal: lambert, burley, plain_burley, ggx, cloth, hair.
 glm::dvec3 brdf(const SurfacePoint&, glm::dvec3 to_light, glm::dvec3 to_eye);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "passes/reference/brdf.h"
 #include "passes/reference/cubature.h"
 #include "passes/reference/placed_light.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 constexpr double pi = std::numbers::pi;
-// As passes/shaders/brdf.glsl has it: peaks are no narrower.
-constexpr double smallest_lobe = 0.002;
 // Lobes wider than this need no search for their peak.
 constexpr double wide_lobe = 0.25;
 

@@ -176,7 +176,7 @@ ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& loo
         const BlendedSample seen = bent ? seen_behind(before, at, sums.offset) : BlendedSample{behind};
         return {resolved(sums, seen.radiance, how.tint), undecided || read.undecided || seen.undecided};
     };
-    return {{"color", blended(before, only(input.frame, Resolution::full), input.before, blend)}};
+    return {{"color", blended_at_full_resolution(before, input, blend)}};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "passes/transparency/low_draws_model.h"
 
-#include "passes/transparency/sample_blend.h"
+#include <utility>
 
 namespace strata::transparency {
 
@@ -10,6 +10,12 @@ Frame only(const Frame& frame, Resolution resolution) {
     std::erase_if(left.draws, is_other);
     std::erase_if(left.emitters, is_other);
     return left;
+}
+
+ReferenceImage blended_at_full_resolution(ReferenceImage color, const StageInput& input, const PlacedBlend& blend) {
+    if (!frame_features(input.frame).has(Feature::low_resolution)) return blended(std::move(color), input, blend);
+    const Frame full = only(input.frame, Resolution::full);
+    return blended(std::move(color), {full, input.before}, blend);
 }
 
 ReferenceImage farthest_depth(const ReferenceImage& fine, Extent extent) {

@@ -9,11 +9,15 @@
 #include "passes/stages.h"
 #include "passes/transparency/bilinear_taps.h"
 #include "passes/transparency/function_prepass.h"
+#include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {
 
 /// The frame with the draws and emitters of one resolution alone.
 Frame only(const Frame&, Resolution);
+
+/// blended() without what is drawn at half resolution.
+ReferenceImage blended_at_full_resolution(ReferenceImage color, const StageInput&, const PlacedBlend&);
 
 /// Half-resolution fragments in front of the farthest opaque depth of their pixels; none where nothing is drawn so.
 std::optional<FragmentLists> low_fragments(const StageInput&);

@@ -30,14 +30,17 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
     return found != before.end() ? found->second : ReferenceImage(color.width, color.height, color.layers);
 }
 
-ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const SampleBlend& blend) {
-    return blended(std::move(color), frame, before, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
+ReferenceImage blended(ReferenceImage color, const StageInput& input, const SampleBlend& blend) {
+    return blended(std::move(color), input, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
         return BlendedSample{blend(fragments, behind)};
     });
 }
 
-ReferenceImage blended(ReferenceImage color, const Frame& frame, const ImageSet& before, const PlacedBlend& blend) {
-    const FragmentLists lists = transparent_fragments(frame, opaque_depth(before, color));
+ReferenceImage blended(ReferenceImage color, const StageInput& input, const PlacedBlend& blend) {
+    std::optional<FragmentLists> own;
+    std::optional<FragmentLists>& kept = input.fragments ? *input.fragments : own;
+    if (!kept) kept = transparent_fragments(input.frame, opaque_depth(input.before, color));
+    const FragmentLists& lists = *kept;
     if (color.undecided.empty()) color.undecided.assign(color.texels.size(), false);
     for (std::uint32_t s = 0; s < color.layers; ++s) {
         for (std::uint32_t y = 0; y < color.height; ++y) {
@@ -56,7 +59,7 @@ ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, 
     Frame alone = input.frame;
     for (const std::uint32_t index : back_to_front_draws(input.frame)) {
         keep_only(alone, input.frame, index);
-        color = blended(std::move(color), alone, input.before, blend);
+        color = blended(std::move(color), {alone, input.before}, blend);
     }
     return color;
 }

@@ -25,10 +25,10 @@ using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::
 /// Opaque depth per sample of `color`; nothing is in front of anything where the frame has none.
 ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color);
 
-/// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth of `before`. Samples
+/// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth before the stage. Samples
 /// whose fragments are undecided become so in the image.
-ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const SampleBlend&);
-ReferenceImage blended(ReferenceImage color, const Frame&, const ImageSet& before, const PlacedBlend&);
+ReferenceImage blended(ReferenceImage color, const StageInput&, const SampleBlend&);
+ReferenceImage blended(ReferenceImage color, const StageInput&, const PlacedBlend&);
 
 /// Blends object after object in painter's order, as alpha blending does: fragments of an object in the order of submission.
 ReferenceImage blended_by_object(ReferenceImage color, const StageInput&, const SampleBlend&);

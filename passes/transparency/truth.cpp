@@ -32,7 +32,7 @@ ImageSet transparency_truth(const StageInput& input) {
         const transparency::BlendedSample seen = transparency::seen_behind(before, at, offset);
         return {exact_blend(fragments, seen.radiance), seen.undecided};
     };
-    return {{"color", transparency::blended(before, input.frame, input.before, blend)}};
+    return {{"color", transparency::blended(before, input, blend)}};
 }
 
 }  // namespace strata

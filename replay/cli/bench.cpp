@@ -1,8 +1,6 @@
 // strata bench: the ratios of times that a technique states, measured on this device.
 #include "replay/bench/bench.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <memory>
 
@@ -89,11 +87,6 @@ Result<std::unique_ptr<Session>> open_capture(const Options& options, std::span<
     return open(options.open);
 }
 
-/// One line that rewrites itself, on a terminal only.
-void show_progress(std::string_view what, double done) {
-    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
-}
-
 Result<void> bench(const Options& options) {
     auto claims = claims_of(options.word, options.only);
     if (!claims) return claims.error();
@@ -102,7 +95,7 @@ Result<void> bench(const Options& options) {
     for (Claim& claim : *claims) claim.base = *base;
     const auto session = options.open.capture.empty() ? open_scenarios(options, *claims) : open_capture(options, *claims);
     if (!session) return session.error();
-    const auto measured = measure_ratios(**session, *claims, options.repeats, show_progress);
+    const auto measured = measure_ratios(**session, *claims, options.repeats, show_current);
     if (!measured) return measured.error();
     fmt::print("{}", options.json ? as_json(*measured) : as_text(*measured));
     return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*measured));

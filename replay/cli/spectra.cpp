@@ -63,11 +63,6 @@ Result<std::vector<FrameSpectra>> gather(const Options& options, const Technique
     return gathered;
 }
 
-/// One line that rewrites itself, on a terminal only.
-void show_progress(std::string_view what, double done) {
-    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
-}
-
 /// With a GPU and no word on costs, its compiler's.
 std::string cost_of(const Options& options) {
     if (!options.cost.empty()) return options.cost;
@@ -98,7 +93,7 @@ Result<void> spectra(const Options& options) {
                           .modes = modes_that_matter(*frames),
                           .open = [&](const std::string& capture) { return open_one(options, capture); },
                           .repeats = options.repeats,
-                          .progress = show_progress,
+                          .progress = show_current,
                           .gpu = *gpu};
     if (*gpu)
         question.compile = [&](const std::vector<PipelineRequest>& pipelines) {

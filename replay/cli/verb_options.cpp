@@ -1,5 +1,7 @@
 #include "replay/cli/verb_options.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -154,6 +156,10 @@ std::string command_line(const CLI::App& verb) {
         }
     }
     return line;
+}
+
+void show_current(std::string_view what, double done) {
+    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
 }
 
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text) {

@@ -44,6 +44,8 @@ Result<void> make_folder(const std::filesystem::path&);
 std::string shell_word(std::string_view word);
 /// What was typed, as a line for a shell: a verb with its options in the order of the help.
 std::string command_line(const CLI::App& verb);
+/// A Progress: what is being done, on one line of stderr that rewrites itself; on a terminal only.
+void show_current(std::string_view what, double done);
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 

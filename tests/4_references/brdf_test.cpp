@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "passes/reference/shade.h"
+#include "tests/4_references/hemisphere.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -22,11 +23,6 @@ constexpr std::array<std::array<double, 4>, 4> ggx_albedos = {{{.98832, .98143, 
                                                                {.68785, .68295, .71636, .86011},
                                                                {1 - std::numbers::ln2, .37889, .49889, .76021}}};
 
-glm::dvec3 toward(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), -cosine};
-}
-
 SurfacePoint white(LightingModel model, double roughness) {
     SurfacePoint surface;
     surface.model = model;
@@ -41,24 +37,9 @@ SurfacePoint metal(LightingModel model, double alpha) {
     return surface;
 }
 
-struct Quadrature {
-    int polar, azimuthal;
-};
-
 // Enough for a lobe to four digits.
 Quadrature steps_for(double alpha) {
     return alpha < 0.2 ? Quadrature{.polar = 1200, .azimuthal = 500} : Quadrature{.polar = 800, .azimuthal = 200};
-}
-
-// The integral of f(l) cos over the hemisphere; midpoints, in cos^2 so that the cosine is in the measure.
-template <typename Function>
-double reflected_share(const Quadrature& steps, const Function& f) {
-    double sum = 0;
-    for (int i = 0; i < steps.polar; ++i) {
-        const double cosine = std::sqrt((i + 0.5) / steps.polar);
-        for (int j = 0; j < steps.azimuthal; ++j) sum += f(toward(cosine, pi * (j + 0.5) / steps.azimuthal));
-    }
-    return sum * pi / (double(steps.polar) * steps.azimuthal);
 }
 
 // What a surface in a white furnace shows an eye: the whole sphere of directions, by the models' own cosine. Green.

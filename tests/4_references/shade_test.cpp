@@ -7,32 +7,13 @@
 
 #include "passes/reference/lights.h"
 #include "passes/reference/shade.h"
+#include "tests/4_references/hemisphere.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-glm::dvec3 toward(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), -cosine};
-}
-
-struct Quadrature {
-    int polar, azimuthal;
-};
-
-// The integral of f(l) cos over the hemisphere; midpoints, in cos^2 so that the cosine is in the measure.
-template <typename Function>
-double reflected_share(const Quadrature& steps, const Function& f) {
-    double sum = 0;
-    for (int i = 0; i < steps.polar; ++i) {
-        const double cosine = std::sqrt((i + 0.5) / steps.polar);
-        for (int j = 0; j < steps.azimuthal; ++j) sum += f(toward(cosine, pi * (j + 0.5) / steps.azimuthal));
-    }
-    return sum * pi / (double(steps.polar) * steps.azimuthal);
-}
 
 struct PositionOracle {
     glm::dvec2 pixel;

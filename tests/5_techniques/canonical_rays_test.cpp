@@ -87,7 +87,7 @@ double exact(const Ray& ray, double d) {
 
 /// The area between a curve over 0 to 1 and the exact steps.
 double area(const Ray& ray, const std::function<double(double d)>& curve) {
-    constexpr int samples = 20000;
+    constexpr int samples = 2000;  // ten times as many move no area by more than 6e-5
     double sum = 0;
     for (int i = 0; i < samples; ++i) sum += std::abs(curve((i + .5) / samples) - exact(ray, (i + .5) / samples));
     return sum / samples;

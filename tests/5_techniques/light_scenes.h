@@ -3,14 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "replay/image_io.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/session.h"
 
 namespace strata {
+
+/// A scenario in a picture of 96 x 54, or its own where that is narrower.
+inline Frame at_most_96(std::string_view scenario, std::uint32_t samples) {
+    Frame frame = scenario_frames(scenario, samples).front();
+    if (frame.view.width > 96) frame.view.width = 96, frame.view.height = 54;
+    return frame;
+}
 
 /// A scenario in a picture of 64 x 36 without its lights.
 inline Frame dark_frame(std::string_view scenario, std::uint32_t samples = 1) {
@@ -35,50 +42,40 @@ inline glm::dvec3 to_world(const Frame& frame, const glm::dvec3& in_view) {
 
 class RandomLights {
 public:
-    explicit RandomLights(unsigned seed) : random_(seed) {}
+    explicit RandomLights(unsigned seed) : numbers(seed) {}
 
-    float from(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
-    std::uint32_t below(std::uint32_t n) { return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random_); }
-    glm::vec3 direction() {
-        for (;;)
-            if (const glm::vec3 v(from(-1, 1), from(-1, 1), from(-1, 1)); glm::dot(v, v) < 1 && glm::dot(v, v) > .01f)
-                return glm::normalize(v);
-    }
-    glm::vec3 across(const glm::vec3& axis) {
-        for (;;)
-            if (const glm::vec3 v = glm::cross(axis, direction()); glm::dot(v, v) > .01f) return glm::normalize(v);
-    }
     /// Within the view.
     glm::dvec3 place(const Frame& frame) {
-        const double z = from(1, 12);
-        return to_world(frame, {z * from(-.9f, .9f), z * from(-.5f, .5f), z});
+        const double z = numbers.from(1, 12);
+        return to_world(frame, {z * numbers.from(-.9f, .9f), z * numbers.from(-.5f, .5f), z});
     }
 
     Light light(const Frame& frame, LightType type, float range) {
         Light light;
         light.type = type;
         light.position = place(frame);
-        light.direction = direction();
-        light.axis_u = across(light.direction);
+        light.direction = numbers.direction();
+        light.axis_u = numbers.across(light.direction);
         light.range = range;
-        light.intensity = {from(.2f, 4), from(.2f, 4), from(.2f, 4)};
-        light.outer_angle = from(.2f, 1.2f), light.inner_angle = light.outer_angle * from(0, .9f);
+        light.intensity = {numbers.from(.2f, 4), numbers.from(.2f, 4), numbers.from(.2f, 4)};
+        light.outer_angle = numbers.from(.2f, 1.2f), light.inner_angle = light.outer_angle * numbers.from(0, .9f);
         return light;
     }
 
     /// Lights without blockers.
     void add_lights(Frame& frame, std::size_t count, float range) {
-        for (std::size_t i = 0; i < count; ++i) frame.lights.push_back(light(frame, LightType::omni, from(.1f, 1) * range));
+        for (std::size_t i = 0; i < count; ++i)
+            frame.lights.push_back(light(frame, LightType::omni, numbers.from(.1f, 1) * range));
     }
 
     /// A light with up to so many blockers, and up to two portals in each.
     void add_blocked_light(Frame& frame, std::uint32_t most_blockers) {
         constexpr LightType types[] = {LightType::omni, LightType::round_spot, LightType::square_spot, LightType::directional};
-        Light lamp = light(frame, types[below(4)], from(3, 20));
-        for (std::uint32_t i = below(most_blockers + 1); i > 0; --i) {
+        Light lamp = light(frame, types[numbers.below(4)], numbers.from(3, 20));
+        for (std::uint32_t i = numbers.below(most_blockers + 1); i > 0; --i) {
             lamp.blockers.push_back(static_cast<std::uint32_t>(frame.blockers.size()));
             frame.blockers.push_back(blocker(frame));
-            for (std::uint32_t k = below(3); k > 0 && lamp.portals.size() < 32; --k) {
+            for (std::uint32_t k = numbers.below(3); k > 0 && lamp.portals.size() < 32; --k) {
                 lamp.portals.push_back(static_cast<std::uint32_t>(frame.portals.size()));
                 frame.portals.push_back(portal(frame.blockers.back(), lamp.blockers.back()));
             }
@@ -86,30 +83,30 @@ public:
         frame.lights.push_back(lamp);
     }
 
+    Numbers numbers;
+
 private:
     Blocker blocker(const Frame& frame) {
         Blocker wall;
         wall.center = place(frame);
-        wall.u = direction();
-        wall.v = across(wall.u);
-        wall.half_u = from(.2f, 3), wall.half_v = from(.2f, 3);
-        wall.one_sided = below(4) == 0;
+        wall.u = numbers.direction();
+        wall.v = numbers.across(wall.u);
+        wall.half_u = numbers.from(.2f, 3), wall.half_v = numbers.from(.2f, 3);
+        wall.one_sided = numbers.below(4) == 0;
         return wall;
     }
 
     Portal portal(const Blocker& wall, std::uint32_t index) {
-        const float turn = from(0, 6.2831853f);
+        const float turn = numbers.from(0, 6.2831853f);
         Portal door;
         door.blocker = index;
-        door.center = wall.center + glm::dvec3(wall.u * from(-wall.half_u, wall.half_u)) +
-                      glm::dvec3(wall.v * from(-wall.half_v, wall.half_v));
+        door.center = wall.center + glm::dvec3(wall.u * numbers.from(-wall.half_u, wall.half_u)) +
+                      glm::dvec3(wall.v * numbers.from(-wall.half_v, wall.half_v));
         door.u = wall.u * std::cos(turn) + wall.v * std::sin(turn);
         door.v = wall.v * std::cos(turn) - wall.u * std::sin(turn);
-        door.half_u = from(0, wall.half_u), door.half_v = from(0, wall.half_v);
+        door.half_u = numbers.from(0, wall.half_u), door.half_v = numbers.from(0, wall.half_v);
         return door;
     }
-
-    std::mt19937 random_;
 };
 
 /// What a lighting technique makes of a frame; further outputs are views and tables of its own by their names.

@@ -87,7 +87,7 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
         const auto session = must(Session::open({frame}, {.validation = true}));
         return must(session->judge({.uses = {"transparency/exact_function"}, .sets = {"accumulation=single"}},
-                                   Stage::transparency))
+                                   Stage::transparency, Against::truth))
             .method.front()
             .value;
     };

@@ -133,6 +133,26 @@ std::vector<std::string> judged_scenarios() {
 INSTANTIATE_TEST_SUITE_P(Scenarios, MethodAgainstTruth, testing::ValuesIn(judged_scenarios()),
                          [](const auto& name) { return name.param; });
 
+/// The first scenario of the stage, the plainest, that needs it at four samples; nothing where none does.
+std::optional<std::string_view> plainest_scenario(const StageInfo& stage) {
+    const auto needs_it = [&](std::string_view scenario) { return !unneeded(on_scenario(scenario, 4), stage.stage); };
+    const auto found = std::ranges::find_if(stage.scenarios, needs_it);
+    return found == stage.scenarios.end() ? std::nullopt : std::optional(*found);
+}
+
+TEST(MethodFigures, AreNumbersAtFourSamplesToo) {
+    for (const StageInfo& stage : stages()) {
+        const auto scenario = plainest_scenario(stage);
+        for (const Technique* technique : techniques_of(stage.stage)) {
+            ASSERT_TRUE(scenario) << stage.name << " has no scenario";
+            const std::vector<Figure> figures = judged(*technique, {std::string(technique->name), std::string(*scenario), 4});
+            EXPECT_FALSE(figures.empty()) << technique->name << " on " << *scenario;
+            for (const Figure& figure : figures)
+                EXPECT_TRUE(std::isfinite(figure.value)) << technique->name << " on " << *scenario << ": " << figure.name;
+        }
+    }
+}
+
 TEST(MethodBaseline, RecordsNothingThatIsGone) {
     for (const auto& [key, figures] : read_baseline()) {
         const auto technique = find_technique(key.technique);

@@ -152,12 +152,6 @@ void expect_counted(const Run& run, const Totals& totals) {
     EXPECT_EQ(spectra, totals.spectra);
 }
 
-Frame at_most_96(std::string_view scenario, std::uint32_t samples) {
-    Frame frame = scenario_frames(scenario, samples).front();
-    if (frame.view.width > 96) frame.view.width = 96, frame.view.height = 54;
-    return frame;
-}
-
 TEST(TiledCulling, FindsWhatItsMirrorFindsInEveryScenario) {
     for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
@@ -174,7 +168,7 @@ TEST(TiledCulling, FindsWhatItsMirrorFindsOfRandomLightsAndBlockers) {
         SCOPED_TRACE(seed);
         Frame frame = dark_frame("lights_room");
         RandomLights random(100 + seed);
-        for (std::uint32_t i = 1 + random.below(seed % 4 == 0 ? 80 : 10); i > 0; --i)
+        for (std::uint32_t i = 1 + random.numbers.below(seed % 4 == 0 ? 80 : 10); i > 0; --i)
             random.add_blocked_light(frame, seed % 4 == 1 ? 32 : 4);
         const std::uint32_t half_z = seed % 2;
         const auto run =

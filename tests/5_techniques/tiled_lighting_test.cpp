@@ -18,16 +18,10 @@ void expect_same(const Run& a, const Run& b, const std::string& what) {
     EXPECT_GT(lit_texels(b), 20u) << what << ": nothing to compare";
 }
 
-Frame small(std::string_view scenario, std::uint32_t samples) {
-    Frame frame = scenario_frames(scenario, samples).front();
-    if (frame.view.width > 96) frame.view.width = 96, frame.view.height = 54;
-    return frame;
-}
-
 TEST(TiledLighting, IsALoopOverAllLightsInEveryScenario) {
     for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
-            const Frame frame = small(scenario, samples);
+            const Frame frame = at_most_96(scenario, samples);
             expect_same(lit(frame, tiled), lit(frame, brute_force), fmt::format("{} at {} samples", scenario, samples));
         }
 }
@@ -35,7 +29,7 @@ TEST(TiledLighting, IsALoopOverAllLightsInEveryScenario) {
 TEST(TiledLighting, IsALoopOverAllLightsHoweverManyReachATile) {
     for (const std::string_view scenario : {"hall_of_lights_1", "hall_of_lights_64", "hall_of_lights_65", "hall_of_lights_512",
                                             "hall_of_lights_4096", "agents_hq", "pair_overflow"}) {
-        const Frame frame = small(scenario, 1);
+        const Frame frame = at_most_96(scenario, 1);
         const auto all = lit(frame, brute_force), listed = lit(frame, tiled);
         expect_same(listed, all, std::string(scenario));
         EXPECT_LE(count_of(listed, "evaluations"), count_of(all, "evaluations")) << scenario;
@@ -88,8 +82,8 @@ TEST(TiledLighting, Of4096CoincidentLightsIsThatOfOne) {
 Frame blocked_frame(unsigned seed, std::uint32_t samples) {
     Frame frame = dark_frame(seed % 2 == 0 ? "lights_room" : "materials", samples);
     RandomLights random(seed);
-    for (std::uint32_t lights = 1 + random.below(12); lights > 0; --lights)
-        random.add_blocked_light(frame, random.below(3) == 0 ? 32 : 4);
+    for (std::uint32_t lights = 1 + random.numbers.below(12); lights > 0; --lights)
+        random.add_blocked_light(frame, random.numbers.below(3) == 0 ? 32 : 4);
     return frame;
 }
 
@@ -110,7 +104,7 @@ TEST(TiledLighting, OfBlockersIsTheSameWithAndWithoutTheirCulling) {
 }
 
 TEST(TiledLighting, WithMorePairsThanFitIsTheSamePicture) {
-    const Frame frame = small("pair_overflow", 1);
+    const Frame frame = at_most_96("pair_overflow", 1);
     const auto culled = lit(frame, tiled), all = lit(frame, tiled, {"classify=off"});
     expect_same(culled, all, "272 pairs");
     EXPECT_GT(count_of(culled, "tiles over blocker pairs"), 0u);
@@ -130,7 +124,7 @@ TEST(TiledLighting, WithoutPixelTestsDarkensWholeTilesOrNothing) {
 
 TEST(ShadingModes, OfAnyNumberGiveTheSamePicture) {
     for (const char* scenario : {"agents_hq", "lights_room", "materials"}) {
-        const Frame frame = small(scenario, 1);
+        const Frame frame = at_most_96(scenario, 1);
         const auto one = lit(frame, tiled, {"modes=1"});
         for (const char* set : {"modes=2", "modes=4", "modes=16", "force=65535", "branches=uniform"})
             expect_same(lit(frame, tiled, {set}), one, fmt::format("{} {}", scenario, set));
@@ -139,7 +133,7 @@ TEST(ShadingModes, OfAnyNumberGiveTheSamePicture) {
 
 TEST(ShadingModes, HaveEveryTileThatIsNotEmptyOnce) {
     for (const std::string_view scenario : lit_scenarios()) {
-        const auto run = lit(small(scenario, 1), tiled, {}, {"modes", "spectra"});
+        const auto run = lit(at_most_96(scenario, 1), tiled, {}, {"modes", "spectra"});
         double in_modes = 0, in_spectra = 0;
         std::uint64_t used = 0;
         for (const auto& row : run.tables.at(tiled + ":modes").rows) in_modes += row[2], used += row[2] > 0;
@@ -151,7 +145,7 @@ TEST(ShadingModes, HaveEveryTileThatIsNotEmptyOnce) {
 }
 
 TEST(ShadingModes, ThatAreForcedAreThoseOfAllFeatures) {
-    const auto run = lit(small("lights_room", 1), tiled, {"force=65535"}, {"spectra"});
+    const auto run = lit(at_most_96("lights_room", 1), tiled, {"force=65535"}, {"spectra"});
     const auto& rows = run.tables.at(tiled + ":spectra").rows;
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0], (std::vector<double>{65535, double(count_of(run, "tiles") - count_of(run, "empty tiles")), 0, 0}));
@@ -172,7 +166,7 @@ TEST(TiledLighting, OfTheSkyShadesNothing) {
 }
 
 TEST(TiledLighting, IsTheSameOnEveryRun) {
-    const Frame frame = small("agents_hq", 1);
+    const Frame frame = at_most_96("agents_hq", 1);
     const std::vector<std::string> inside = {"lists", "portals", "spectra", "modes"};
     const auto first = lit(frame, tiled, {}, inside);
     session_of_scenarios().forget_memo();
@@ -182,14 +176,14 @@ TEST(TiledLighting, IsTheSameOnEveryRun) {
 }
 
 TEST(TiledLighting, WithTwoCellsPerTileListsFewerLightsForTheSamePicture) {
-    const Frame frame = small("agents_hq", 1);
+    const Frame frame = at_most_96("agents_hq", 1);
     const auto one = lit(frame, tiled, {"half_z=off"}), two = lit(frame, tiled, {"half_z=on"});
     expect_same(two, one, "half-Z");
     EXPECT_LT(count_of(two, "lights touching"), count_of(one, "lights touching"));
 }
 
 TEST(TiledLighting, FiltersShadowsItselfAsTheShadowStageDoes) {
-    const Frame frame = small("spot_and_box", 1);
+    const Frame frame = at_most_96("spot_and_box", 1);
     const ReferenceImage image = in_double(lit(frame, tiled).images.at("light"));
     const ReferenceImage itself = in_double(lit(frame, tiled, {"shadows=inline"}).images.at("light"));
     double brightest = 0, sum = 0;

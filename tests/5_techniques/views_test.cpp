@@ -12,11 +12,18 @@ namespace {
 
 class Views : public testing::TestWithParam<std::string_view> {};
 
+/// 80 pixels across: nothing here depends on how many there are.
+Request small_smoke(std::uint32_t samples) {
+    Request request = on_scenario("smoke_grenade", samples);
+    request.extent_divisor *= 2;
+    return request;
+}
+
 TEST_P(Views, AreDrawnAndFinite) {
     const Technique& technique = *must(find_technique(GetParam()));
     for (const std::uint32_t samples : {1u, 4u})
         for (const DebugView& view : technique.views) {
-            Request request = on_scenario("smoke_grenade", samples);
+            Request request = small_smoke(samples);
             request.uses = {std::string(technique.name)};
             request.outputs = {fmt::format("{}:{}", technique.name, view.name)};
             const auto run = must(session_of_scenarios().run(request));
@@ -30,7 +37,7 @@ TEST_P(Views, AreDrawnAndFinite) {
 TEST_P(Views, AndTablesHaveRowsOfNumbers) {
     const Technique& technique = *must(find_technique(GetParam()));
     for (const DebugTable& table : technique.tables) {
-        Request request = on_scenario("smoke_grenade");
+        Request request = small_smoke(1);
         request.uses = {std::string(technique.name)};
         request.outputs = {fmt::format("{}:{}", technique.name, table.name)};
         const auto numbers = must(session_of_scenarios().run(request)).tables.at(request.outputs[0]);

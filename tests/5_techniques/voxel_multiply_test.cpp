@@ -86,7 +86,7 @@ TEST(VoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
             Request request = on_scenario(scenario);
             request.uses = {voxel};
             request.sets = {"splat=multiply", bits};
-            const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << bits;
             EXPECT_LE(accuracy.model_worst, 2 * technique.tolerance.worst) << scenario << " " << bits;  // a product a code off
         }
@@ -104,7 +104,7 @@ TEST(VoxelMultiply, IsWhatTheModelSaysInCombinations) {
         Request request = on_scenario("glass_and_smoke", 4);
         request.uses = {voxel};
         request.sets = sets;
-        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage));
+        const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
     }

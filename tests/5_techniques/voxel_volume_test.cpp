@@ -94,24 +94,29 @@ TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
     }
 }
 
-/// The transparency stage's scenarios, small: with the settings, and with those and more.
-void expect_same_color(std::uint32_t samples, const std::vector<std::string>& sets, const std::vector<std::string>& more) {
-    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
-        Request request = on_scenario(scenario, samples);
-        request.uses = {voxel}, request.sets = sets, request.outputs = {"color"};
-        const auto one = must(session_of_scenarios().run(request)).images.at("color").texels;
-        request.sets.insert(request.sets.end(), more.begin(), more.end());
-        EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, one) << scenario << sets.front();
-    }
+void expect_nothing_missed(std::string_view scenario, std::uint32_t samples, std::vector<std::string> sets) {
+    Request request = on_scenario(scenario, samples);
+    request.uses = {voxel}, request.sets = std::move(sets), request.outputs = {"color"};
+    request.sets.emplace_back("skipping=off");
+    const auto all = must(session_of_scenarios().run(request)).images.at("color").texels;
+    request.sets.back() = "skipping=on";
+    EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, all)
+        << scenario << " " << testing::PrintToString(request.sets);
 }
 
 // V10 of transparency chapter 6.17. What is not cleared holds whatever other images left there.
 TEST(VoxelVolume, LeavesOutOnlyWhatNobodyReads) {
-    expect_same_color(4, {"skipping=off"}, {"skipping=on"});
-    expect_same_color(1, {"skipping=off", "resolution=quarter", "sampling=bicubic", "slices=70"}, {"skipping=on"});
-    expect_same_color(1, {"skipping=off", "resolution=half", "volume=dense", "shift=2", "bits=16"}, {"skipping=on"});
-    expect_same_color(1, {"skipping=off", "splatting=point", "sampling=point", "shift=-2", "slices=1024"}, {"skipping=on"});
-    expect_same_color(1, {"skipping=off", "packing=rgb10", "channels=rgb", "resolution=half", "slices=77"}, {"skipping=on"});
+    const std::vector<std::string> combinations[] = {
+        {"resolution=quarter", "sampling=bicubic", "slices=70"},
+        {"resolution=half", "volume=dense", "shift=2", "bits=16"},
+        {"splatting=point", "sampling=point", "shift=-2", "slices=1024"},
+        {"packing=rgb10", "channels=rgb", "resolution=half", "slices=77"},
+    };
+    std::size_t turn = 0;
+    for (const std::string_view scenario : info(Stage::transparency).scenarios) {
+        expect_nothing_missed(scenario, 4, {});
+        expect_nothing_missed(scenario, 1, combinations[turn++ % std::size(combinations)]);
+    }
 }
 
 TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {

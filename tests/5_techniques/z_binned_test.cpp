@@ -1,4 +1,4 @@
-// lighting/z_binned on the device: its picture is that of every light, its bins are those of the mirror.
+// lighting/z_binned on the device: its picture is that of every light, its bins hold what reaches them.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -68,7 +68,7 @@ TEST(ZBinned, IsOnePictureForAllSettings) {
         EXPECT_EQ(farthest_apart(light_of(frame, z_binned, {set}), picture), 0) << set;
 }
 
-TEST(ZBinned, BinsAreThoseOfTheMirror) {
+TEST(ZBinned, ABinHoldsAtLeastTheLightsThatReachItsDepths) {
     const Frame frame = hall(200);
     Request request{.uses = {z_binned}, .sets = {"bins=256"}, .outputs = {z_binned + ":bins"}};
     const auto run = must(session_of_scenarios().run(frame, std::span(&request, 1))).front();

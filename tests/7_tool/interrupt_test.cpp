@@ -68,6 +68,7 @@ class Interrupted : public testing::TestWithParam<const char*> {};
 
 TEST_P(Interrupted, AtAnyMomentLeavesWholeFilesAndNoTemporary) {
     write_file(folder() / "sound.strata", sound_capture());
+    ASSERT_EQ(code_of(start(GetParam())), 0);  // compiles what later runs find in the driver's cache
     const auto began = std::chrono::steady_clock::now();
     ASSERT_EQ(code_of(start(GetParam())), 0);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - began;
@@ -87,7 +88,7 @@ TEST_P(Interrupted, AtAnyMomentLeavesWholeFilesAndNoTemporary) {
 
 INSTANTIATE_TEST_SUITE_P(Verbs, Interrupted,
                          testing::Values("record three_panes --frames 300 -o made.strata", "replay sound.strata -o out",
-                                         "report sound.strata --repeats 1 --json -o report.json"));
+                                         "report sound.strata --repeats 1 --sweep pool=2 --json -o report.json"));
 
 /// What was there before is whole and old, or whole and new.
 TEST(Interrupt, OfARecordingLeavesTheOldCapture) {

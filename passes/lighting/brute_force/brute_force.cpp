@@ -2,6 +2,7 @@
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/every_light.h"
 #include "passes/lighting/light_features.h"
 #include "passes/technique.h"
 
@@ -38,11 +39,7 @@ Technique brute_force() {
         .counter_bytes = sizeof(BruteForceCounters),
         .add = add,
         .model = brute_force_model,
-        .tolerance = {.rmse = 1e-3,
-                      .worst = 4e-3,
-                      .because =
-                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
-                          "of alpha 0.002 by 1e-4 of its width"}};
+        .tolerance = shaded_light_tolerance};
 }
 
 }  // namespace strata::lighting

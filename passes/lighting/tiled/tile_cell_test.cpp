@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "passes/lighting/tiled/random_lights.h"
+#include "tests/support/random_lights.h"
 
 namespace strata::lighting {
 namespace {

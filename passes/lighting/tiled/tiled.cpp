@@ -2,6 +2,7 @@
 // what they and the tile's surfaces need.
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
+#include "passes/lighting/every_light.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/modes.h"
 #include "passes/lighting/tiled/ratios.h"
@@ -195,11 +196,7 @@ Technique tiled() {
         .ratios = tiled_ratios(),
         .add = add,
         .model = tiled_model,
-        .tolerance = {.rmse = 1e-3,
-                      .worst = 4e-3,
-                      .because =
-                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe "
-                          "of alpha 0.002 by 1e-4 of its width"}};
+        .tolerance = shaded_light_tolerance};
 }
 
 }  // namespace strata::lighting

@@ -8,8 +8,8 @@
 #include "passes/lighting/tiled/cull_mirror.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/modes.h"
-#include "passes/lighting/tiled/random_lights.h"
 #include "passes/reference/blockers.h"
+#include "tests/support/random_lights.h"
 
 namespace strata::lighting {
 namespace {

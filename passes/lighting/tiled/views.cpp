@@ -86,7 +86,7 @@ Image list_table(Graph& graph, FrameImages& frame, const Settings& settings) {
         .stores("numbers", numbers)
         .fixes("shown", shown)
         .fixes("rows_per_tile", rows_per_tile)
-        .over({1, graph.shape(numbers).extent.height});
+        .over({graph.shape(numbers).extent.height});
     return numbers;
 }
 

@@ -1,6 +1,7 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
+#include "passes/lighting/every_light.h"
 #include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/technique.h"
@@ -169,11 +170,7 @@ Technique z_binned() {
         .ratios = ratios(),
         .add = add,
         .model = z_binned_model,
-        .tolerance = {.rmse = 1e-3,
-                      .worst = 4e-3,
-                      .because =
-                          "light is stored as half floats of undefined rounding (2^-10 of itself); float normals move a lobe of "
-                          "alpha 0.002 by 1e-4 of its width"}};
+        .tolerance = shaded_light_tolerance};
 }
 
 }  // namespace strata::lighting

@@ -13,6 +13,7 @@
 
 #include <glm/glm.hpp>
 
+#include "passes/reference/brdf.h"
 #include "passes/shaders/ltc.shared.h"
 
 namespace strata {
@@ -20,8 +21,6 @@ namespace {
 
 using glm::dvec3;
 constexpr double pi = std::numbers::pi;
-// As passes/shaders/brdf.glsl has them.
-constexpr double smallest_lobe = 0.002;
 // The last column's eye: at 0 there is no lobe.
 constexpr double smallest_fitted_cosine = 1e-3;
 

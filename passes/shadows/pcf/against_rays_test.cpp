@@ -6,9 +6,9 @@
 #include "passes/reference/rays.h"
 #include "passes/reference/shade.h"
 #include "passes/shadows/judge.h"
-#include "passes/shadows/shadow_views.h"
 #include "passes/shadows/truth.h"
 #include "passes/technique.h"
+#include "tests/support/traced_maps.h"
 
 namespace strata::shadows {
 
@@ -57,20 +57,6 @@ Frame plates_over_a_floor(std::uint32_t map_size) {
 // What the device's passes before this stage would have left.
 ImageSet before(const Frame& frame) {
     const RayScene scene(frame, RayMask::opaque);
-    const auto views = shadow_views(frame);
-    ReferenceImage maps(views[0].size, views[0].size, static_cast<std::uint32_t>(views.size()), glm::dvec4(0, 0, 0, 1));
-    for (std::uint32_t slot = 0; slot < maps.layers; ++slot) {
-        const glm::dmat4 to_view = glm::inverse(views[slot].view_to_map);
-        for (std::uint32_t i = 0; i < maps.width * maps.height; ++i) {
-            const glm::dvec2 uv = (glm::dvec2(i % maps.width, i / maps.width) + 0.5) / double(views[slot].size);
-            const glm::dvec4 near = to_view * glm::dvec4(uv, 1, 1), far = to_view * glm::dvec4(uv, 1e-3, 1);
-            const glm::dvec3 origin = glm::dvec3(near) / near.w, step = glm::dvec3(far) / far.w - origin;
-            const auto hit = scene.closest(origin, step, 0, 1);
-            if (!hit) continue;
-            const glm::dvec4 m = views[slot].view_to_map * glm::dvec4(origin + hit->distance * step, 1);
-            maps.at(i % maps.width, i / maps.width, slot).x = double(float(m.z / m.w));
-        }
-    }
     ReferenceImage depth(frame.view.width, frame.view.height), normal(frame.view.width, frame.view.height);
     for (std::uint32_t i = 0; i < depth.texels.size(); ++i) {
         const auto hit = scene.closest({0, 0, 0}, pixel_ray(frame, i % depth.width + 0.5, i / depth.width + 0.5), 0.1, 100);
@@ -78,7 +64,7 @@ ImageSet before(const Frame& frame) {
         depth.texels[i].x = double(float(0.1 / hit->distance));
         normal.texels[i] = glm::dvec4(frame.view.to_view * glm::dvec3(0, 1, 0), hit->distance);
     }
-    return {{"shadow_maps", maps}, {"depth_layers", depth}, {"surface_normal", normal}};
+    return {{"shadow_maps", traced_maps(frame)}, {"depth_layers", depth}, {"surface_normal", normal}};
 }
 
 std::vector<Figure> error(std::uint32_t map_size, double kernel) {

@@ -99,6 +99,12 @@ std::vector<double> crossings(const ReferenceImage& image, double level) {
     return found;
 }
 
+FrameImages images_of(const Frame& frame) { return {.recorded = &frame, .extent = {width, rows}}; }
+
+DrawList one_caster(Graph& graph) {
+    return {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};
+}
+
 }  // namespace
 
 TEST(pcf, moves_the_shadow_of_a_square_by_its_height_times_the_tangent) {
@@ -173,10 +179,8 @@ TEST(pcf, draws_each_map_into_the_corner_of_its_own_layer) {
     frame.sun.cascades = 3;
     frame.lights = {{.type = LightType::round_spot, .shadow = {.casts = true, .map_size = 256}}};
     Graph graph;
-    FrameImages images;
-    images.recorded = &frame;
-    images.extent = {width, rows};
-    images.casters = {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};
+    FrameImages images = images_of(frame);
+    images.casters = one_caster(graph);
     const Technique technique = pcf();
     technique.add(graph, images, Settings(technique.params));
     EXPECT_EQ(graph.shape(images.shadow_maps).layers, 4u);
@@ -191,10 +195,8 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     frame.sun.irradiance = {};
     frame.lights = {{.type = LightType::omni, .position = {0, 2, 0}, .range = 1, .shadow = {.casts = true, .map_size = 256}}};
     Graph graph;
-    FrameImages images;
-    images.recorded = &frame;
-    images.extent = {width, rows};
-    images.casters = {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};
+    FrameImages images = images_of(frame);
+    images.casters = one_caster(graph);
     const Technique technique = pcf();
     Settings settings(technique.params);
     ASSERT_TRUE(settings.set("allocation", "need"));
@@ -205,7 +207,7 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     frame.lights.push_back(frame.lights[0]);
     frame.lights[1].range = 0.2f;  // 16 pixels
     Graph two;
-    images.casters = {.commands = two.create("commands", 20), .indices = two.create("indices", 12), .count = 1};
+    images.casters = one_caster(two);
     technique.add(two, images, settings);
     EXPECT_EQ(two.shape(images.shadow_maps).layers, 7u);  // six maps of 32 texels share the seventh
     ASSERT_EQ(two.steps().size(), 13u);
@@ -222,8 +224,7 @@ TEST(pcf, does_nothing_where_no_light_has_a_map) {
     Frame frame = ground(0);
     frame.sun.shadow.casts = false;
     Graph graph;
-    FrameImages images;
-    images.recorded = &frame;
+    FrameImages images = images_of(frame);
     const Technique technique = pcf();
     const Settings settings(technique.params);
     technique.add(graph, images, settings);

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/reference/rays.h"
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/pcss/soft_kernel.h"
 #include "passes/shadows/truth.h"
+#include "tests/support/traced_maps.h"
 
 namespace strata::shadows {
 
@@ -65,25 +65,6 @@ void add_sun(Frame& frame, double angle, double angular_radius) {
     frame.sun.shadow = {.casts = true, .map_size = 512, .bias = 0.01f, .soft = true};
 }
 
-ReferenceImage draw_maps(const Frame& frame) {
-    const RayScene scene(frame, RayMask::shadow_casters);
-    const auto views = shadow_views(frame);
-    ReferenceImage maps(views[0].size, views[0].size, static_cast<std::uint32_t>(views.size()), glm::dvec4(0, 0, 0, 1));
-    for (std::uint32_t slot = 0; slot < maps.layers; ++slot) {
-        const glm::dmat4 to_view = glm::inverse(views[slot].view_to_map);
-        for (std::uint32_t i = 0; i < maps.width * maps.height; ++i) {
-            const glm::dvec2 uv = (glm::dvec2(i % maps.width, i / maps.width) + 0.5) / double(views[slot].size);
-            const glm::dvec4 near = to_view * glm::dvec4(uv, 1, 1), far = to_view * glm::dvec4(uv, 1e-3, 1);
-            const glm::dvec3 origin = glm::dvec3(near) / near.w, step = glm::dvec3(far) / far.w - origin;
-            const auto hit = scene.closest(origin, step, 0, 1);
-            if (!hit) continue;
-            const glm::dvec4 m = views[slot].view_to_map * glm::dvec4(origin + hit->distance * step, 1);
-            maps.at(i % maps.width, i / maps.width, slot).x = double(float(m.z / m.w));
-        }
-    }
-    return maps;
-}
-
 /// The ground is what is seen, whatever lies above it.
 ImageSet before(const Frame& frame, ReferenceImage maps) {
     const double device_depth = double(frame.view.near) / height;
@@ -97,7 +78,7 @@ struct Pictures {
 };
 
 Pictures pictures(const Frame& frame, std::string_view name = "noise", double value = 0) {
-    const ImageSet images = before(frame, draw_maps(frame));
+    const ImageSet images = before(frame, traced_maps(frame));
     const Technique technique = pcss();
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set(name, value));
@@ -277,7 +258,7 @@ TEST(pcss, filters_a_light_that_is_not_soft_with_the_fixed_kernel) {
     add_plate(frame, {.y = 2, .right = 0});
     frame.lights = {soft_light(LightType::round_spot, 0.3)};
     frame.lights[0].shadow.soft = false;
-    const ImageSet images = before(frame, draw_maps(frame));
+    const ImageSet images = before(frame, traced_maps(frame));
     const Settings settings(pcss().params);
     const ReferenceImage fixed = visibility_model({frame, images}, settings, fixed_lookup).at("visibility");
     EXPECT_EQ(pictures(frame).soft.texels, fixed.texels);

@@ -83,7 +83,7 @@ ImageSet a_buffer_model(const StageInput& input, const Settings& settings) {
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {a_buffer_blend(fragments, behind, params.layers, kind), is_doubtful(fragments, params.layers)};
     };
-    return {{"color", blended(background(input), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

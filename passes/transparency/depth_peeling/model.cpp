@@ -42,7 +42,7 @@ ImageSet depth_peeling_model(const StageInput& input, const Settings& settings) 
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {peeled_blend(fragments, behind, passes, near), is_doubtful(fragments)};
     };
-    return {{"color", blended(background(input), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

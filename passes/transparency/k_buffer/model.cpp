@@ -125,7 +125,7 @@ ImageSet k_buffer_model(const StageInput& input, const Settings& settings) {
     const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) -> BlendedSample {
         return {k_buffer_blend(fragments, behind, params), is_doubtful(fragments)};
     };
-    return {{"color", blended(background(input), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -48,7 +48,7 @@ ImageSet multi_layer_model(const StageInput& input, const Settings& settings) {
         }
         return behind;
     };
-    return {{"color", blended(background(input), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

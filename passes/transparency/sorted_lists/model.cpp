@@ -27,7 +27,7 @@ ImageSet sorted_lists_model(const StageInput& input, const Settings&) {
         const BlendedSample seen = seen_behind(before, at, offset);
         return {sorted_blend(fragments, seen.radiance), seen.undecided};
     };
-    return {{"color", blended(before, input.frame, input.before, blend)}};
+    return {{"color", blended(before, input, blend)}};
 }
 
 }  // namespace strata::transparency

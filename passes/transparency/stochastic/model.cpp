@@ -175,7 +175,7 @@ ImageSet stochastic_model(const StageInput& input, const Settings& settings) {
         for (const Fragment& fragment : fragments) seeded.push_back(origins.seeded(fragment, at, params));
         return stochastic_blend(seeded, behind, params);
     };
-    return {{"color", blended(background(input), input.frame, input.before, blend)}};
+    return {{"color", blended(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

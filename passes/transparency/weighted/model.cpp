@@ -109,7 +109,7 @@ ImageSet weighted_model(const StageInput& input, const Settings& settings) {
         const Low::Texel read = low.at(place_of(glm::uvec2(at), {view.width, view.height}));
         return {resolved(merged(sum(fragments), read.sums), behind, params), read.undecided};
     };
-    return {{"color", blended(background(input), only(input.frame, Resolution::full), input.before, blend)}};
+    return {{"color", blended_at_full_resolution(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

@@ -112,7 +112,7 @@ ImageSet weighted_additive_model(const StageInput& input, const Settings& settin
         const AdditiveSums all = merged(summed(fragments, params, double(view.exposure)), read.sums);
         return {composite(all, behind, params), read.undecided};
     };
-    return {{"color", blended(background(input), only(input.frame, Resolution::full), input.before, blend)}};
+    return {{"color", blended_at_full_resolution(background(input), input, blend)}};
 }
 
 }  // namespace strata::transparency

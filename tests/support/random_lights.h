@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <random>
 
 #include "capture_format/frame.h"
 #include "passes/lighting/tile_cell.h"
 #include "passes/shaders/light_features.shared.h"
+#include "tests/support/random_numbers.h"
 
 namespace strata::lighting {
 
@@ -15,25 +14,6 @@ namespace strata::lighting {
 inline ViewRecord view_of(glm::uvec2 extent, glm::vec2 offset = {0, 0}) {
     return {.ndc_scale = {float(extent.y) / float(extent.x), 1}, .ndc_offset = offset, .extent = extent};
 }
-
-class Numbers {
-public:
-    explicit Numbers(unsigned seed) : random_(seed) {}
-    float from(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
-    std::uint32_t below(std::uint32_t n) { return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random_); }
-    glm::vec3 box(float half) { return {from(-half, half), from(-half, half), from(-half, half)}; }
-    glm::vec3 direction() {
-        for (;;)
-            if (const glm::vec3 v = box(1); glm::dot(v, v) < 1 && glm::dot(v, v) > .01f) return glm::normalize(v);
-    }
-    glm::vec3 across(const glm::vec3& axis) {
-        for (;;)
-            if (const glm::vec3 v = glm::cross(axis, direction()); glm::dot(v, v) > .01f) return glm::normalize(v);
-    }
-
-private:
-    std::mt19937 random_;
-};
 
 inline LightRecord omni(const glm::vec3& position, float range) {
     return {.position = position,
