@@ -4,9 +4,7 @@
 #include <cassert>
 #include <set>
 
-#include <fmt/ranges.h>
-
-#include "passes/registry.h"
+#include "replay/offering.h"
 
 namespace strata {
 namespace {
@@ -78,26 +76,7 @@ std::vector<lighting::Mode> as_chosen(std::vector<lighting::Mode> modes) {
 }  // namespace
 
 Result<const Technique*> technique_of_spectra(std::span<const std::string> uses) {
-    std::vector<const Technique*> offering;
-    std::vector<std::string_view> names;
-    for (const Technique& technique : techniques())
-        if (offers_spectra(technique)) {
-            offering.push_back(&technique);
-            names.push_back(technique.name);
-        }
-    if (offering.empty()) return fail(Fault::usage, "no technique that is built in makes feature spectra");
-    const Technique* chosen = offering.front();
-    for (const std::string& use : uses) {
-        const auto technique = find_technique(use);
-        if (!technique) return technique.error();
-        if ((*technique)->stage != offering.front()->stage) continue;
-        if (!offers_spectra(**technique))
-            return fail(
-                Fault::usage, "{} makes no feature spectra; {}", use,
-                names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
-        chosen = *technique;
-    }
-    return chosen;
+    return technique_offering({offers_spectra, "makes no feature spectra"}, uses);
 }
 
 std::vector<std::string> settings_of(std::span<const std::uint32_t> modes) {
@@ -161,6 +140,16 @@ std::span<const CostSource> cost_sources() {
         {"isa", "cycles and waves per SIMD as RADV's compiler states them for --gpu-model", compiled_costs},
     };
     return table;
+}
+
+std::optional<double> mean_waves(const SpectraReport& report) {
+    if (!report.costs.waves) return {};
+    double waves = 0, tiles = 0;
+    for (const lighting::SpectrumRow& row : report.rows) {
+        waves += double(row.tiles) * report.costs.waves(row.features);
+        tiles += double(row.tiles);
+    }
+    return waves / tiles;
 }
 
 SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, const SpectraWish& wish) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,8 @@ struct SpectraReport {
     std::vector<lighting::SpectrumRow> rows = {};               ///< of all frames, with the modes that were found
     double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs of all frames, by the wish's aim
 };
+/// Waves per SIMD, the mean over the tiles as the modes that were found shade them; nothing where costs know no waves.
+std::optional<double> mean_waves(const SpectraReport&);
 SpectraReport find_modes(std::vector<FrameSpectra>, ModeCosts, const SpectraWish&);
 
 std::string as_text(const SpectraReport&);

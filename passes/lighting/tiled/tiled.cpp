@@ -195,6 +195,7 @@ Technique tiled() {
         .counter_bytes = sizeof(TiledCounters),
         .views = tiled_views(),
         .tables = tiled_tables(),
+        .variants = {.constant = "mode", .view = "mode numbers", .table = "modes"},
         .ratios = tiled_ratios(),
         .add = add,
         .model = tiled_model,
