@@ -71,13 +71,18 @@ Light lamp(LightType type, glm::dvec3 position, glm::vec3 direction) {
     return light;
 }
 
+/// Lights that shine on the middle of the floor with a quad in their way.
 std::vector<Case> cases() {
-    const Quad level{.center = {.3, 6, .1}, .u = {1, 0, 0}, .v = {0, 0, -1}, .half_u = .6f, .half_v = .35f};
-    const Quad turned{.center = {-.2, 6.3, 0}, .u = {.8f, 0, .6f}, .v = {-.48f, .6f, .64f}, .half_u = .5f, .half_v = .4f};
-    return {{"round spot from above", lamp(LightType::round_spot, {0, 10, 0}, {0, -1, 0}), level},
-            {"round spot aslant, turned quad", lamp(LightType::round_spot, {3, 10, 1}, {-.3f, -1, -.1f}), turned},
-            {"square spot aslant", lamp(LightType::square_spot, {-2, 9, 1}, {.2f, -1, -.1f}), level},
-            {"omni light, turned quad", lamp(LightType::omni, {.5, 9, -.5}, {0, -1, 0}), turned}};
+    const auto level = [](glm::dvec3 center) {
+        return Quad{.center = center, .u = {1, 0, 0}, .v = {0, 0, -1}, .half_u = .6f, .half_v = .35f};
+    };
+    const auto turned = [](glm::dvec3 center) {
+        return Quad{.center = center, .u = {.8f, 0, .6f}, .v = {-.48f, .6f, .64f}, .half_u = .5f, .half_v = .4f};
+    };
+    return {{"round spot from above", lamp(LightType::round_spot, {0, 10, 0}, {0, -1, 0}), level({.3, 6, .1})},
+            {"round spot aslant, turned quad", lamp(LightType::round_spot, {3, 10, 1}, {-3, -10, -1}), turned({1.9, 6.3, .6})},
+            {"square spot aslant", lamp(LightType::square_spot, {-2, 9, 1}, {2, -9, -1}), level({-1.3, 6, .6})},
+            {"omni light, turned quad", lamp(LightType::omni, {.5, 9, -.5}, {0, -1, 0}), turned({-.2, 6.3, 0})}};
 }
 
 Frame unblocked(const Case& tested) {
@@ -96,7 +101,9 @@ Frame with_blocker(const Case& tested) {
 
 Frame with_map(const Case& tested, std::uint32_t map_size) {
     Frame frame = unblocked(tested);
-    frame.lights[0].shadow = {.casts = true, .map_size = map_size, .bias = .01f};
+    // Texels of .14 m on a floor under an axis 17 degrees aslant: depth falls by .06 m along a texel's diagonal. The slope that
+    // the stage makes up for is that against the ray, which right below the light is none, so that the bias must do it alone.
+    frame.lights[0].shadow = {.casts = true, .map_size = map_size, .bias = .07f};
     add_mesh(frame, tested.quad);
     return frame;
 }
