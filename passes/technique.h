@@ -134,6 +134,13 @@ struct DebugTable {
     Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
+/// Variants of a technique's shader, of which every tile is shaded by one: its shading modes.
+struct ShaderVariants {
+    std::string_view constant;  ///< specialization constant that holds a variant's number; empty: there are none
+    std::string_view view;      ///< of the technique: the number of each pixel's variant, below 0 where nothing is shaded
+    std::string_view table;     ///< of the technique: a column named as the constant, one "tiles", and whatever tells them apart
+};
+
 /// The method on whole images: returns the stage's outputs.
 using ImageModel = ImageSet (*)(const StageInput&, const Settings&);
 using Model = std::variant<std::monostate, ImageModel>;
@@ -178,6 +185,7 @@ struct Technique {
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct
     std::vector<DebugView> views = {};
     std::vector<DebugTable> tables = {};
+    ShaderVariants variants = {};
     Capabilities needs = {};  ///< of the device, beyond the baseline
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};

@@ -24,7 +24,10 @@ ModeCost compiled_cost(const std::map<std::uint32_t, CompiledMode>& modes) {
     for (const auto& [features, mode] : modes) reference = std::max(reference, mode.waves);
     std::map<std::uint32_t, double> known;
     for (const auto& [features, mode] : modes) known[features] = mode.cycles * occupancy_penalty(mode.waves, reference);
-    return completed_cost(std::move(known));
+    return [known, completed = completed_cost(known)](std::uint32_t features) {
+        const auto own = known.find(features);
+        return own == known.end() ? completed(features) : own->second;
+    };
 }
 
 ModeCost completed_cost(std::map<std::uint32_t, double> known) {

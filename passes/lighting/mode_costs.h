@@ -1,5 +1,5 @@
 // What a tile costs that is shaded by a mode with certain feature bits (lighting chapter 3.5): by a weight per bit, from times
-// measured for some sets of bits, or from a compiler's statistics. More bits never cost less.
+// measured for some sets of bits, or from a compiler's statistics.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace strata::lighting {
 
-/// Cost of a tile by the mode's bits, monotone: a superset costs at least as much.
+/// Cost of a tile by the mode's bits. Monotone, a superset costs at least as much, but for compiled_cost().
 using ModeCost = std::function<double(std::uint32_t features)>;
 /// Waves per SIMD that the mode compiled with these bits leaves room for.
 using ModeWaves = std::function<std::uint32_t(std::uint32_t features)>;
@@ -33,7 +33,8 @@ struct CompiledMode {
     double cycles = 0;        ///< that a tile takes, as it estimates them
     std::uint32_t waves = 0;  ///< per SIMD
 };
-/// Cycles times the penalty against the most waves that any of the modes has, completed like measured costs.
+/// Cycles times the penalty against the most waves that any of the modes has; of other modes completed like measured costs. Not
+/// monotone: a compiler may find more waves for a superset, and that is no noise.
 ModeCost compiled_cost(const std::map<std::uint32_t, CompiledMode>& modes);
 
 /// A monotone cost for every set of bits from those known for some: half way between the most that any known subset costs and the

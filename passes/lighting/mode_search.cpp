@@ -271,6 +271,14 @@ ModeSet mode_set(const Instance& instance, const Solution& solution) {
     return set;
 }
 
+/// Of the modes that serve the spectrum; its own is among them.
+double least_cost(std::span<const Mode> modes, std::uint32_t spectrum) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Mode& mode : modes)
+        if (serves(mode.features, spectrum)) least = std::min(least, mode.cost);
+    return least;
+}
+
 /// Modes beside the full one.
 std::size_t most_of(const ModeProblem& problem) { return std::max<std::size_t>(1, problem.modes) - 1; }
 
@@ -291,10 +299,12 @@ double cost_of(const ModeProblem& problem, std::span<const std::uint32_t> featur
 }
 
 double ideal_cost(const ModeProblem& problem) {
+    std::vector<Mode> modes;
+    for (const std::uint32_t one : candidates(problem)) modes.push_back({one, problem.cost(one)});
     double aimed = 0;
     for (const Scene& scene : problem.scenes) {
         double cost = 0;
-        for (const auto& [spectrum, tiles] : scene.tiles) cost += scene.weight * double(tiles) * problem.cost(spectrum);
+        for (const auto& [spectrum, tiles] : scene.tiles) cost += scene.weight * double(tiles) * least_cost(modes, spectrum);
         aimed = problem.aim == Aim::sum ? aimed + cost : std::max(aimed, cost);
     }
     return aimed;

@@ -40,7 +40,7 @@ struct ModeSet {
 };
 
 /// Every union of the spectra, themselves included, in ascending order: a mode of an optimal set is the union of the spectra that
-/// it serves, because fewer bits cost no more. Empty when there are more than the cap.
+/// it serves, where fewer bits cost no more. Empty when there are more than the cap.
 std::vector<std::uint32_t> union_closure(std::span<const std::uint32_t> spectra, std::size_t cap);
 inline constexpr std::size_t largest_closure = 4096;
 /// The closure of the scenes' spectra; where that is too large, the spectra, the unions of pairs of the 64 most frequent, and
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> candidates(const ModeProblem&);
 
 /// What a set of modes costs; the problem's full mode is added.
 double cost_of(const ModeProblem&, std::span<const std::uint32_t> modes);
-/// What tiles cost if every spectrum had a mode of its own, without dispatches: nothing is below.
+/// What tiles cost if every candidate were a mode, without dispatches: nothing is below.
 double ideal_cost(const ModeProblem&);
 
 /// Adds the mode that saves most while one saves more than its dispatch. At least 1 - 1/e of the best possible saving (the sum is

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/whole_file.h"
+#include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/isa/compile_elsewhere.h"
@@ -20,7 +21,7 @@ struct Options {
     ChoiceOptions choices;
     std::vector<std::string> models;
     std::size_t frame = 0;
-    std::filesystem::path dump;
+    std::filesystem::path dump, tiles;
     bool json = false, no_run = false;
 };
 
@@ -68,6 +69,43 @@ Result<void> dump(const Options& options, const std::string& gpu, const Compilat
     return {};
 }
 
+/// Whether `--tiles` can be followed: before anything is compiled.
+Result<void> check_tiles(const Options& options, std::span<const GpuModel* const> models) {
+    if (options.tiles.empty()) return {};
+    const std::string kind = options.tiles.extension().string();
+    if (kind != ".exr" && kind != ".png")
+        return fail(Fault::usage, "tiles are written as .exr or .png, not as '{}'", options.tiles.filename().string());
+    if (models.size() > 1) return fail(Fault::usage, "tiles are of one GPU, not of {}; name one", models.size());
+    return {};
+}
+
+/// Whose tiles are joined with what.
+struct TilesOfGpu {
+    const Technique& technique;
+    IsaOfGpu& gpu;
+    const PipelineRequests& requests;
+};
+
+/// Joins the tiles of the frame with what was compiled, and writes their picture.
+Result<void> add_tiles(Session& session, Request request, const Options& options, TilesOfGpu of) {
+    request.outputs = outputs_of_variants(of.technique);
+    request.once = true;
+    const auto run = session.run(request);
+    if (!run) return run.error();
+    auto waves = waves_of_tiles({of.technique, *run, of.gpu, of.requests});
+    if (!waves) return waves.error();
+    of.gpu.tiles = *std::move(waves);
+    const TileWaves& made = *of.gpu.tiles;
+    if (options.tiles.extension() == ".png") {
+        const Canvas canvas = tile_waves_picture(made, *of.gpu.model);
+        const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
+        return write_png(options.tiles, extent, std::as_bytes(std::span(canvas.pixels())));
+    }
+    Metadata metadata = provenance(session, request, *run);
+    metadata["strata.gpu_model"] = of.gpu.name;
+    return write_exr(options.tiles, {{"waves per SIMD", made.picture}}, metadata);
+}
+
 /// What of the frame must be run to be known: indirect dispatches and draws.
 bool needs_a_run(const Plan& plan) {
     return std::ranges::any_of(plan.steps, [](const PlannedStep& planned) {
@@ -86,6 +124,65 @@ Result<IsaReport> describe_frame(Session& session, const Request& request, const
                      .samples = request.samples ? request.samples : frame->view.samples};
 }
 
+/// The compilations of one plan, in the order of the models.
+Result<std::vector<Compilation>> compile_all(const Options& options, const PipelineRequests& requests,
+                                             std::span<const GpuModel* const> models, std::uint32_t device) {
+    std::vector<Compilation> made;
+    for (const GpuModel* model : models) {
+        auto compiled =
+            compile_elsewhere(requests.pipelines, {.model = model,
+                                                   .device = model ? 0 : device,
+                                                   .texts = options.dump.empty() ? CompilerTexts::left : CompilerTexts::kept,
+                                                   .program = "/proc/self/exe",
+                                                   .environment = environ});
+        if (!compiled) return compiled.error();
+        made.push_back(*std::move(compiled));
+    }
+    return made;
+}
+
+/// Who shades the tiles that are asked for, which the request then uses; null where none are.
+Result<const Technique*> shader_of_tiles(const Options& options, Request& request) {
+    if (options.tiles.empty()) return nullptr;
+    const auto technique = technique_of_variants(request.uses);
+    if (technique) request.uses.emplace_back((*technique)->name);
+    return technique;
+}
+
+Result<void> report_frame(const Options& options, std::span<const GpuModel* const> models) {
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->frame = options.frame;
+    const auto shader = shader_of_tiles(options, *request);
+    if (!shader) return shader.error();
+    auto session = open(options.open);
+    if (!session) return session.error();
+    const auto planned = (*session)->plan(*request);
+    if (!planned) return planned.error();
+    const PipelineRequests requests = pipelines_of(planned->plan);
+    const DeviceInfo& device = (*session)->device();
+    // Before the frame is run: what cannot be compiled is known at once.
+    const auto made = compile_all(options, requests, models, device.index);
+    if (!made) return made.error();
+    auto counts =
+        options.no_run || !needs_a_run(planned->plan) ? Result<StepCounts>(StepCounts{}) : count_steps(**session, *request);
+    if (!counts) return counts.error();
+    auto report = describe_frame(**session, *request, options);
+    if (!report) return report.error();
+    const Counting counting{planned->plan, *counts, !device.software};
+    for (std::size_t i = 0; i < made->size(); ++i) {
+        const Compilation& compiled = (*made)[i];
+        const GpuModel* model = models[i] ? models[i] : gpu_model_of(compiled.device);
+        IsaOfGpu& gpu = report->gpus.emplace_back(isa_of_gpu(model, compiled, requests, passes_of(counting, requests)));
+        if (*shader)
+            if (const auto done = add_tiles(**session, *request, options, {**shader, gpu, requests}); !done) return done;
+        if (options.dump.empty()) continue;
+        if (const auto done = dump(options, gpu.name, compiled, requests); !done) return done;
+    }
+    fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
+    return {};
+}
+
 Result<void> run_isa(const Options& options) {
     const auto models = models_of(options);
     if (!models) return models.error();
@@ -93,40 +190,8 @@ Result<void> run_isa(const Options& options) {
         fmt::print("{}", gpu_models_text());
         return {};
     }
-    auto request = request_of(options.choices);
-    if (!request) return request.error();
-    request->frame = options.frame;
-    auto session = open(options.open);
-    if (!session) return session.error();
-    const auto planned = (*session)->plan(*request);
-    if (!planned) return planned.error();
-    const PipelineRequests requests = pipelines_of(planned->plan);
-    const DeviceInfo& device = (*session)->device();
-    std::vector<Compilation> made;  // before the frame is run: what cannot be compiled is known at once
-    for (const GpuModel* model : *models) {
-        auto compiled =
-            compile_elsewhere(requests.pipelines, {.model = model,
-                                                   .device = model ? 0 : device.index,
-                                                   .texts = options.dump.empty() ? CompilerTexts::left : CompilerTexts::kept,
-                                                   .program = "/proc/self/exe",
-                                                   .environment = environ});
-        if (!compiled) return compiled.error();
-        made.push_back(*std::move(compiled));
-    }
-    auto counts =
-        options.no_run || !needs_a_run(planned->plan) ? Result<StepCounts>(StepCounts{}) : count_steps(**session, *request);
-    if (!counts) return counts.error();
-    auto report = describe_frame(**session, *request, options);
-    if (!report) return report.error();
-    const Counting counting{planned->plan, *counts, !device.software};
-    for (std::size_t i = 0; i < made.size(); ++i) {
-        const GpuModel* model = (*models)[i] ? (*models)[i] : gpu_model_of(made[i].device);
-        report->gpus.push_back(isa_of_gpu(model, made[i], requests, passes_of(counting, requests)));
-        if (options.dump.empty()) continue;
-        if (const auto done = dump(options, report->gpus.back().name, made[i], requests); !done) return done;
-    }
-    fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
-    return {};
+    if (const auto fine = check_tiles(options, *models); !fine) return fine;
+    return report_frame(options, *models);
 }
 
 }  // namespace
@@ -142,7 +207,11 @@ std::function<Result<void>()> declare_isa(CLI::App& app) {
         ->allow_extra_args(false);
     app.add_option("--frame", options->frame, "which frame, default 0");
     app.add_option("--dump", options->dump, "folder for the disassembly of every program, made when missing");
-    app.add_flag("--no-run", options->no_run, "do not run the frame to count what indirect dispatches and draws invoke");
+    auto* no_run =
+        app.add_flag("--no-run", options->no_run, "do not run the frame to count what indirect dispatches and draws invoke");
+    app.add_option("--tiles", options->tiles,
+                   "waves per SIMD of the shader of each tile, where a technique has several: .png in colors, .exr the numbers")
+        ->excludes(no_run);
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return run_isa(*options); };
 }

@@ -99,15 +99,14 @@ Result<void> spectra(const Options& options) {
         question.compile = [&](const std::vector<PipelineRequest>& pipelines) {
             return compile_elsewhere(pipelines, {.model = *gpu, .program = "/proc/self/exe", .environment = environ});
         };
-    auto costs = (*source)->costs(question);
-    if (!costs) return costs.error();
     SpectraWish wish = options.wish;
     wish.aim = options.aim == "worst" ? lighting::Aim::worst : lighting::Aim::sum;
-    SpectraReport report = find_modes(*std::move(frames), *std::move(costs), wish);
-    report.technique = (*technique)->name;
-    report.cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
-    fmt::print("{}", options.json ? as_json(report) : as_text(report));
-    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(report));
+    auto report = find_modes(**source, std::move(question), wish);
+    if (!report) return report.error();
+    report->technique = (*technique)->name;
+    report->cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
+    fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
+    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*report));
 }
 
 std::string help_of_costs() {

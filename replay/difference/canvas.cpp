@@ -50,4 +50,12 @@ int Canvas::text(std::string_view text, Box at, Rgb ink) {
     return text_width(copy);
 }
 
+Rgb magma(double share) {
+    static constexpr Rgb stops[] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
+                                    {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
+    const double at = std::clamp(share, 0., 1.) * 8;
+    const auto below = std::min<std::size_t>(7, static_cast<std::size_t>(at));
+    return Rgb(glm::mix(glm::dvec3(stops[below]), glm::dvec3(stops[below + 1]), at - double(below)) + .5);
+}
+
 }  // namespace strata

@@ -41,4 +41,7 @@ private:
 /// Pixels that `text` takes.
 int text_width(std::string_view);
 
+/// matplotlib's magma (CC0): from black at 0 over violet and orange to a pale yellow at 1.
+Rgb magma(double share);
+
 }  // namespace strata

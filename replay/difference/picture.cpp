@@ -88,15 +88,6 @@ Range range_of(const Texels& a, Format format) {
     return {low, high > low ? high : low + 1, a.content == Content::radiance ? Content::radiance : Content::numbers};
 }
 
-/// matplotlib's magma (CC0) at nine places.
-Rgb magma(double share) {
-    static constexpr Rgb stops[] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
-                                    {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};
-    const double at = std::clamp(share, 0., 1.) * 8;
-    const auto below = std::min<std::size_t>(7, static_cast<std::size_t>(at));
-    return Rgb(glm::mix(glm::dvec3(stops[below]), glm::dvec3(stops[below + 1]), at - double(below)) + .5);
-}
-
 /// One channel: red where B is more, blue where it is less. Several: how far apart each is.
 Rgb difference_color(const glm::dvec3& a, const glm::dvec3& b, double gain, std::uint32_t channels) {
     const glm::dvec3 apart = (b - a) * gain;

@@ -59,6 +59,25 @@ ordered_json json_of(const IsaPass& pass) {
             {"modelled_ms", or_null(pass.modelled_ms)}};
 }
 
+/// A number of a table: most are whole.
+ordered_json json_of(double value) {
+    return value == std::floor(value) ? ordered_json(static_cast<std::int64_t>(value)) : ordered_json(value);
+}
+
+ordered_json json_of(const TileWaves& waves) {
+    ordered_json json{{"technique", waves.technique},
+                      {"tiles", waves.tiles},
+                      {"mean_waves_per_simd", waves.mean},
+                      {"variants", ordered_json::array()}};
+    for (const VariantWaves& variant : waves.variants) {
+        ordered_json& row = json["variants"].emplace_back();
+        for (std::size_t i = 0; i < waves.columns.size(); ++i) row[std::string(waves.columns[i].name)] = json_of(variant.row[i]);
+        row["vector_registers"] = or_null(variant.registers);
+        row["occupancy"] = json_of(variant.occupancy);
+    }
+    return json;
+}
+
 ordered_json json_of(const GpuModel& model) {
     return {{"name", model.name},
             {"board", model.board},
@@ -84,6 +103,7 @@ std::string as_json(const IsaReport& report) {
         row["modelled_ms"] = or_null(gpu.modelled_ms);
         row["modelled_by"] = "invocations / 64 x inverse throughput / (SIMDs x clock)";
         row["notes"] = gpu.notes;
+        if (gpu.tiles) row["tiles"] = json_of(*gpu.tiles);
     }
     return json.dump(2) + "\n";
 }

@@ -8,6 +8,7 @@
 #include "replay/isa/compiled_pipeline.h"
 #include "replay/isa/occupancy.h"
 #include "replay/isa/pipeline_request.h"
+#include "replay/isa/tile_waves.h"
 #include "replay/step_counts.h"
 
 namespace strata {
@@ -41,6 +42,7 @@ struct IsaOfGpu {
     std::vector<IsaPass> passes;
     std::optional<double> modelled_ms;  ///< of the passes that have a time; nothing where none has
     std::vector<std::string> notes;     ///< pipelines that did not compile, numbers that contradict each other
+    std::optional<TileWaves> tiles;     ///< when asked for
 };
 
 struct IsaReport {

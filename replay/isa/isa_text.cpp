@@ -45,6 +45,30 @@ Table passes_of(const IsaOfGpu& gpu) {
     return table;
 }
 
+/// A column of the technique's own: bits as such.
+std::string cell(const TableColumn& column, double value) {
+    return column.unit == "bits" ? fmt::format("{:#06x}", static_cast<std::uint64_t>(value)) : fmt::format("{}", value);
+}
+
+std::string tiles_text(const TileWaves& waves) {
+    Table table;
+    for (const TableColumn& column : waves.columns)
+        if (column.name != waves.constant) table.heads.emplace_back(column.name);
+    table.heads.insert(table.heads.end(), {"% of tiles", "VGPR", "waves per SIMD", "limited by"});
+    for (const VariantWaves& variant : waves.variants) {
+        Table::Row row{.marks = "", .label = fmt::format("{} {}", waves.constant, variant.number), .cells = {}};
+        for (std::size_t i = 0; i < waves.columns.size(); ++i)
+            if (waves.columns[i].name != waves.constant) row.cells.push_back(cell(waves.columns[i], variant.row[i]));
+        row.cells.push_back(fmt::format("{:.1f}", 100 * double(variant.tiles) / double(waves.tiles)));
+        row.cells.insert(row.cells.end(),
+                         {cell(variant.registers), cell(variant.occupancy.waves_per_simd), limit_of(variant.occupancy)});
+        table.rows.push_back(std::move(row));
+    }
+    return fmt::format("\n  {}: {:.2f} waves per SIMD, the mean over {}\n", waves.technique, waves.mean,
+                       counted(waves.tiles, "shaded tile")) +
+           as_text(table);
+}
+
 std::string describe(const GpuModel& model) {
     return fmt::format("{}, {} x {} SIMDs, {} MHz", model.board, counted(model.units, model.unit->called), model.unit->simds,
                        model.clock_mhz);
@@ -59,6 +83,7 @@ std::string as_text(const IsaReport& report) {
         text += fmt::format("\n{}{}\n  {}, {}\n", gpu.name, gpu.model ? ": " + describe(*gpu.model) : "", gpu.device, gpu.driver);
         text += as_text(programs_of(gpu));
         for (const std::string& note : gpu.notes) text += fmt::format("  note: {}\n", note);
+        if (gpu.tiles) text += tiles_text(*gpu.tiles);
         if (!gpu.modelled_ms) continue;
         text +=
             "\n  modelled, not measured: invocations / 64 x cycles per 64 / (SIMDs x clock); no memory, no caches, no vertices\n";

@@ -36,6 +36,7 @@ ordered_json modes_of(const SpectraReport& report) {
             if (row.mode == i) tiles += row.tiles;
         modes.push_back(
             {{"mode", i}, {"bits", mode.features}, {"features", names_of(mode.features)}, {"cost", mode.cost}, {"tiles", tiles}});
+        if (report.costs.waves) modes.back()["waves_per_simd"] = report.costs.waves(mode.features);
     }
     return modes;
 }
@@ -60,6 +61,7 @@ std::string as_json(const SpectraReport& report) {
         {"frames", ordered_json::array()}};
     for (const FrameSpectra& frame : report.frames)
         json["frames"].push_back({{"capture", frame.capture}, {"frame", frame.frame}, {"spectra", json_of(frame.rows)}});
+    if (const auto mean = mean_waves(report)) json["mean_waves_per_simd"] = *mean;
     for (const TimedMode& mode : report.costs.timed)
         json["timed"].push_back({{"bits", mode.features}, {"tiles", mode.tiles}, {"saved_ms", mode.saved_ms}});
     for (const auto& [bits, mode] : report.costs.compiled)

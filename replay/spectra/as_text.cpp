@@ -63,11 +63,10 @@ std::string prediction_text(const SpectraReport& report) {
 
 /// Waves per SIMD of the full mode and, weighted by tiles, of the modes that were found.
 std::string waves_text(const SpectraReport& report) {
-    if (!report.costs.waves) return "";
-    double sum = 0;
-    for (const lighting::SpectrumRow& row : report.rows) sum += double(row.tiles) * report.costs.waves(row.features);
+    const auto mean = mean_waves(report);
+    if (!mean) return "";
     return fmt::format("    {:40} {} of one full mode, {:.2f} of these by tiles\n", "waves per SIMD",
-                       report.costs.waves(every_light_feature), sum / double(all_tiles(report)));
+                       report.costs.waves(every_light_feature), *mean);
 }
 
 }  // namespace

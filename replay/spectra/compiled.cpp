@@ -58,13 +58,15 @@ Result<ModeCosts> compiled_costs(const CostQuestion& question) {
     if (!question.compile) return fail(Fault::usage, "--cost isa needs a GPU to compile for: add --gpu-model");
     auto session = question.open(question.frames.front().capture);
     if (!session) return session.error();
-    std::map<std::uint32_t, lighting::CompiledMode> modes;
-    for (std::size_t first = 0; first < question.modes.size(); first += most_settable_modes - 1) {
-        const std::size_t end = std::min(first + most_settable_modes - 1, question.modes.size());
-        auto pipelines = pipelines_of_modes(question, **session, std::span(question.modes).subspan(first, end - first));
+    std::map<std::uint32_t, lighting::CompiledMode> modes = question.compiled;
+    std::vector<std::uint32_t> asked = question.modes;
+    std::erase_if(asked, [&](std::uint32_t mode) { return modes.contains(mode); });
+    for (std::size_t first = 0; first < asked.size(); first += most_settable_modes - 1) {
+        const std::size_t end = std::min(first + most_settable_modes - 1, asked.size());
+        auto pipelines = pipelines_of_modes(question, **session, std::span(asked).subspan(first, end - first));
         if (!pipelines) return pipelines.error();
         if (const auto added = add_modes(question, *std::move(pipelines), modes); !added) return added.error();
-        if (question.progress) question.progress("compiling modes", double(end) / double(question.modes.size()));
+        if (question.progress) question.progress("compiling modes", double(end) / double(asked.size()));
     }
     if (!modes.contains(every_light_feature))
         return fail(Fault::device_lacks, "{} gave no statistics of the full mode", question.gpu->name);

@@ -4,9 +4,7 @@
 #include <cassert>
 #include <set>
 
-#include <fmt/ranges.h>
-
-#include "passes/registry.h"
+#include "replay/offering.h"
 
 namespace strata {
 namespace {
@@ -75,29 +73,30 @@ std::vector<lighting::Mode> as_chosen(std::vector<lighting::Mode> modes) {
     return modes;
 }
 
+/// By feature the union of the spectra that do without it: one that is dear and rare is told from the rest by these alone.
+std::vector<std::uint32_t> unions_without_a_feature(const lighting::Histogram& tiles) {
+    std::vector<std::uint32_t> unions;
+    for (std::uint32_t bit = 0; bit < light_feature_bits; ++bit) {
+        std::uint32_t features = 0;
+        for (const auto& [spectrum, count] : tiles)
+            if ((spectrum >> bit & 1) == 0) features |= spectrum;
+        unions.push_back(features);
+    }
+    return unions;
+}
+
+/// Modes that were found by a cost completed from those of others, though their own is to be had.
+std::vector<std::uint32_t> guessed_modes(const SpectraReport& report, std::span<const std::uint32_t> asked) {
+    std::vector<std::uint32_t> guessed;
+    for (const lighting::Mode& mode : report.found.modes)
+        if (!report.costs.compiled.empty() && std::ranges::count(asked, mode.features) == 0) guessed.push_back(mode.features);
+    return guessed;
+}
+
 }  // namespace
 
 Result<const Technique*> technique_of_spectra(std::span<const std::string> uses) {
-    std::vector<const Technique*> offering;
-    std::vector<std::string_view> names;
-    for (const Technique& technique : techniques())
-        if (offers_spectra(technique)) {
-            offering.push_back(&technique);
-            names.push_back(technique.name);
-        }
-    if (offering.empty()) return fail(Fault::usage, "no technique that is built in makes feature spectra");
-    const Technique* chosen = offering.front();
-    for (const std::string& use : uses) {
-        const auto technique = find_technique(use);
-        if (!technique) return technique.error();
-        if ((*technique)->stage != offering.front()->stage) continue;
-        if (!offers_spectra(**technique))
-            return fail(
-                Fault::usage, "{} makes no feature spectra; {}", use,
-                names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
-        chosen = *technique;
-    }
-    return chosen;
+    return technique_offering({offers_spectra, "makes no feature spectra"}, uses);
 }
 
 std::vector<std::string> settings_of(std::span<const std::uint32_t> modes) {
@@ -130,7 +129,7 @@ Result<GatheredFrames> gather_spectra(Session& session, const Technique& techniq
 }
 
 std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra> frames) {
-    constexpr std::size_t most = 24, smallest_share = 64;
+    constexpr std::size_t most = 40, smallest_share = 64;
     const lighting::Histogram tiles = summed(frames);
     const auto is_worth_it = [&](std::uint32_t mode) {
         std::uint64_t served = 0;
@@ -145,6 +144,7 @@ std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra> frame
         if (modes.size() < most && std::ranges::count(modes, mode) == 0 && is_worth_it(mode)) modes.push_back(mode);
     };
     for (const lighting::Mode& mode : lighting::greedy_modes(problem).modes) add(mode.features);
+    for (const std::uint32_t mode : unions_without_a_feature(tiles)) add(mode);
     const lighting::Mode full{problem.full, 0};
     for (const lighting::SpectrumRow& row : lighting::sorted_rows(tiles, std::span(&full, 1))) add(row.spectrum);
     return modes;
@@ -161,6 +161,16 @@ std::span<const CostSource> cost_sources() {
         {"isa", "cycles and waves per SIMD as RADV's compiler states them for --gpu-model", compiled_costs},
     };
     return table;
+}
+
+std::optional<double> mean_waves(const SpectraReport& report) {
+    if (!report.costs.waves) return {};
+    double waves = 0, tiles = 0;
+    for (const lighting::SpectrumRow& row : report.rows) {
+        waves += double(row.tiles) * report.costs.waves(row.features);
+        tiles += double(row.tiles);
+    }
+    return waves / tiles;
 }
 
 SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, const SpectraWish& wish) {
@@ -182,6 +192,18 @@ SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, cons
     report.costs = std::move(costs);
     report.frames = std::move(frames);
     return report;
+}
+
+Result<SpectraReport> find_modes(const CostSource& source, CostQuestion question, const SpectraWish& wish) {
+    for (;;) {
+        auto costs = source.costs(question);
+        if (!costs) return costs.error();
+        SpectraReport report = find_modes({question.frames.begin(), question.frames.end()}, *std::move(costs), wish);
+        const std::vector<std::uint32_t> guessed = guessed_modes(report, question.modes);
+        if (guessed.empty()) return report;
+        question.modes.insert(question.modes.end(), guessed.begin(), guessed.end());
+        question.compiled = report.costs.compiled;
+    }
 }
 
 }  // namespace strata

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ struct CostQuestion {
     Progress progress = {};
     const GpuModel* gpu = nullptr;  ///< that `compile` compiles for
     std::function<Result<Compilation>(const std::vector<PipelineRequest>&)> compile = {};
+    std::map<std::uint32_t, lighting::CompiledMode> compiled = {};  ///< what it need not be asked again
 };
 /// A way to price modes: `--cost NAME`.
 struct CostSource {
@@ -77,8 +79,8 @@ Result<ModeCosts> weighted_costs(const CostQuestion&);
 Result<ModeCosts> measured_costs(const CostQuestion&);
 /// By the compiler of a GPU, see compiled.cpp.
 Result<ModeCosts> compiled_costs(const CostQuestion&);
-/// At most so many modes that are worth asking for: those a greedy search by weights takes, then the most frequent spectra; each
-/// serves at least one tile in 64, fewer drown in a timer's noise.
+/// At most 40 modes that are worth asking for: those a greedy search by weights takes, for every feature the union of the spectra
+/// that do without it, then the most frequent spectra; each serves at least one tile in 64, fewer drown in a timer's noise.
 std::vector<std::uint32_t> modes_that_matter(std::span<const FrameSpectra>);
 
 struct SpectraWish {
@@ -95,7 +97,13 @@ struct SpectraReport {
     std::vector<lighting::SpectrumRow> rows = {};               ///< of all frames, with the modes that were found
     double full = 0, as_replayed = 0, by_modes = 0, ideal = 0;  ///< predicted costs of all frames, by the wish's aim
 };
+/// Waves per SIMD, the mean over the tiles as the modes that were found shade them; nothing where costs know no waves.
+std::optional<double> mean_waves(const SpectraReport&);
 SpectraReport find_modes(std::vector<FrameSpectra>, ModeCosts, const SpectraWish&);
+
+/// The same of the question's frames by what the source says of modes. Where that is a compiler, modes that are found and were
+/// not compiled are, and the search begins anew: no mode is found by a guess.
+Result<SpectraReport> find_modes(const CostSource&, CostQuestion, const SpectraWish&);
 
 std::string as_text(const SpectraReport&);
 std::string as_json(const SpectraReport&);

@@ -291,5 +291,16 @@ TEST(FeatureSpectra, CompilersCyclesAreWeightedByTheWavesThatAreLeft) {
     EXPECT_DOUBLE_EQ(cost(A | S), 2100);
 }
 
+TEST(FeatureSpectra, ACompilersWordOnAModeStandsEvenWhereMoreFeaturesCostLess) {
+    const ModeCost cost = compiled_cost({{A, {3, 4}}, {A | P, {2, 4}}, {every_light_feature, {9, 4}}});
+    EXPECT_EQ(cost(A), 3);
+    EXPECT_EQ(cost(A | P), 2);
+    const ModeProblem problem{.scenes = {{.tiles = {{A, 10}, {A | P, 1}}}}, .modes = 3, .cost = cost};
+    EXPECT_EQ(ideal_cost(problem), 11 * 2) << "a mode of its own for A would cost more than the one of both";
+    const ModeSet best = best_modes(problem);
+    EXPECT_EQ(best.cost, 11 * 2);
+    EXPECT_THAT(masks(best), ElementsAre(A | P, every_light_feature));
+}
+
 }  // namespace
 }  // namespace strata::lighting

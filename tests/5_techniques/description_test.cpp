@@ -45,6 +45,17 @@ TEST_P(Description, IsNamedForItsStage) {
     EXPECT_TRUE(technique.name.starts_with(std::string(name(technique.stage)) + "/"));
 }
 
+TEST_P(Description, WithShaderVariantsHasAViewAndATableOfThem) {
+    const Technique& technique = GetParam();
+    const ShaderVariants& variants = technique.variants;
+    if (variants.constant.empty()) return;
+    EXPECT_EQ(std::ranges::count(technique.views, variants.view, &DebugView::name), 1);
+    const auto table = std::ranges::find(technique.tables, variants.table, &DebugTable::name);
+    ASSERT_NE(table, technique.tables.end());
+    for (const std::string_view column : {variants.constant, std::string_view("tiles")})
+        EXPECT_EQ(std::ranges::count(table->columns, column, &TableColumn::name), 1) << column;
+}
+
 TEST_P(Description, HasParametersWithDefaultsInTheirRange) {
     const Technique& technique = GetParam();
     expect_distinct_and_explained(technique.params);

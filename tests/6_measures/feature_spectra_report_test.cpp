@@ -160,6 +160,35 @@ TEST(MeasuredCosts, OfACaptureThatDoesNotOpenAreItsError) {
     EXPECT_EQ(costs.error().sentence, "it is gone");
 }
 
+/// Cycles by the weights, of those modes alone that are asked for, as a compiler would say; and no mode twice.
+Result<ModeCosts> asked_of_a_compiler(const CostQuestion& asked) {
+    std::map<std::uint32_t, lighting::CompiledMode> compiled = asked.compiled;
+    for (const std::uint32_t mode : asked.modes) compiled[mode] = {.cycles = 100 * lighting::weighted_cost(mode), .waves = 4};
+    EXPECT_EQ(compiled.size(), asked.modes.size());
+    return ModeCosts{.cost = lighting::compiled_cost(compiled), .unit = "cycles", .compiled = compiled};
+}
+
+TEST(CompiledCosts, AreThoseOfTheModesThatAreFoundHoweverFewWereKnownAtFirst) {
+    const Technique technique = some_technique();
+    const std::vector<FrameSpectra> frames = gathered();
+    CostQuestion asked = question(technique, frames);
+    asked.modes = {every_light_feature, 0};
+    const auto report = find_modes({"isa", "", asked_of_a_compiler}, asked, {.modes = 4});
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->found.modes.size(), 4u);
+    for (const lighting::Mode& mode : report->found.modes) {
+        EXPECT_TRUE(report->costs.compiled.contains(mode.features)) << mode.features;
+        EXPECT_NEAR(mode.cost, 100 * lighting::weighted_cost(mode.features), 1e-9) << mode.features;
+    }
+}
+
+TEST(ModesThatMatter, TellADearFeatureFromTheRest) {
+    FrameSpectra frame;
+    for (std::uint32_t bit = 0; bit < 8; ++bit) frame.tiles[1u << bit] = 10;
+    const std::vector<std::uint32_t> modes = modes_that_matter(std::array{frame});
+    for (std::uint32_t bit = 0; bit < 8; ++bit) EXPECT_EQ(std::ranges::count(modes, 0xffu & ~(1u << bit)), 1) << bit;
+}
+
 TEST(Predictions, AreOfTheModesThatTilesChooseByTheirWeightsWhateverCostsFoundThem) {
     constexpr std::uint32_t portals = blockers_portals, shadows = feature_blockers | feature_shadows;
     FrameSpectra frame;

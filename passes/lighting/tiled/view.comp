@@ -28,8 +28,15 @@ uint bytes_used(TileStatistics s) {
 
 vec3 overflow_color(uint overflow) { return vec3(overflow & 1u, overflow >> 1 & 1u, overflow >> 2 & 1u); }
 
+// -1 where nothing is shaded.
+float number_of_mode(uint tile) {
+    const uint mode = records[tile].counts >> 16 & 255u;
+    return mode == empty_tile_mode ? -1.0 : float(mode);
+}
+
 vec3 shown_of(uint tile) {
     const TileStatistics s = statistics[tile];
+    if (shown == view_mode_numbers) return vec3(number_of_mode(tile));
     if (shown == view_modes) return color_of_mode(tile);
     if (shown == view_bytes) return vec3(bytes_used(s));
     if (shown == view_overflow) return overflow_color(s.overflow);

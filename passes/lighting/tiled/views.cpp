@@ -26,7 +26,7 @@ Image nothing_shaded(Graph& graph, Extent extent, double value) {
 
 template <std::uint32_t shown>
 Image picture(Graph& graph, FrameImages& frame, const Settings& settings) {
-    if (!frame.gbuffer0) return nothing_shaded(graph, frame.extent, 0);
+    if (!frame.gbuffer0) return nothing_shaded(graph, frame.extent, shown == view_mode_numbers ? -1 : 0);
     const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
     Image picture = graph.create("tiled view", Shape{.extent = frame.extent, .format = Format::rgba32f});
     graph.compute("lighting/tiled/view.comp")
@@ -111,6 +111,8 @@ std::vector<DebugView> tiled_views() {
         {"culled lights", "red: lights killed by a blocker; green: candidates that do not reach the tile", "lights", 0, 64,
          picture<view_culled>},
         {"tile features", "bits of the tile's feature spectrum", "bits", 0, 16, picture<view_features>},
+        {"mode numbers", "number of the shading mode of each tile, as the table of modes has it; -1 where nothing is shaded", "",
+         -1, 16, picture<view_mode_numbers>},
     };
 }
 

@@ -1,0 +1,22 @@
+// Which technique answers a question that not all can answer.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "passes/technique.h"
+
+namespace strata {
+
+/// What a verb needs of a technique, and how to say that one has it not.
+struct Offer {
+    bool (*is_made_by)(const Technique&);
+    std::string_view lacking;  ///< "makes no feature spectra"
+};
+
+/// The technique that makes the offer: the one of its stage that `uses` names, which must be such a one, else the first on the
+/// list. Fails (usage) with the names of those that do.
+Result<const Technique*> technique_offering(const Offer&, std::span<const std::string> uses);
+
+}  // namespace strata
