@@ -13,6 +13,7 @@ packages=(
     libspirv-cross-c-shared-dev libfmt-dev libglm-dev libtbb-dev libzstd-dev libxxhash-dev
     libflatbuffers-dev flatbuffers-compiler libmeshoptimizer-dev libstb-dev
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
+    libimgui-dev libglfw3-dev fonts-dejavu-core
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git)
 fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)

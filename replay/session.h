@@ -42,6 +42,7 @@ struct Request {
     EyeMove eye = {};                  ///< against the recorded one
     Acts acts = Acts::left;            ///< not with `until`
     bool once = false;                 ///< nothing is kept for later runs that share stages with this one
+    friend bool operator==(const Request&, const Request&) = default;
 };
 
 struct StepRecord {

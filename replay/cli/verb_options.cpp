@@ -135,24 +135,14 @@ Result<void> make_folder(const std::filesystem::path& folder) {
                    : Result<void>();
 }
 
-std::string shell_word(std::string_view word) {
-    std::string safe = "'";
-    for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return safe + "'";
-}
-
 std::string command_line(const CLI::App& verb) {
-    const auto as_needed = [](const std::string& word) {
-        constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,%@";
-        return !word.empty() && word.find_first_not_of(plain) == word.npos ? word : shell_word(word);
-    };
     std::string line = "strata " + verb.get_name();
     for (const CLI::Option* option : verb.get_options()) {
         if (option->count() == 0) continue;
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
             if (!option->get_positional()) line += " " + option->get_name();
-            if (!flag) line += " " + as_needed(value);
+            if (!flag) line += " " + as_shell_word(value);
         }
     }
     return line;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "replay/session.h"
+#include "replay/shell_word.h"
 
 namespace CLI {
 class App;
@@ -40,8 +41,6 @@ Result<Request> request_of(const ChoiceOptions&);
 Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::size_t count);
 /// Makes a folder for output, and those around it, where it is missing.
 Result<void> make_folder(const std::filesystem::path&);
-/// A word for a shell, in quotes whatever it holds.
-std::string shell_word(std::string_view word);
 /// What was typed, as a line for a shell: a verb with its options in the order of the help.
 std::string command_line(const CLI::App& verb);
 /// A Progress: what is being done, on one line of stderr that rewrites itself; on a terminal only.

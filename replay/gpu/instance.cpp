@@ -42,38 +42,44 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
         {}, vk::DebugUtilsMessageSeverityFlagBitsEXT::eError, vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, &collect, &log};
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context, Validation validation, bool has_labels, ValidationLog& log) {
+vk::raii::Instance make_instance(const vk::raii::Context& context, std::vector<const char*> extensions, ValidationLog* log) {
     const vk::ApplicationInfo application("strata", 1, "strata", 1, VK_API_VERSION_1_3);
-    std::vector<const char*> layers, extensions;
-    if (has_labels) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    if (validation == Validation::off) return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
+    std::vector<const char*> layers;
+    if (!log) return {context, vk::InstanceCreateInfo({}, &application, layers, extensions)};
 
     setenv(layer_enables, across_submits, /*overwrite=*/0);
     layers.push_back(validation_layer);
     extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     const vk::ValidationFeaturesEXT features(validation_checks);
-    auto messenger = messenger_info(log);
+    auto messenger = messenger_info(*log);
     messenger.pNext = &features;
     return {context, vk::InstanceCreateInfo({}, &application, layers, extensions, &messenger)};
 }
 
+std::vector<const char*> with_labels(std::span<const char* const> extensions, bool has_labels) {
+    std::vector<const char*> all(extensions.begin(), extensions.end());
+    if (has_labels) all.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    return all;
+}
+
 }  // namespace
 
-Instance::Instance(vk::raii::Context context, Validation validation)
+Instance::Instance(vk::raii::Context context, Validation validation, std::span<const char* const> extensions)
     : log_(std::make_unique<ValidationLog>()),
       context_(std::move(context)),
       has_labels_(has_debug_utils(context_) || validation == Validation::on),
-      instance_(make_instance(context_, validation, has_labels_, *log_)) {
+      instance_(
+          make_instance(context_, with_labels(extensions, has_labels_), validation == Validation::on ? log_.get() : nullptr)) {
     if (validation == Validation::on) messenger_.emplace(instance_, messenger_info(*log_));
 }
 
-Result<Instance> Instance::create(Validation validation) {
+Result<Instance> Instance::create(Validation validation, std::span<const char* const> extensions) {
     try {
         vk::raii::Context context;
         if (validation == Validation::on && !has_layer(context)) {
             return fail(Fault::device_lacks, "validation needs the layer {}: install vulkan-validationlayers", validation_layer);
         }
-        return Instance(std::move(context), validation);
+        return Instance(std::move(context), validation, extensions);
     } catch (const std::exception& problem) {  // no loader is a runtime_error, no driver a vk::SystemError
         return fail(Fault::device_lacks, "no Vulkan on this machine ({}): install a driver, mesa-vulkan-drivers at least",
                     problem.what());

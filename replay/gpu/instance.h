@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ struct ValidationLog {
 
 class Instance {
 public:
-    /// Fails when there is no Vulkan loader, or when validation is asked for and not installed.
-    static Result<Instance> create(Validation);
+    /// Fails when there is no Vulkan loader, or when validation is asked for and not installed. What shows its pictures in a
+    /// window names the extensions its surface needs.
+    static Result<Instance> create(Validation, std::span<const char* const> extensions = {});
 
     const vk::raii::Instance& handle() const { return instance_; }
     /// Whether command buffers and objects can be given names.
@@ -35,7 +37,7 @@ public:
     bool has_messages() const;
 
 private:
-    Instance(vk::raii::Context, Validation);
+    Instance(vk::raii::Context, Validation, std::span<const char* const> extensions);
 
     std::unique_ptr<ValidationLog> log_;  // its address is with the layer
     vk::raii::Context context_;

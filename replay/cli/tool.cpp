@@ -1,12 +1,11 @@
-// strata: one verb per file, one row per verb. JSON and tables go to stdout, everything else to stderr.
+#include "replay/cli/tool.h"
+
 #include <algorithm>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "capture_format/whole_file.h"
 #include "replay/cli/revision.h"
-#include "replay/cli/verb.h"
 #include "replay/gpu/device.h"
 
 namespace strata {
@@ -39,8 +38,9 @@ Result<void> within_memory(const std::function<Result<void>()>& verb) {
     }
 }
 
-/// "strata help VERB" is "strata VERB --help".
-int run(std::vector<std::string> arguments) {
+}  // namespace
+
+int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
     CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.",
                  "strata");
     app.footer(exit_codes);
@@ -54,7 +54,7 @@ int run(std::vector<std::string> arguments) {
     help->add_option("verb", help_about, "a verb");
 
     std::vector<std::pair<CLI::App*, std::function<Result<void>()>>> runs;
-    for (const Verb& verb : verbs()) {
+    for (const Verb& verb : verbs) {
         CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
         runs.emplace_back(sub, verb.declare(*sub));
     }
@@ -69,9 +69,9 @@ int run(std::vector<std::string> arguments) {
     if (gpus) {
         done = list_gpus();
     } else if (help->parsed() && !help_about.empty()) {
-        return run({help_about, "--help"});
+        return run_tool({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     } else if (help->parsed()) {
-        return run({"--help"});
+        return run_tool({"--help"}, verbs);
     } else if (app.get_subcommands().empty()) {
         fmt::print("{}", app.help());
     } else {
@@ -81,10 +81,4 @@ int run(std::vector<std::string> arguments) {
     return done ? 0 : report_error(done.error());
 }
 
-}  // namespace
 }  // namespace strata
-
-int main(int count, char** arguments) {
-    strata::leave_nothing_half_written_when_stopped();
-    return strata::run({arguments + 1, arguments + count});
-}

@@ -1,0 +1,63 @@
+#include "tests/7_inspector/desk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "tests/support/session.h"
+
+namespace strata::ui {
+namespace {
+
+constexpr std::uint32_t width = 96, height = 54;
+
+}  // namespace
+
+std::vector<Frame> small_scenarios() {
+    std::vector<Frame> frames;
+    for (const Scenario& scenario : scenarios()) frames.push_back(scenario.build(0, {.width = width, .height = height}));
+    return frames;
+}
+
+std::size_t frame_of(std::string_view scenario) {
+    return static_cast<std::size_t>(must(find_scenario(scenario)) - scenarios().data());
+}
+
+Desk::Desk() : layer(must(ImguiLayer::headless({.validation = true}))) {
+    inspector = std::make_unique<Inspector>(
+        *layer, Model("scenarios.strata", {.validation = true}, {}),
+        [] { return Session::open(small_scenarios(), {.validation = true}); }, Layout());
+    player = std::make_unique<Player>(*inspector, *layer, ImVec2(1280, 800));
+}
+
+Desk& Desk::clean() {
+    static Desk desk;
+    Model& model = desk.model();
+    model.image = {};
+    model.step.reset();
+    model.pin.reset();
+    model.view = {};
+    model.looks.clear();
+    if (model.is_known()) model.reset_all();
+    model.select_frame(0);
+    ImGui::GetIO().MousePos = {-1000, -1000};
+    must(desk.player->wait());
+    return desk;
+}
+
+const WidgetRecord& Desk::widget(std::string_view path) {
+    const auto& records = inspector->widgets().records();
+    const auto found = std::ranges::find(records, path, &WidgetRecord::path);
+    if (found == records.end()) throw std::runtime_error(fmt::format("there is no widget {}", path));
+    return *found;
+}
+
+std::string Desk::said(std::string_view path) { return widget(path).value; }
+
+void Desk::expect_no_conflicts() {
+    must(player->frames(1));
+    EXPECT_THAT(inspector->widgets().conflicts(), testing::IsEmpty());
+    EXPECT_THAT(layer->take_messages(), testing::IsEmpty());
+}
+
+}  // namespace strata::ui

@@ -1,0 +1,116 @@
+// Every panel draws whatever there is to draw, without a window.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "tests/7_inspector/desk.h"
+#include "tests/support/session.h"
+
+namespace strata::ui {
+namespace {
+
+using testing::HasSubstr;
+
+/// Brings every tab to the front once.
+void look_at_every_panel(Desk& desk) {
+    for (const PanelRow& row : panels()) {
+        must(desk.player->click(fmt::format("tabs/{}", row.name)));
+        must(desk.player->wait());
+        desk.expect_no_conflicts();
+    }
+}
+
+TEST(Panels, EveryPanelDrawsEveryScenarioWithoutTwoWidgetsOfOneName) {
+    Desk& desk = Desk::clean();
+    for (const Scenario& scenario : scenarios()) {
+        SCOPED_TRACE(scenario.name);
+        desk.model().select_frame(frame_of(scenario.name));
+        must(desk.player->wait());
+        ASSERT_EQ(desk.inspector->replayer().error("A"), nullptr) << desk.inspector->replayer().error("A")->sentence;
+        EXPECT_EQ(desk.replay()->request.frame, frame_of(scenario.name));
+        look_at_every_panel(desk);
+    }
+}
+
+TEST(Panels, EveryPanelDrawsEveryTechniqueOfAFrameThatNeedsItsStage) {
+    Desk& desk = Desk::clean();
+    for (const StageInfo& info : stages()) {
+        if (info.scenarios.empty()) continue;
+        desk.model().select_frame(frame_of(info.scenarios.front()));
+        must(desk.player->wait());
+        for (const Technique* technique : techniques_of(info.stage)) {
+            SCOPED_TRACE(technique->name);
+            desk.model().use(*technique);
+            must(desk.player->wait());
+            desk.expect_no_conflicts();
+            const std::string short_name(technique->name.substr(technique->name.find('/') + 1));
+            EXPECT_EQ(desk.said(fmt::format("Techniques/{}/technique", info.name)), short_name);
+            const Error* error = desk.inspector->replayer().error("A");
+            EXPECT_TRUE(!error || error->fault == Fault::device_lacks) << error->sentence;
+        }
+        desk.model().reset_all();
+    }
+}
+
+TEST(Panels, TheTechniquesPanelHasAWidgetForEveryParameter) {
+    Desk& desk = Desk::clean();
+    for (const auto& [at, choice] : desk.model().choices()) {
+        const auto left_out = std::ranges::find(desk.replay()->skipped, at, &SkippedStage::stage);
+        if (left_out != desk.replay()->skipped.end()) continue;
+        for (const Param& param : choice.technique->params)
+            EXPECT_NO_THROW(desk.widget(fmt::format("Techniques/{}/{}/value", name(at), param.name)));
+    }
+}
+
+TEST(Panels, AStageThatIsLeftOutSaysWhy) {
+    Desk& desk = Desk::clean();
+    ASSERT_FALSE(desk.replay()->skipped.empty());
+    const SkippedStage& skipped = desk.replay()->skipped.front();
+    EXPECT_EQ(desk.said(fmt::format("Frame/left out/{}", name(skipped.stage))), skipped.reason);
+}
+
+TEST(Panels, AClickOnAStepShowsWhatItWroteEverywhere) {
+    Desk& desk = Desk::clean();
+    const auto& steps = desk.replay()->steps;
+    const auto makes_images = std::ranges::find_if(steps, [](const PlanRow& row) { return !row.images.empty(); });
+    ASSERT_NE(makes_images, steps.end());
+    must(desk.player->type("Frame/find", makes_images->name));
+    const std::string row = fmt::format("Frame/{}/{} {}", makes_images->scope, makes_images - steps.begin(),
+                                        makes_images->name.substr(makes_images->name.rfind('/') + 1));
+    must(desk.player->click(row));
+    must(desk.player->wait());
+    EXPECT_EQ(desk.model().step, static_cast<std::size_t>(makes_images - steps.begin()));
+    EXPECT_THAT(desk.said("Image/image"), HasSubstr(makes_images->images.front()));
+    must(desk.player->type("Frame/find", ""));
+}
+
+TEST(Panels, MeasuringGivesEveryStepATime) {
+    Desk& desk = Desk::clean();
+    must(desk.player->click("Frame/measure"));
+    must(desk.player->wait());
+    EXPECT_THAT(desk.said("Frame/frame"), HasSubstr("ms"));
+}
+
+TEST(Panels, F1ListsTheKeysOfEveryPanel) {
+    Desk& desk = Desk::clean();
+    must(desk.player->key("f1"));
+    EXPECT_EQ(desk.said("keys/ctrl+z"), "undo");
+    EXPECT_EQ(desk.said("keys/f"), "the whole picture");
+    desk.expect_no_conflicts();
+    must(desk.player->key("f1"));
+}
+
+TEST(Panels, AFrameThatIsNotThereShowsASentenceAndKeepsThePicture) {
+    Desk& desk = Desk::clean();
+    const auto before = desk.replay();
+    desk.model().select_frame(scenarios().size());
+    must(desk.player->wait());
+    EXPECT_THAT(desk.said("status/error"), HasSubstr("there is no frame"));
+    EXPECT_EQ(desk.replay(), before);
+    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("there is no frame"));
+}
+
+}  // namespace
+}  // namespace strata::ui

@@ -1,0 +1,136 @@
+// A script plays a session by synthetic input, and says where it went wrong.
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "replay/image_io.h"
+#include "tests/7_inspector/desk.h"
+#include "tests/7_tool/process.h"
+#include "tests/support/session.h"
+
+namespace strata::ui {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Result<void> play_lines(Desk& desk, const std::string& text) {
+    return play(*desk.player, must(parse_script(text, "script")), "script", folder());
+}
+
+std::string refusal(const std::string& text) {
+    const auto done = play_lines(Desk::clean(), text);
+    return done ? "" : done.error().sentence;
+}
+
+TEST(Script, WordsMayBeInQuotesAndCommentsEndALine) {
+    const auto lines = must(parse_script("click a\n\n  # nothing\nchoose 'a b' \"it's\"  # more\n", "script"));
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[1].number, 4u);
+    EXPECT_THAT(lines[1].words, ElementsAre("choose", "a b", "it's"));
+}
+
+TEST(Script, ErrorsHaveFileAndLine) {
+    EXPECT_THAT(parse_script("wait\nclick 'a\n", "script").error().sentence, HasSubstr("script:2: a quote is not closed"));
+    EXPECT_THAT(refusal("wait\nclik Image/fit\n"), HasSubstr("script:2: there is no command 'clik'; did you mean click?"));
+    EXPECT_THAT(refusal("click Image/fits"), HasSubstr("script:1: there is no widget 'Image/fits'; did you mean Image/fit?"));
+    EXPECT_THAT(refusal("drag Image/exposure"), HasSubstr("it is: drag PATH VALUE"));
+    EXPECT_THAT(refusal("drag Image/exposure 99"), HasSubstr("goes from -12 to 12"));
+    EXPECT_THAT(refusal("click top/undo"), HasSubstr("'top/undo' is disabled"));
+    EXPECT_THAT(refusal("expect Image/channels red"), HasSubstr("says 'RGB', not 'red'"));
+    EXPECT_THAT(refusal("key hyper+x"), HasSubstr("there is no key 'hyper+x'"));
+}
+
+TEST(Script, AWholeSessionPlays) {
+    Desk& desk = Desk::clean();
+    must(play_lines(desk,
+                    "choose Techniques/transparency/technique weighted\n"
+                    "wait\n"
+                    "expect Techniques/transparency/technique weighted\n"
+                    "type Techniques/transparency/falloff/value 55\n"
+                    "wait\n"
+                    "expect Techniques/transparency/falloff/value 55\n"
+                    "expect status/command 'transparency/weighted:falloff=55'\n"
+                    "drag Image/exposure 2\n"
+                    "pin 3 4\n"
+                    "wait\n"
+                    "expect Image/pinned '3 4:'\n"
+                    "shot a.png\n"
+                    "tree a.json\n"
+                    "key ctrl+z\n"
+                    "wait\n"
+                    "expect Techniques/transparency/falloff/value 20\n"));
+    EXPECT_NEAR(desk.model().looks.at("display").exposure, 2, .1);
+    const HostImage shot = must(read_png(folder() / "a.png"));
+    EXPECT_EQ(shot.shape.extent.width, 1280u);
+    EXPECT_TRUE(std::filesystem::exists(folder() / "a.json"));
+}
+
+TEST(Script, TheSameScriptMakesTheSamePicture) {
+    std::vector<std::string> hashes;
+    for (const char* name : {"a", "b"}) {
+        must(play_lines(Desk::clean(), fmt::format("choose Techniques/transparency/technique moments\nwait\nclick "
+                                                   "tabs/Image\nmove Image/picture .5 .5\nshot {}.png\n",
+                                                   name)));
+        hashes.push_back(hash_of(must(read_png(folder() / fmt::format("{}.png", name)))));
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(Script, TheProgramPlaysOneAndExitsByItsOutcome) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata --size 96x54").code, 0);
+    std::ofstream(folder() / "good.txt") << "expect top/capture panes.strata\nshot shown.png\n";
+    std::ofstream(folder() / "bad.txt") << "expect top/capture other.strata\n";
+    const Finished good = strata("inspect panes.strata --script good.txt --size 900x600");
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_EQ(must(read_png(folder() / "shown.png")).shape.extent.width, 900u);
+    const Finished bad = strata("inspect panes.strata --script bad.txt");
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_THAT(bad.err, HasSubstr("bad.txt:1: 'top/capture' says 'panes.strata', not 'other.strata'"));
+    EXPECT_EQ(strata("inspect panes.strata --script missing.txt").code, 2);
+    EXPECT_EQ(strata("inspect missing.strata --script good.txt").code, 3);
+}
+
+TEST(Replayer, OfManyWishesTheLatestIsAnswered) {
+    Replayer replayer([] { return Session::open(small_scenarios(), {}); });
+    for (std::size_t frame = 0; frame < 5; ++frame) replayer.show("A", {.frame = frame});
+    while (!replayer.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    replayer.take_results();
+    ASSERT_TRUE(replayer.shown("A"));
+    EXPECT_EQ(replayer.shown("A")->request.frame, 4u);
+    EXPECT_TRUE(replayer.is_current("A"));
+}
+
+TEST(Replayer, APictureGoesBeforeTheNextStepOfALongJob) {
+    Replayer replayer([] { return Session::open(small_scenarios(), {}); });
+    replayer.show("A", {});
+    while (!replayer.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::atomic<bool> asked = false;
+    const auto job = replayer.start<int>([&](Session&, Progress& progress) -> Result<int> {
+        while (!asked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        progress.at(.5, "half");
+        return 1;
+    });
+    replayer.show("A", {.frame = 1});
+    asked = true;
+    while (!job->result()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    replayer.take_results();
+    EXPECT_EQ(replayer.shown("A")->request.frame, 1u);
+    EXPECT_EQ(job->progress.doing(), "half");
+}
+
+TEST(Layout, ComesBackFromItsFileAndNonsenseIsTheDefaults) {
+    const Layout layout{.left = 250, .width = 1000, .height = 700, .settings = {{"times", true}}};
+    must(write_layout(folder() / "state" / "inspector.json", layout));
+    EXPECT_EQ(read_layout(folder() / "state" / "inspector.json"), layout);
+    std::ofstream(folder() / "bad.json") << "{\"left\": \"wide\", \"width\": -3";
+    EXPECT_EQ(read_layout(folder() / "bad.json"), Layout());
+    EXPECT_EQ(layout_file("/s", "/h"), std::filesystem::path("/s/strata/inspector.json"));
+    EXPECT_EQ(layout_file(nullptr, "/h"), std::filesystem::path("/h/.local/state/strata/inspector.json"));
+    EXPECT_EQ(layout_file("", nullptr), std::nullopt);
+}
+
+}  // namespace
+}  // namespace strata::ui

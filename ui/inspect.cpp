@@ -1,0 +1,71 @@
+#include "ui/inspect.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "ui/script.h"
+#include "ui/window.h"
+
+namespace strata::ui {
+namespace {
+
+Replayer::Open opener(const std::filesystem::path& capture, const DeviceChoice& device, Partial partial) {
+    return [capture, device, partial] { return Session::open(capture, device, partial); };
+}
+
+/// Opening shows a sentence in a window; a script has nobody to read it.
+Result<void> play_script(const InspectOptions& options) {
+    std::ifstream file(options.script);
+    std::stringstream text;
+    text << file.rdbuf();
+    if (!file) return fail(Fault::usage, "cannot read {}", options.script.string());
+    const auto lines = parse_script(text.str(), options.script.string());
+    if (!lines) return lines.error();
+    const Context context;
+    auto layer = ImguiLayer::headless(options.device);
+    if (!layer) return layer.error();
+    const auto [width, height] = options.extent.first ? options.extent : std::pair(1280u, 800u);
+    Inspector inspector(**layer, Model(options.capture, options.device, options.first),
+                        opener(options.capture, options.device, options.partial), Layout());
+    Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
+    if (const auto opened = player.wait(); !opened) return opened;
+    if (const Error* error = inspector.replayer().open_error()) return *error;
+    return play(player, *lines, options.script.string(), std::filesystem::current_path());
+}
+
+Result<void> show_window(const InspectOptions& options) {
+    const auto file = layout_file(std::getenv("XDG_STATE_HOME"), std::getenv("HOME"));
+    Layout layout = file ? read_layout(*file) : Layout();
+    if (options.extent.first != 0) {
+        layout.width = static_cast<int>(options.extent.first);
+        layout.height = static_cast<int>(options.extent.second);
+    }
+    const Context context;
+    auto window = Window::open(layout.width, layout.height, options.device);
+    if (!window) return window.error();
+    auto inspector = std::make_unique<Inspector>((*window)->layer(), Model(options.capture, options.device, options.first),
+                                                 opener(options.capture, options.device, options.partial), layout);
+    while ((*window)->begin_frame(inspector->is_settled() ? Pace::resting : Pace::busy)) {
+        (*window)->set_title(inspector->title());
+        if (const auto drawn = inspector->frame(); !drawn) return drawn;
+        if (const auto shown = (*window)->present(); !shown) return shown;
+        const std::filesystem::path dropped = (*window)->take_dropped();
+        if (dropped.empty()) continue;
+        layout = inspector->layout();
+        inspector = std::make_unique<Inspector>((*window)->layer(), Model(dropped, options.device, {}),
+                                                opener(dropped, options.device, options.partial), layout);
+    }
+    layout = inspector->layout();
+    std::tie(layout.width, layout.height) = (*window)->size();
+    inspector.reset();
+    return file ? write_layout(*file, layout) : Result<void>();
+}
+
+}  // namespace
+
+Result<void> inspect(const InspectOptions& options) {
+    return options.script.empty() ? show_window(options) : play_script(options);
+}
+
+}  // namespace strata::ui

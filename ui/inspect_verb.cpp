@@ -1,0 +1,49 @@
+// strata inspect: the inspector in a window, or played by a script.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "replay/cli/verb_options.h"
+#include "ui/inspect.h"
+
+namespace strata {
+namespace {
+
+struct Options {
+    OpenOptions open;
+    ChoiceOptions choices;
+    std::size_t frame = 0;
+    std::string size;
+    std::filesystem::path script;
+};
+
+Result<void> inspect(const Options& options) {
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->frame = options.frame;
+    ui::InspectOptions inspected{.capture = options.open.capture,
+                                 .device = options.open.device,
+                                 .partial = options.open.allow_partial ? Partial::allowed : Partial::refused,
+                                 .first = *std::move(request),
+                                 .script = options.script};
+    if (!options.size.empty()) {
+        const auto extent = extent_of(options.size);
+        if (!extent) return extent.error();
+        inspected.extent = *extent;
+    }
+    return ui::inspect(inspected);
+}
+
+}  // namespace
+
+std::function<Result<void>()> declare_inspect(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    add_options(app, options->open);
+    add_options(app, options->choices);
+    app.add_option("--frame", options->frame, "the frame that is shown first");
+    app.add_option("--size", options->size, "of the window or of a script's pictures, like 1280x800");
+    app.add_option("--script", options->script, "play these commands without a window; see ui/README.md");
+    return [options] { return inspect(*options); };
+}
+
+}  // namespace strata

@@ -1,0 +1,287 @@
+#include "ui/inspector.h"
+
+#include <algorithm>
+
+#include "replay/counted.h"
+#include "ui/keys.h"
+
+namespace strata::ui {
+namespace {
+
+constexpr float splitter_width = 5, least_region = 80;
+
+/// The keys that are no panel's.
+struct OwnKey {
+    std::string_view chord, help;
+};
+constexpr OwnKey own_keys[] = {
+    {"f1", "these keys"}, {"ctrl+z", "undo"}, {"ctrl+y", "redo"}, {"pageup", "the frame before"}, {"pagedown", "the next frame"},
+};
+
+bool is_own_key(std::string_view chord) { return is_pressed(*chord_of(chord)); }
+
+}  // namespace
+
+Inspector::Inspector(ImguiLayer& layer, Model model, Replayer::Open open, Layout layout)
+    : layer_(&layer),
+      model_(std::move(model)),
+      layout_(std::move(layout)),
+      replayer_(std::make_unique<Replayer>(std::move(open))),
+      host_(std::make_unique<WorkQueue>()) {
+    for (const PanelRow& row : panels()) panels_.push_back({&row, row.make()});
+    layer_->upload_fonts();
+    replayer_->show("A", model_.request());
+}
+
+Inspector::~Inspector() = default;
+
+Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, log_, seconds_}; }
+
+void Inspector::say(LogLine::Kind kind, std::string text) { log_.push_back({kind, seconds_, std::move(text)}); }
+
+void Inspector::take_results() {
+    const bool was_open = replayer_->facts() != nullptr;
+    replayer_->take_results();
+    if (const CaptureFacts* facts = replayer_->facts(); facts && !was_open)
+        say(LogLine::Kind::said,
+            fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), counted(facts->frames, "frame"),
+                        facts->device.name, facts->device.driver, facts->device.driver_version));
+    const Error* error = replayer_->open_error() ? replayer_->open_error() : replayer_->error("A");
+    const std::string sentence = error ? error->sentence : "";
+    if (!sentence.empty() && sentence != last_error_) say(LogLine::Kind::failed, sentence);
+    last_error_ = sentence;
+    const auto replay = replayer_->shown("A");
+    if (!replay || replay == last_replay_) return;
+    last_replay_ = replay;
+    model_.know(replay->frame);
+    for (const std::string& note : replay->run.notes) say(LogLine::Kind::warned, note);
+    say(LogLine::Kind::said,
+        fmt::format("replayed frame {} in {:.1f} ms: {} executed, {} kept from before", replay->request.frame, replay->ms,
+                    counted(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
+}
+
+Result<void> Inspector::frame() {
+    seconds_ += static_cast<double>(ImGui::GetIO().DeltaTime);
+    take_results();
+    model_.begin_frame();
+    widgets_.begin_frame();
+    ImGui::NewFrame();
+    press_keys();
+    draw();
+    if (!ImGui::IsAnyItemActive()) model_.settle();
+    ImGui::Render();
+    replayer_->show("A", model_.request());
+    return layer_->draw(*ImGui::GetDrawData());
+}
+
+bool Inspector::is_settled() const {
+    if (replayer_->open_error()) return true;
+    const bool shows = replayer_->is_current("A") && replayer_->shown("A") == last_replay_;
+    const bool busy = std::ranges::any_of(panels_, [](const Shown& shown) { return shown.panel->is_busy(); });
+    return shows && !busy && replayer_->is_idle() && host_->is_idle();
+}
+
+std::string Inspector::title() const {
+    const CaptureFacts* facts = replayer_->facts();
+    return fmt::format("{}, frame {} \xe2\x80\x93 Strata on {}", model_.capture.filename().string(), model_.edits().frame,
+                       facts ? facts->device.name : "...");
+}
+
+void Inspector::press_keys() {
+    if (is_own_key("f1")) keys_are_shown_ = !keys_are_shown_;
+    if (keys_are_shown_ && is_own_key("escape")) keys_are_shown_ = false;
+    if (is_own_key("ctrl+z")) model_.undo();
+    if (is_own_key("ctrl+y")) model_.redo();
+    const std::size_t frame = model_.edits().frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
+    if (is_own_key("pageup") && frame > 0) model_.select_frame(frame - 1);
+    if (is_own_key("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
+    Services all = services();
+    for (Shown& shown : panels_)
+        for (const PanelKey& key : shown.panel->keys())
+            if (is_own_key(key.chord)) key.pressed(*shown.panel, model_, all);
+}
+
+void Inspector::draw() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ImGui::Begin("inspector", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
+    const float bar = ImGui::GetFrameHeight() + 10;
+    const float status = ImGui::GetFrameHeight();
+    draw_top_bar();
+    ImGui::SetCursorPos({0, bar});
+    draw_regions({size.x, std::max(100.0f, size.y - bar - status)});
+    ImGui::SetCursorPos({8, size.y - status + 2});
+    draw_status();
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    if (keys_are_shown_) draw_keys();
+}
+
+void Inspector::draw_top_bar() {
+    const auto scope = widgets_.in("top");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 4});
+    ImGui::SetCursorPos({10, 5});
+    ImGui::AlignTextToFramePadding();
+    widgets_.text("capture", model_.capture.filename().string(), &palette().accent);
+    ImGui::SameLine(0, 16);
+    draw_frame_choice();
+    ImGui::SameLine(0, 16);
+    ImGui::BeginDisabled(!model_.can_undo());
+    if (widgets_.button("undo", "\xe2\x86\xb6 Undo")) model_.undo();
+    ImGui::EndDisabled();
+    widgets_.help("Ctrl+Z");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!model_.can_redo());
+    if (widgets_.button("redo", "\xe2\x86\xb7 Redo")) model_.redo();
+    ImGui::EndDisabled();
+    widgets_.help("Ctrl+Y");
+    ImGui::SameLine(0, 16);
+    draw_activity();
+    const CaptureFacts* facts = replayer_->facts();
+    const std::string device = facts ? facts->device.name : "opening";
+    const float right = ImGui::CalcTextSize(device.c_str()).x + ImGui::CalcTextSize("Keys").x + 48;
+    ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - right));
+    widgets_.text("device", device, &palette().dim);
+    ImGui::SameLine();
+    if (widgets_.button("keys", "Keys")) keys_are_shown_ = !keys_are_shown_;
+    widgets_.help("F1");
+    ImGui::PopStyleVar();
+}
+
+void Inspector::draw_frame_choice() {
+    const std::size_t count = replayer_->facts() ? replayer_->facts()->frames : 1;
+    widgets_.text("frame text", fmt::format("frame {} of {}", model_.edits().frame, count), &palette().dim);
+    if (count < 2) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(140);
+    const SliderRange range{.high = static_cast<double>(count - 1), .whole = true};
+    if (const auto frame = widgets_.slider("frame", static_cast<double>(model_.edits().frame), range))
+        model_.select_frame(static_cast<std::size_t>(*frame));
+}
+
+void Inspector::draw_activity() {
+    const bool current = replayer_->is_current("A") || replayer_->open_error();
+    if (!current) {
+        constexpr const char* phases[] = {"\xe2\x97\x90", "\xe2\x97\x93", "\xe2\x97\x91", "\xe2\x97\x92"};
+        widgets_.text("activity", fmt::format("{} replaying", phases[static_cast<std::size_t>(seconds_ * 6) % 4]),
+                      &palette().warning);
+    } else if (const auto replay = replayer_->shown("A")) {
+        widgets_.text("activity",
+                      fmt::format("{} x {}, {}", replay->run.width, replay->run.height, counted(replay->run.samples, "sample")),
+                      &palette().dim);
+    } else {
+        widgets_.text("activity", "", &palette().dim);
+    }
+}
+
+void Inspector::draw_regions(ImVec2 size) {
+    layout_.left = std::clamp(layout_.left, least_region, std::max(least_region, size.x / 2 - least_region));
+    layout_.right = std::clamp(layout_.right, least_region, std::max(least_region, size.x / 2 - least_region));
+    layout_.bottom = std::clamp(layout_.bottom, least_region, std::max(least_region, size.y * .7f));
+    const float center = size.x - layout_.left - layout_.right - 2 * splitter_width;
+    const float upper = size.y - layout_.bottom - splitter_width;
+    draw_region(Area::left, {layout_.left, size.y});
+    ImGui::SameLine();
+    layout_.left += splitter("left edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW);
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    draw_region(Area::center, {center, upper});
+    layout_.bottom -= splitter("bottom edge", {center, splitter_width}, ImGuiMouseCursor_ResizeNS);
+    draw_region(Area::bottom, {center, layout_.bottom});
+    ImGui::EndGroup();
+    ImGui::SameLine();
+    layout_.right -= splitter("right edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW);
+    ImGui::SameLine();
+    draw_region(Area::right, {layout_.right, size.y});
+}
+
+float Inspector::splitter(std::string_view name, ImVec2 size, ImGuiMouseCursor cursor) {
+    const auto scope = widgets_.in("layout");
+    widgets_.canvas(name, size);
+    const bool held = ImGui::IsItemActive();
+    if (held || ImGui::IsItemHovered()) {
+        ImGui::SetMouseCursor(cursor);
+        ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                                  packed(palette().accent, held ? .8f : .4f));
+    }
+    if (!held) return 0;
+    return cursor == ImGuiMouseCursor_ResizeEW ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y;
+}
+
+void Inspector::draw_region(Area area, ImVec2 size) {
+    constexpr const char* names[] = {"left", "center", "right", "bottom"};
+    const char* name = names[static_cast<std::size_t>(area)];
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8, 6});
+    ImGui::BeginChild(
+        name, size, false,
+        ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {7, 5});
+    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) {
+        for (Shown& shown : panels_) {
+            if (shown.row->area != area) continue;
+            const std::string label(shown.row->name);
+            const bool selected = ImGui::BeginTabItem(label.c_str());
+            {
+                const auto scope = widgets_.in("tabs");
+                widgets_.tab(label, selected);
+            }
+            widgets_.help(shown.row->help);
+            if (!selected) continue;
+            ImGui::BeginChild("panel");
+            Services all = services();
+            shown.panel->draw(model_, all);
+            ImGui::EndChild();
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+}
+
+void Inspector::draw_status() {
+    const auto scope = widgets_.in("status");
+    if (!last_error_.empty()) {
+        const bool has_good = last_replay_ != nullptr;
+        const std::string line = last_error_.substr(0, last_error_.find('\n'));
+        widgets_.text("error", fmt::format("{}{}", line, has_good ? "  (what is shown is the last replay that worked)" : ""),
+                      &palette().bad);
+        return;
+    }
+    widgets_.text("command", model_.command_line(), &palette().dim);
+    widgets_.help("replays exactly this without the inspector");
+}
+
+void Inspector::draw_keys() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {.5f, .5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18, 14});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
+    ImGui::Begin("keys", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    const auto scope = widgets_.in("keys");
+    const auto row = [&](std::string_view chord, std::string_view help) {
+        ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
+        ImGui::SameLine(130);
+        widgets_.text(chord, help);
+    };
+    for (const OwnKey& key : own_keys) row(key.chord, key.help);
+    for (const Shown& shown : panels_) {
+        if (shown.panel->keys().empty()) continue;
+        ImGui::Dummy({0, 4});
+        ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
+        for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
+    }
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace strata::ui

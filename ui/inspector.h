@@ -1,0 +1,73 @@
+// The inspector without its window: what it shows in a frame, whoever brings the mouse and takes the picture. A window does, a
+// script does, and a test does.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/layout.h"
+#include "ui/panel.h"
+#include "ui/theme.h"
+
+namespace strata::ui {
+
+class Inspector {
+public:
+    /// Needs a Context, and the layer on which it is drawn. `open` is called on the replay's thread.
+    Inspector(ImguiLayer&, Model, Replayer::Open, Layout);
+    ~Inspector();
+
+    /// One frame, of which ImGuiIO knows size, time and input.
+    Result<void> frame();
+    /// Nothing is being computed that would change what is shown.
+    bool is_settled() const;
+    /// "smoke.strata, frame 0 - Strata on llvmpipe".
+    std::string title() const;
+
+    Model& model() { return model_; }
+    Widgets& widgets() { return widgets_; }
+    Replayer& replayer() { return *replayer_; }
+    const Layout& layout() const { return layout_; }
+    const std::vector<LogLine>& log() const { return log_; }
+
+private:
+    struct Shown {
+        const PanelRow* row;
+        std::unique_ptr<Panel> panel;
+    };
+
+    Services services();
+    void take_results();
+    void press_keys();
+    void draw();
+    void draw_top_bar();
+    void draw_frame_choice();
+    void draw_activity();
+    void draw_regions(ImVec2 size);
+    void draw_region(Area, ImVec2 size);
+    /// What can be pulled between two regions; `pulled` is how far along the axis it was.
+    float splitter(std::string_view name, ImVec2 size, ImGuiMouseCursor);
+    void draw_status();
+    void draw_keys();
+    void say(LogLine::Kind, std::string);
+
+    ImguiLayer* layer_;
+    Model model_;
+    Widgets widgets_;
+    Layout layout_;
+    std::vector<LogLine> log_;
+    double seconds_ = 0;
+    std::string last_error_;  ///< that the log has
+    std::shared_ptr<const Replay> last_replay_;
+    bool keys_are_shown_ = false;
+    std::unique_ptr<Replayer> replayer_;
+    std::unique_ptr<WorkQueue> host_;
+    std::vector<Shown> panels_;  // last: they hold jobs of the queues
+};
+
+}  // namespace strata::ui

@@ -1,0 +1,26 @@
+// How much of the window each region takes and which panels are in front: what is kept per user between sessions.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "capture_format/result.h"
+
+namespace strata::ui {
+
+struct Layout {
+    float left = 310, right = 330, bottom = 150;  ///< pixels
+    int width = 1280, height = 800;               ///< of the window
+    std::map<std::string, bool> settings = {};    ///< what people switched on and off, by name
+    friend bool operator==(const Layout&, const Layout&) = default;
+};
+
+/// Where it is kept, given $XDG_STATE_HOME and $HOME; nothing where neither is set.
+std::optional<std::filesystem::path> layout_file(const char* state_home, const char* home);
+/// The defaults where there is none, or it says nothing that makes sense.
+Layout read_layout(const std::filesystem::path&);
+Result<void> write_layout(const std::filesystem::path&, const Layout&);
+
+}  // namespace strata::ui

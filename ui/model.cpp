@@ -1,0 +1,180 @@
+#include "ui/model.h"
+
+#include <algorithm>
+
+#include "replay/shell_word.h"
+
+namespace strata::ui {
+namespace {
+
+/// "key=value" of a parameter, as --set takes it.
+std::string line_of(const Settings& settings, std::string_view param) {
+    for (std::string& line : settings.lines())
+        if (line.starts_with(fmt::format("{}=", param))) return std::move(line);
+    return {};
+}
+
+Settings base_of(const Choice& choice, const Choice& recorded) {
+    return choice.technique == recorded.technique ? recorded.settings : Settings(choice.technique->params);
+}
+
+}  // namespace
+
+Model::Model(std::filesystem::path path, DeviceChoice choice, const Request& first)
+    : capture(std::move(path)), device(std::move(choice)), edits_{first.frame, first.uses,    first.sets,
+                                                                  first.force, first.samples, first.eye} {}
+
+void Model::know(const FrameFacts& facts) {
+    if (facts_ && facts_->index == facts.index) return;
+    facts_ = facts;
+    recorded_ = *choose(facts.bare, {}, {});
+    apply_edits();
+}
+
+/// Edits may name what this frame's choices do not have: a key of a technique that another frame was recorded with. Those go.
+void Model::apply_edits() {
+    if (!facts_ || facts_->index != edits_.frame) return;  // another frame's facts are on their way
+    auto choices = choose(facts_->bare, edits_.uses, {});
+    if (!choices) choices = recorded_;
+    std::vector<std::string> kept;
+    for (const std::string& set : edits_.sets) {
+        kept.push_back(set);
+        if (auto more = choose(facts_->bare, edits_.uses, kept)) choices = std::move(more);
+        else kept.pop_back();
+    }
+    choices_ = *std::move(choices);
+    edits_ = with(choices_);
+}
+
+/// The choices as the fewest uses and sets that make them.
+Edits Model::with(const Choices& choices) const {
+    Edits edits = edits_;
+    edits.uses.clear();
+    edits.sets.clear();
+    for (const auto& [stage, choice] : choices) {
+        const Choice& recorded = recorded_.at(stage);
+        if (choice.technique != recorded.technique) edits.uses.emplace_back(choice.technique->name);
+        const Settings base = base_of(choice, recorded);
+        for (const Param& param : choice.technique->params)
+            if (choice.settings.get(param.name) != base.get(param.name))
+                edits.sets.push_back(fmt::format("{}:{}", choice.technique->name, line_of(choice.settings, param.name)));
+    }
+    return edits;
+}
+
+double Model::base_value(Stage stage, std::string_view param) const {
+    return base_of(choices_.at(stage), recorded_.at(stage)).get(param);
+}
+
+bool Model::is_changed(Stage stage, std::string_view param) const {
+    return choices_.at(stage).settings.get(param) != base_value(stage, param);
+}
+
+void Model::change(Edits edits, std::string what) {
+    if (edits == edits_) return;
+    if (what.empty() || what != editing_) past_.push_back(edits_);
+    editing_ = std::move(what);
+    future_.clear();
+    edits_ = std::move(edits);
+    apply_edits();
+}
+
+void Model::use(const Technique& technique) {
+    Choices choices = choices_;
+    Choice& choice = choices.at(technique.stage);
+    if (choice.technique == &technique) return;
+    const Choice& recorded = recorded_.at(technique.stage);
+    choice = &technique == recorded.technique ? recorded : Choice{&technique, Settings(technique.params)};
+    change(with(choices), {});
+}
+
+void Model::set(Stage stage, std::string_view param, double value) {
+    Choices choices = choices_;
+    if (!choices.at(stage).settings.set(param, value)) return;  // the widget offers a rounder number than the range has
+    change(with(choices), fmt::format("{}:{}", name(stage), param));
+}
+
+void Model::reset(Stage stage) {
+    Choices choices = choices_;
+    choices.at(stage) = recorded_.at(stage);
+    change(with(choices), {});
+}
+
+void Model::reset(Stage stage, std::string_view param) {
+    set(stage, param, base_value(stage, param));
+    settle();
+}
+
+void Model::reset_all() { change({.frame = edits_.frame}, {}); }
+
+void Model::force(std::vector<Feature> features) {
+    Edits edits = edits_;
+    edits.force = std::move(features);
+    change(std::move(edits), {});
+}
+
+void Model::select_frame(std::size_t frame) {
+    Edits edits = edits_;
+    edits.frame = frame;
+    change(std::move(edits), "frame");
+}
+
+void Model::set_samples(std::uint32_t samples) {
+    Edits edits = edits_;
+    edits.samples = samples;
+    change(std::move(edits), {});
+}
+
+void Model::apply(std::string_view technique, const std::vector<std::string>& sets) {
+    const auto found = find_technique(technique);
+    if (!found) return;
+    Choices choices = choices_;
+    Choice& choice = choices.at((*found)->stage);
+    choice = {*found, Settings((*found)->params)};
+    for (const std::string& set : sets) {
+        const std::size_t equals = std::min(set.find('='), set.size());
+        const auto done = choice.settings.set(std::string_view(set).substr(0, equals),
+                                              std::string_view(set).substr(std::min(equals + 1, set.size())));
+        static_cast<void>(done);  // a line that says nothing about this technique changes nothing
+    }
+    change(with(choices), {});
+}
+
+void Model::undo() {
+    if (past_.empty()) return;
+    future_.push_back(std::exchange(edits_, std::move(past_.back())));
+    past_.pop_back();
+    settle();
+    apply_edits();
+}
+
+void Model::redo() {
+    if (future_.empty()) return;
+    past_.push_back(std::exchange(edits_, std::move(future_.back())));
+    future_.pop_back();
+    settle();
+    apply_edits();
+}
+
+Request Model::request() const {
+    return {.frame = edits_.frame,
+            .uses = edits_.uses,
+            .sets = edits_.sets,
+            .force = edits_.force,
+            .outputs = {wanted_.begin(), wanted_.end()},
+            .samples = edits_.samples,
+            .eye = edits_.eye};
+}
+
+std::string Model::command_line() const {
+    std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture.string()), edits_.frame);
+    for (const std::string& use : edits_.uses) line += fmt::format(" --use {}", as_shell_word(use));
+    for (const std::string& set : edits_.sets) line += fmt::format(" --set {}", as_shell_word(set));
+    for (const Feature feature : edits_.force) line += fmt::format(" --force {}", name(feature));
+    if (edits_.samples != 0) line += fmt::format(" --samples {}", edits_.samples);
+    if (!device.gpu.empty()) line += fmt::format(" --gpu {}", as_shell_word(device.gpu));
+    if (!image.step && image.name != "display") line += fmt::format(" --outputs {},display", as_shell_word(image.name));
+    return line;
+}
+
+}  // namespace strata::ui

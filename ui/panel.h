@@ -1,0 +1,66 @@
+// What a panel of the inspector is: one file in ui/panels and one row in panels.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/imgui_layer.h"
+#include "ui/model.h"
+#include "ui/replayer.h"
+#include "ui/widgets.h"
+
+namespace strata::ui {
+
+/// Where a panel stands: a tab of one of four regions.
+enum class Area { left, center, right, bottom };
+
+struct LogLine {
+    enum class Kind { said, warned, failed } kind = Kind::said;
+    double seconds = 0;  ///< since the inspector began
+    std::string text;
+};
+
+/// What a panel works with beside the model.
+struct Services {
+    Widgets& widgets;
+    Replayer& replayer;
+    WorkQueue& host;  ///< for work without the device: statistics of pictures, differences
+    ImguiLayer& layer;
+    std::vector<LogLine>& log;
+    double seconds = 0;
+};
+
+class Model;
+class Panel;
+
+/// A key while no text is being typed.
+struct PanelKey {
+    std::string_view chord;  ///< "ctrl+z", "f1", "left"
+    std::string_view help;
+    void (*pressed)(Panel&, Model&, Services&);
+};
+
+class Panel {
+public:
+    virtual ~Panel() = default;
+    /// Draws into its region. Everything that can be clicked or read is a widget of `services.widgets`.
+    virtual void draw(Model&, Services&) = 0;
+    virtual std::span<const PanelKey> keys() const { return {}; }
+    /// Whether something of its own is under way: scripts wait for it.
+    virtual bool is_busy() const { return false; }
+};
+
+struct PanelRow {
+    std::string_view name;
+    Area area;
+    std::string_view help;
+    std::unique_ptr<Panel> (*make)();
+};
+
+/// Every panel, in the order of the tabs.
+std::span<const PanelRow> panels();
+
+}  // namespace strata::ui

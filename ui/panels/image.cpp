@@ -1,0 +1,330 @@
+// Any output of any step and every view of every technique, texel by texel.
+#include <algorithm>
+#include <array>
+
+#include "passes/frame_images.h"
+#include "replay/counted.h"
+#include "ui/panel.h"
+#include "ui/picture_view.h"
+#include "ui/theme.h"
+
+namespace strata::ui {
+namespace {
+
+/// Every output that can be asked for by name: frame images first, then the views of the chosen techniques.
+std::vector<std::string> outputs_of(const Model& model) {
+    std::vector<std::string> names;
+    for (const FrameImageRow& row : frame_images())
+        // Where an image's samples are to be had as layers, those are what can be read.
+        if (!find_frame_image(fmt::format("{}_layers", row.name))) names.emplace_back(row.name);
+    // What a person looks at most is last in the frame.
+    std::ranges::reverse(names);
+    if (model.is_known())
+        for (const auto& [stage, choice] : model.choices())
+            for (const DebugView& view : choice.technique->views)
+                names.push_back(fmt::format("{}:{}", choice.technique->name, view.name));
+    return names;
+}
+
+struct Peeked {
+    Request request;
+    ImageChoice image;
+    JobOf<HostImage> job;
+    std::shared_ptr<const HostImage> result;
+    std::string error;
+};
+
+class ImagePanel final : public Panel {
+public:
+    void draw(Model& model, Services& services) override {
+        const auto scope = services.widgets.in("Image");
+        const auto image = wanted_image(model, services);
+        shown_.show(image, model.image.layer, services.host, services.layer);
+        const PictureInfo* picture = shown_.picture();
+        if (image && picture && picture->image == image) shown_name_ = model.image.name;
+        if (picture) default_ = default_look(shown_name_, *picture);
+        draw_choice(model, services.widgets, picture);
+        draw_look(model, services.widgets, picture);
+        draw_canvas(model, services, picture);
+        draw_line(model, services.widgets, picture);
+    }
+
+    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job); }
+
+    std::span<const PanelKey> keys() const override;
+
+    void nudge(Model& model, glm::ivec2 by) const {
+        if (!model.pin || !shown_.picture()) return;
+        const Texels& texels = shown_.picture()->texels;
+        model.pin = glm::clamp(*model.pin + by, glm::ivec2(0), glm::ivec2(texels.width, texels.height) - 1);
+    }
+    void zoom(Model& model, double factor) const {
+        if (shown_.picture()) zoom_by(model.view, placement_, factor);
+    }
+    void change_exposure(Model& model, float stops) {
+        Look look = look_of(model);
+        look.exposure += stops;
+        set_look(model, look);
+    }
+    void fit_range(Model& model) {
+        const PictureInfo* picture = shown_.picture();
+        if (!picture || picture->bulk.high <= picture->bulk.low) return;
+        Look look = look_of(model);
+        look.exposure = 0;
+        look.black = static_cast<float>(picture->bulk.low);
+        look.white = static_cast<float>(picture->bulk.high);
+        set_look(model, look);
+    }
+    /// The next of the ways to show channels.
+    void cycle_channels(Model& model) {
+        Look look = look_of(model);
+        look.channels = static_cast<Channels>((static_cast<std::uint32_t>(look.channels) + 1) % 7);
+        set_look(model, look);
+    }
+
+private:
+    std::shared_ptr<const HostImage> wanted_image(Model& model, Services& services) {
+        const auto replay = services.replayer.shown("A");
+        message_.clear();
+        if (!model.image.step) {
+            model.want(model.image.name);
+            if (!replay) return nullptr;
+            auto image = replay->image(replay, model.image.name);
+            if (!image && services.replayer.is_current("A") && !services.replayer.error("A"))
+                message_ = fmt::format("this frame has no '{}'", model.image.name);
+            return image;
+        }
+        return replay ? peeked_image(model, services, *replay) : nullptr;
+    }
+
+    /// What a step wrote, asked of the device once per replay.
+    std::shared_ptr<const HostImage> peeked_image(const Model& model, Services& services, const Replay& replay) {
+        ImageChoice image = model.image;
+        image.layer = 0;
+        if (!peeked_ || peeked_->request != replay.request || peeked_->image != image) {
+            if (peeked_ && peeked_->job) peeked_->job->progress.cancel();
+            peeked_ = Peeked{replay.request, image, {}, peeked_ ? peeked_->result : nullptr, {}};
+            const Request request = replay.request;
+            peeked_->job = services.replayer.start<HostImage>(
+                [request, image](Session& session, Progress&) { return session.peek(request, *image.step, image.name); });
+        }
+        if (peeked_->job && peeked_->job->result()) {
+            const Result<HostImage>& result = *peeked_->job->result();
+            if (result) peeked_->result = std::make_shared<HostImage>(*result);
+            else peeked_->error = result.error().sentence;
+            peeked_->job.reset();
+        }
+        message_ = peeked_->error;
+        return peeked_->result;
+    }
+
+    Look look_of(const Model& model) const {
+        const auto own = model.looks.find(model.image.name);
+        return own == model.looks.end() ? default_ : own->second;
+    }
+    void set_look(Model& model, const Look& look) const {
+        if (look == default_) model.looks.erase(model.image.name);
+        else model.looks[model.image.name] = look;
+    }
+
+    static void draw_choice(Model& model, Widgets& widgets, const PictureInfo* picture) {
+        const std::vector<std::string> outputs = outputs_of(model);
+        std::vector<std::string_view> items(outputs.begin(), outputs.end());
+        const std::string of_step = model.image.step ? fmt::format("step {}: {}", *model.image.step, model.image.name) : "";
+        if (model.image.step) items.insert(items.begin(), of_step);
+        const auto current =
+            model.image.step ? 0 : static_cast<std::size_t>(std::ranges::find(items, model.image.name) - items.begin());
+        ImGui::SetNextItemWidth(230);
+        if (const auto chosen = widgets.combo("image", items, current)) {
+            model.image = {.name = std::string(items[*chosen])};
+            model.step.reset();
+        }
+        const std::uint32_t layers = picture ? picture->image->shape.layers * picture->image->shape.extent.depth : 1;
+        if (layers > 1) {
+            ImGui::SameLine();
+            ImGui::SetNextItemWidth(110);
+            const auto layer = widgets.slider("layer", model.image.layer, {.high = layers - 1.0, .whole = true});
+            if (layer) model.image.layer = static_cast<std::uint32_t>(*layer);
+            widgets.help("sample, slice or map: whatever the layers of this image are");
+        }
+        ImGui::SameLine();
+        if (widgets.button("fit", "Fit")) model.view = {};
+        widgets.help("F, or double click");
+        ImGui::SameLine();
+        const bool one_to_one = widgets.button("100 %", "1:1");
+        if (one_to_one && picture) model.view = {1, picture->texels.width / 2.0, picture->texels.height / 2.0};
+        widgets.help("a pixel per texel");
+    }
+
+    void draw_look(Model& model, Widgets& widgets, const PictureInfo* picture) {
+        constexpr std::array<std::string_view, 7> channels = {"RGB", "R", "G", "B", "A", "Luminance", "False color"};
+        Look look = look_of(model);
+        ImGui::SetNextItemWidth(104);
+        if (const auto chosen = widgets.combo("channels", channels, static_cast<std::size_t>(look.channels)))
+            look.channels = static_cast<Channels>(*chosen);
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(120);
+        const auto exposure =
+            widgets.slider("exposure", double{look.exposure}, {.low = -12, .high = 12, .format = "%+.2f stops"});
+        if (exposure) look.exposure = static_cast<float>(*exposure);
+        widgets.help("exposure; E and Shift+E");
+        ImGui::SameLine();
+        draw_histogram(widgets, picture, look);
+        ImGui::SameLine();
+        if (widgets.button("auto", "Auto")) return fit_range(model);
+        widgets.help("black and white at the image's own ends, without the thousandth beyond them");
+        ImGui::SameLine();
+        constexpr std::array<std::string_view, 2> curves = {"raw", "sRGB"};
+        ImGui::SetNextItemWidth(68);
+        if (const auto curve = widgets.combo("curve", curves, static_cast<std::size_t>(look.curve)))
+            look.curve = static_cast<Curve>(*curve);
+        widgets.help("how a value becomes a byte: as it is, or by the curve of sRGB as light does");
+        ImGui::SameLine();
+        ImGui::BeginDisabled(look == default_);
+        if (widgets.button("reset look", "\xe2\x86\xba")) look = default_;
+        ImGui::EndDisabled();
+        if (look != look_of(model)) set_look(model, look);
+    }
+
+    /// Black and white are pulled in the histogram: left button the one, right button the other.
+    static void draw_histogram(Widgets& widgets, const PictureInfo* picture, Look& look) {
+        const float width = std::max(60.0f, ImGui::GetContentRegionAvail().x - 190), height = ImGui::GetFrameHeight();
+        widgets.canvas("range", {width, height}, fmt::format("{:g} to {:g}", look.black, look.white));
+        const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg), 3);
+        if (!picture) return;
+        // The whole range and what the look makes of it, both in sight.
+        const double low = std::min(picture->range.low, double{look.black}),
+                     high = std::max({picture->range.high, double{look.white}, low + 1e-9});
+        const auto x_of = [&](double value) { return from.x + static_cast<float>((value - low) / (high - low)) * width; };
+        draw_bars(list, *picture, {x_of(picture->range.low), from.y}, {x_of(picture->range.high), to.y});
+        for (const double value : {double{look.black}, double{look.white}})
+            list.AddLine({x_of(value), from.y}, {x_of(value), to.y}, packed(palette().accent), 2);
+        const double under = low + double{(ImGui::GetIO().MousePos.x - from.x) / width} * (high - low);
+        if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left))
+            look.black = static_cast<float>(std::min(under, double{look.white} - 1e-6));
+        if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right))
+            look.white = static_cast<float>(std::max(under, double{look.black} + 1e-6));
+        widgets.help(fmt::format("{:g} to {:g} shown of {:g} to {:g}\nleft button sets black, right button white", look.black,
+                                 look.white, picture->range.low, picture->range.high));
+    }
+
+    static void draw_bars(ImDrawList& list, const PictureInfo& picture, ImVec2 from, ImVec2 to) {
+        std::uint32_t most = 1;
+        for (const auto& channel : picture.histogram)
+            for (std::size_t i = 1; i + 1 < PictureInfo::bins; ++i) most = std::max(most, channel[i]);
+        constexpr std::array<ImU32, 3> colors = {IM_COL32(230, 90, 90, 130), IM_COL32(90, 210, 110, 130),
+                                                 IM_COL32(90, 130, 240, 130)};
+        const float width = (to.x - from.x) / static_cast<float>(PictureInfo::bins);
+        for (std::uint32_t c = 0; c < std::min(picture.channels(), 3u); ++c)
+            for (std::size_t i = 0; i < PictureInfo::bins; ++i) {
+                const float share = std::min(1.0f, static_cast<float>(picture.histogram[c][i]) / static_cast<float>(most));
+                if (share <= 0) continue;
+                const float x = from.x + static_cast<float>(i) * width;
+                list.AddRectFilled({x, to.y - std::max(1.0f, share * (to.y - from.y - 2))}, {x + std::max(width, 1.0f), to.y},
+                                   picture.channels() == 1 ? IM_COL32(200, 200, 200, 160) : colors[c]);
+            }
+    }
+
+    void draw_canvas(Model& model, Services& services, const PictureInfo* picture) {
+        ImVec2 size = ImGui::GetContentRegionAvail();
+        size.y = std::max(size.y - ImGui::GetTextLineHeightWithSpacing(), 20.0f);
+        size.x = std::max(size.x, 20.0f);
+        services.widgets.canvas("picture", size, model.image.name);
+        const ImVec2 from = ImGui::GetItemRectMin();
+        ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + size.x, from.y + size.y}, IM_COL32(14, 15, 18, 255));
+        under_.reset();
+        if (picture) {
+            placement_ = place(model.view, from, size, picture->texels);
+            take_mouse(model, *picture);
+            draw_picture(services.layer, placement_, shown_.texture(), look_of(model));
+            draw_details(placement_, *picture);
+            if (model.pin && picture->contains(*model.pin)) draw_pin(placement_, *model.pin);
+        }
+        if (message_.empty()) return;
+        const ImVec2 text = ImGui::CalcTextSize(message_.c_str(), nullptr, false, size.x - 20);
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled({from.x + 6, from.y + 6}, {from.x + text.x + 22, from.y + text.y + 16}, IM_COL32(20, 22, 27, 230), 4);
+        list.AddText(nullptr, 0, {from.x + 14, from.y + 11}, packed(palette().warning), message_.c_str(), nullptr, size.x - 20);
+    }
+
+    void take_mouse(Model& model, const PictureInfo& picture) {
+        const glm::ivec2 texel = placement_.texel_at(ImGui::GetIO().MousePos);
+        if (ImGui::IsItemHovered() && picture.contains(texel)) under_ = texel;
+        const bool was_click = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+                               ImGui::GetIO().MouseDragMaxDistanceSqr[0] < 9;
+        if (was_click && picture.contains(texel)) model.pin = texel;
+        if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) model.pin.reset();
+        move_by_mouse(model.view, placement_);
+        placement_ = place(model.view, placement_.from,
+                           {placement_.to.x - placement_.from.x, placement_.to.y - placement_.from.y}, picture.texels);
+    }
+
+    void draw_line(const Model& model, Widgets& widgets, const PictureInfo* picture) const {
+        if (!picture) {
+            widgets.text("state", "nothing replayed yet", &palette().dim);
+            return;
+        }
+        const FormatRow& format = row(picture->image->shape.format);
+        widgets.text("size",
+                     fmt::format("{} x {}  {}  {:.0f} %", picture->texels.width, picture->texels.height, format.name,
+                                 placement_.zoom * 100),
+                     &palette().dim);
+        if (picture->nans + picture->infinities > 0) {
+            ImGui::SameLine(0, 14);
+            widgets.text("not numbers", fmt::format("{} NaN, {} infinite", picture->nans, picture->infinities), &palette().bad);
+        }
+        if (model.pin && picture->contains(*model.pin)) {
+            ImGui::SameLine(0, 14);
+            widgets.text("pinned",
+                         fmt::format("\xe2\x8c\x96 {} {}:  {}", model.pin->x, model.pin->y, values_text(*picture, *model.pin)),
+                         &palette().accent);
+        }
+        if (!under_) return;
+        ImGui::SameLine(0, 14);
+        widgets.text("under", fmt::format("{} {}:  {}", under_->x, under_->y, values_text(*picture, *under_)));
+    }
+
+    ShownPicture shown_;
+    std::string shown_name_ = "display", message_;
+    Look default_;
+    std::optional<Peeked> peeked_;
+    Placement placement_;
+    std::optional<glm::ivec2> under_;
+};
+
+template <int x, int y>
+void nudge_pin(Panel& panel, Model& model, Services&) {
+    static_cast<ImagePanel&>(panel).nudge(model, {x, y});
+}
+template <int stops>
+void expose(Panel& panel, Model& model, Services&) {
+    static_cast<ImagePanel&>(panel).change_exposure(model, static_cast<float>(stops) / 2);
+}
+
+std::span<const PanelKey> ImagePanel::keys() const {
+    static constexpr PanelKey table[] = {
+        {"f", "the whole picture", [](Panel&, Model& model, Services&) { model.view = {}; }},
+        {"plus", "larger", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, 2); }},
+        {"minus", "smaller", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, .5); }},
+        {"e", "half a stop brighter", expose<1>},
+        {"shift+e", "half a stop darker", expose<-1>},
+        {"n", "black and white by the image's own range",
+         [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).fit_range(model); }},
+        {"c", "other channels",
+         [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).cycle_channels(model); }},
+        {"left", "move the pinned pixel", nudge_pin<-1, 0>},
+        {"right", "move the pinned pixel", nudge_pin<1, 0>},
+        {"up", "move the pinned pixel", nudge_pin<0, -1>},
+        {"down", "move the pinned pixel", nudge_pin<0, 1>},
+        {"d", "the displayed picture", [](Panel&, Model& model, Services&) { model.image = {}; }},
+    };
+    return table;
+}
+
+}  // namespace
+
+std::unique_ptr<Panel> image_panel() { return std::make_unique<ImagePanel>(); }
+
+}  // namespace strata::ui

@@ -1,0 +1,138 @@
+#include "ui/replayer.h"
+
+#include <algorithm>
+
+#include "replay/measure/lap.h"
+
+namespace strata::ui {
+namespace {
+
+Result<FrameFacts> facts_of(Session& session, std::size_t index) {
+    auto frame = session.frame(index);
+    if (!frame) return frame.error();
+    FrameFacts facts{.index = index, .features = frame_features(*frame)};
+    facts.bare.view = frame->view;
+    facts.bare.recorded_with = std::move(frame->recorded_with);
+    return facts;
+}
+
+PlanRow row_of(const Plan& plan, const PlannedStep& planned) {
+    const Scope& scope = plan.scopes[planned.step.scope];
+    PlanRow row{static_cast<Stage>(scope.stage), scope.name, planned.step.name, {}, planned.barriers.size()};
+    for (const Use& use : uses(planned)) {
+        if (!use.image || !writes(use.access)) continue;
+        const std::string& image = plan.images[use.image.id].name;
+        if (std::ranges::find(row.images, image) == row.images.end()) row.images.push_back(image);
+    }
+    return row;
+}
+
+Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
+    Lap lap;
+    auto planned = session.plan(request);
+    if (!planned) return planned.error();
+    auto run = session.run(request);
+    if (!run) return run.error();
+    auto made = std::make_shared<Replay>();
+    made->request = request;
+    made->frame = frame;
+    made->run = *std::move(run);
+    for (const PlannedStep& step : planned->plan.steps) made->steps.push_back(row_of(planned->plan, step));
+    made->skipped = std::move(planned->skipped);
+    made->culled = std::move(planned->plan.culled);
+    made->ms = lap();
+    return std::shared_ptr<const Replay>(std::move(made));
+}
+
+}  // namespace
+
+std::shared_ptr<const HostImage> Replay::image(const std::shared_ptr<const Replay>& self, const std::string& name) const {
+    const auto found = run.images.find(name);
+    return found == run.images.end() ? nullptr : std::shared_ptr<const HostImage>(self, &found->second);
+}
+
+Replayer::Replayer(Open open) : open_(std::move(open)) {
+    queue_.add_first([this] { this->open(); });
+}
+
+void Replayer::open() {
+    auto session = open_();
+    Result<CaptureFacts> facts =
+        session ? Result<CaptureFacts>(CaptureFacts{(*session)->device(), (*session)->frame_count(), (*session)->capture_id()})
+                : Result<CaptureFacts>(session.error());
+    session_ = session ? *std::move(session) : nullptr;
+    const std::scoped_lock lock(mutex_);
+    opened_ = std::move(facts);
+}
+
+void Replayer::show(const std::string& place, const Request& request) {
+    Place& known = places_[place];
+    if (known.wish > 0 && known.wished == request) return;
+    known.wished = request;
+    ++known.wish;
+    {
+        const std::scoped_lock lock(mutex_);
+        wishes_[place] = {known.wish, request};
+    }
+    queue_.add_first([this, place] { serve(place); });
+}
+
+void Replayer::serve(const std::string& place) {
+    std::pair<std::uint64_t, Request> wish;
+    {
+        const std::scoped_lock lock(mutex_);
+        const auto waiting = wishes_.find(place);
+        if (waiting == wishes_.end()) return;  // a later wish was served instead
+        wish = std::move(waiting->second);
+        wishes_.erase(waiting);
+    }
+    if (!session_) return;
+    Answer given{place, wish.first, answer(wish.second)};
+    // A lost device stays lost: the next wish gets a new one.
+    if (!given.replay && given.replay.error().fault == Fault::device_failed) open();
+    const std::scoped_lock lock(mutex_);
+    answers_.push_back(std::move(given));
+}
+
+Result<std::shared_ptr<const Replay>> Replayer::answer(const Request& request) {
+    if (!frame_ || frame_->index != request.frame) {
+        auto facts = facts_of(*session_, request.frame);
+        if (!facts) return facts.error();
+        frame_ = *std::move(facts);
+    }
+    return replay(*session_, request, *frame_);
+}
+
+void Replayer::take_results() {
+    const std::scoped_lock lock(mutex_);
+    if (opened_) {
+        if (*opened_) facts_ = **opened_;
+        else open_error_ = opened_->error();
+        opened_.reset();
+    }
+    for (Answer& answer : answers_) {
+        Place& place = places_[answer.place];
+        place.answered = answer.wish;
+        place.error.reset();
+        if (answer.replay) place.good = *std::move(answer.replay);
+        else place.error = answer.replay.error();
+    }
+    answers_.clear();
+}
+
+std::shared_ptr<const Replay> Replayer::shown(const std::string& place) const {
+    const auto known = places_.find(place);
+    return known == places_.end() ? nullptr : known->second.good;
+}
+
+const Error* Replayer::error(const std::string& place) const {
+    const auto known = places_.find(place);
+    return known == places_.end() || !known->second.error ? nullptr : &*known->second.error;
+}
+
+bool Replayer::is_current(const std::string& place) const {
+    const auto known = places_.find(place);
+    return known != places_.end() && known->second.wish > 0 && known->second.answered == known->second.wish;
+}
+
+}  // namespace strata::ui
