@@ -29,6 +29,7 @@ ImageSet run_pixels(PixelModel model, const JudgedStage& stage) {
     ReferenceImage color(behind.width, behind.height, behind.layers);
     color.undecided.resize(color.texels.size());
     tbb::parallel_for(std::size_t(0), std::size_t(color.height) * color.layers, [&](std::size_t row) {
+        if (stage.stop.stop_requested()) return;
         const auto y = static_cast<std::uint32_t>(row % color.height), layer = static_cast<std::uint32_t>(row / color.height);
         for (std::uint32_t x = 0; x < color.width; ++x) {
             const glm::dvec3 from = behind.at(x, y, layer);
@@ -128,7 +129,7 @@ Accuracy judge_stage(const JudgedStage& stage) {
         return accuracy;
     }
     if (stage.against != Against::truth) judge_by_model(stage, accuracy);
-    if (stage.against != Against::model) judge_by_truth(stage, accuracy);
+    if (stage.against != Against::model && !stage.stop.stop_requested()) judge_by_truth(stage, accuracy);
     return accuracy;
 }
 

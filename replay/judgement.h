@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "passes/technique.h"
 #include "replay/session.h"
@@ -18,6 +19,7 @@ struct JudgedStage {
     const ImageSet* truth = nullptr;  ///< null: computed here
     /// Where the frame's transparent fragments before the stage are kept from one judgement to the next; null: nowhere.
     std::optional<FragmentLists>* fragments = nullptr;
+    std::stop_token stop = {};  ///< once requested, what is left is left out and the answer worth nothing
 };
 
 Accuracy judge_stage(const JudgedStage&);
