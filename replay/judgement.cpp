@@ -95,7 +95,7 @@ Accuracy judge_stage(const JudgedStage& stage) {
         return accuracy;
     }
     if (stage.against != Against::truth) judge_by_model(stage, accuracy);
-    if (stage.against != Against::model) judge_by_truth(stage, accuracy);
+    if (stage.against != Against::model && !stage.stop.stop_requested()) judge_by_truth(stage, accuracy);
     return accuracy;
 }
 
