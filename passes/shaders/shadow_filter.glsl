@@ -140,14 +140,16 @@ vec2 plane_gradient(ShadowRecord map, vec4 at, vec3 normal) {
 }
 
 // The share of one map. The receiver moves along the light's ray, so shadows stay where they are: by the map's bias, and by what a
-// plane gains on the light over the fixed kernel's corner and half a texel. A soft kernel follows the plane, tap by tap.
+// plane gains on the light over the fixed kernel's corner and half a texel. Texels lie across the map's axis, not across the ray: a
+// plane that the ray meets squarely still gains if the axis does not. A soft kernel follows the plane, tap by tap.
 float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool soft) {
     const ShadowRecord map = shadows[record];
     const bool sun = light.type == light_directional;
     const vec3 offset = light.position - position;
     const vec3 to_light = sun ? -light.direction : normalize(offset);
     const float cosine = clamp(dot(normal, to_light), 1e-3, 1.0);
-    const float slope = min(sqrt(1.0 - cosine * cosine) / cosine, shadow_slope_limit);
+    const vec3 axis = sun ? to_light : vec3(map.view_to_map[0].w, map.view_to_map[1].w, map.view_to_map[2].w);
+    const float slope = min(length(cross(normal, axis)) / cosine, shadow_slope_limit);
     const float w = (map.view_to_map * vec4(position, 1.0)).w;
     const float radius = soft ? 0.5 : 0.70710678 * float(shadow_kernel) + 0.5;
     float towards = map.bias + radius * map.texel * w * slope;

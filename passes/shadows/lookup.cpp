@@ -78,7 +78,9 @@ std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& 
     const Towards to = to_light(scene, view, receiver);
     const double w = (view.view_to_map * glm::dvec4(receiver.position, 1)).w;
     const double cosine = std::clamp(glm::dot(receiver.normal, to.direction), 1e-3, 1.0);
-    const double slope = std::min(std::tan(std::acos(cosine)), double(scene.filter.slope_limit));
+    const auto w_row = glm::dvec3(glm::transpose(view.view_to_map)[3]);  // the axis of a local light's map
+    const glm::dvec3 axis = w_row == glm::dvec3(0) ? to.direction : w_row;
+    const double slope = std::min(glm::length(glm::cross(receiver.normal, axis)) / cosine, double(scene.filter.slope_limit));
     const double moved = std::min(view.bias + kernel.radius * view.texel * w * slope, 0.5 * to.distance);
     const glm::dvec4 at = view.view_to_map * glm::dvec4(receiver.position + moved * to.direction, 1);
     if (at.w <= 0) return std::nullopt;

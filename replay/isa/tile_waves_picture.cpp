@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/ranges.h>
 
@@ -21,7 +22,8 @@ Rgb color_of(double waves, const GpuModel& model) { return magma(std::log2(1 + w
 
 struct LegendEntry {
     std::uint64_t tiles = 0;
-    std::vector<std::string> variants;  ///< "3 (registers)"
+    std::vector<std::uint32_t> variants;
+    std::set<std::string_view> limits;
 };
 
 /// By waves per SIMD, of variants that shade anything.
@@ -31,7 +33,8 @@ std::map<double, LegendEntry> legend_of(const TileWaves& waves) {
         if (variant.tiles == 0) continue;
         LegendEntry& entry = legend[variant.occupancy.waves_per_simd];
         entry.tiles += variant.tiles;
-        entry.variants.push_back(fmt::format("{} ({})", variant.number, name(variant.occupancy.limit)));
+        entry.variants.push_back(variant.number);
+        entry.limits.insert(name(variant.occupancy.limit));
     }
     return legend;
 }
@@ -41,9 +44,9 @@ void draw_legend(Canvas& canvas, int top, const TileWaves& waves, const GpuModel
         const Box swatch{gap, top, 3 * Canvas::line, Canvas::line - 4};
         canvas.fill(swatch, color_of(value, model));
         canvas.outline(swatch, faint);
-        const std::string text =
-            fmt::format("{} waves per SIMD: {} ({:.1f} %), {} {}", value, counted(entry.tiles, "tile"),
-                        100 * double(entry.tiles) / double(waves.tiles), waves.constant, fmt::join(entry.variants, ", "));
+        const std::string text = fmt::format("{} waves per SIMD: {} ({:.1f} %), by {}: {} {}", value,
+                                             counted(entry.tiles, "tile"), 100 * double(entry.tiles) / double(waves.tiles),
+                                             fmt::join(entry.limits, ", "), waves.constant, fmt::join(entry.variants, ", "));
         const int left = 2 * gap + swatch.width;
         canvas.text(text, {left, top + 3, canvas.width() - left - gap, 0}, ink);
         top += Canvas::line;
