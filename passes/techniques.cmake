@@ -1,7 +1,10 @@
 # add_techniques(target stage/name...): compiles each folder's sources and shaders, collects its *_test.cpp for the test
-# programs, and writes what must know all techniques: the table, the embedded shaders and the G-buffer decoders.
+# programs, and writes what must know all techniques: the table, the embedded shaders with their sources and the G-buffer decoders.
 
 set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
+
+# How glslangValidator is called, here and by a program that compiles changed shaders (embedded in it).
+set(glsl_options --quiet --target-env vulkan1.3)
 
 # One SPIR-V file from one GLSL file, rebuilt when anything it includes changes. Appends to the variable named by spirv_list.
 function(compile_shader source spirv_list)
@@ -11,30 +14,41 @@ function(compile_shader source spirv_list)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(
         OUTPUT ${compiled}
-        COMMAND Vulkan::glslangValidator --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR} -I${CMAKE_BINARY_DIR}/generated
+        COMMAND Vulkan::glslangValidator ${glsl_options} -I${CMAKE_SOURCE_DIR} -I${CMAKE_BINARY_DIR}/generated
                 --depfile ${compiled}.d -o ${compiled} ${source}
         DEPENDS ${source} DEPFILE ${compiled}.d
         COMMENT "GLSL ${name}")
     set(${spirv_list} ${${spirv_list}} ${compiled} PARENT_SCOPE)
 endfunction()
 
-# All shaders in one assembly file (.incbin) and a C++ table of their names.
-function(embed_shaders target)
+# Files in one assembly file (.incbin), each between the symbols strata_<kind>_<index> and strata_<kind>_<index>_end.
+function(embed_files target kind)
     set(assembly ".section .rodata\n")
+    set(index 0)
+    foreach(file IN LISTS ARGN)
+        string(APPEND assembly ".balign 4\n.global strata_${kind}_${index}\n.global strata_${kind}_${index}_end\n"
+            "strata_${kind}_${index}:\n.incbin \"${file}\"\nstrata_${kind}_${index}_end:\n")
+        math(EXPR index "${index} + 1")
+    endforeach()
+    string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
+    file(CONFIGURE OUTPUT ${generated_passes}/embedded_${kind}s.S CONTENT "${assembly}" @ONLY)
+    set_source_files_properties(${generated_passes}/embedded_${kind}s.S PROPERTIES OBJECT_DEPENDS "${ARGN}")
+    target_sources(${target} PRIVATE ${generated_passes}/embedded_${kind}s.S)
+endfunction()
+
+# All shaders and a C++ table of their names.
+function(embed_shaders target)
+    embed_files(${target} shader ${ARGN})
     set(externs "")
     set(rows "")
     set(index 0)
     foreach(spirv IN LISTS ARGN)
         file(RELATIVE_PATH name ${CMAKE_BINARY_DIR}/shaders ${spirv})
         string(REGEX REPLACE "\\.spv$" "" name ${name})
-        string(APPEND assembly ".balign 4\n.global strata_shader_${index}\n.global strata_shader_${index}_end\n"
-            "strata_shader_${index}:\n.incbin \"${spirv}\"\nstrata_shader_${index}_end:\n")
         string(APPEND externs "extern const std::uint32_t strata_shader_${index}[], strata_shader_${index}_end[];\n")
         string(APPEND rows "    {\"${name}\", {strata_shader_${index}, strata_shader_${index}_end}},\n")
         math(EXPR index "${index} + 1")
     endforeach()
-    string(APPEND assembly ".section .note.GNU-stack,\"\",@progbits\n")
-    file(CONFIGURE OUTPUT ${generated_passes}/embedded_shaders.S CONTENT "${assembly}" @ONLY)
     file(CONFIGURE OUTPUT ${generated_passes}/embedded_shaders.cpp CONTENT
 "// Written by passes/techniques.cmake.
 #include \"passes/graph/shader.h\"
@@ -50,8 +64,48 @@ ${rows}    };
 }
 }  // namespace strata
 " @ONLY)
-    set_source_files_properties(${generated_passes}/embedded_shaders.S PROPERTIES OBJECT_DEPENDS "${ARGN}")
-    target_sources(${target} PRIVATE ${generated_passes}/embedded_shaders.S ${generated_passes}/embedded_shaders.cpp)
+    target_sources(${target} PRIVATE ${generated_passes}/embedded_shaders.cpp)
+endfunction()
+
+# The GLSL of all shaders, what it includes, and how it is compiled.
+function(embed_sources target)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag *.glsl *.shared.h shader_interop.h)
+    set(generated ${generated_passes}/gbuffer/decoders.glsl)
+    list(APPEND sources ${generated})
+    embed_files(${target} source ${sources})
+    set(externs "")
+    set(rows "")
+    set(index 0)
+    foreach(source IN LISTS sources)
+        file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${source})
+        if(source IN_LIST generated)
+            file(RELATIVE_PATH name ${CMAKE_BINARY_DIR}/generated ${source})
+        endif()
+        string(APPEND externs "extern const char strata_source_${index}[], strata_source_${index}_end[];\n")
+        string(APPEND rows "    {\"${name}\", {strata_source_${index}, strata_source_${index}_end}},\n")
+        math(EXPR index "${index} + 1")
+    endforeach()
+    list(JOIN glsl_options "\", \"" options)
+    file(CONFIGURE OUTPUT ${generated_passes}/embedded_sources.cpp CONTENT
+"// Written by passes/techniques.cmake.
+#include \"passes/graph/shader_sources.h\"
+
+extern \"C\" {
+${externs}}
+
+namespace strata {
+std::span<const ShaderSource> shader_sources() {
+    static const ShaderSource table[] = {
+${rows}    };
+    return table;
+}
+std::span<const char* const> glsl_options() {
+    static constexpr const char* options[] = {\"${options}\"};
+    return options;
+}
+}  // namespace strata
+" @ONLY)
+    target_sources(${target} PRIVATE ${generated_passes}/embedded_sources.cpp)
 endfunction()
 
 # The table of techniques.
@@ -130,5 +184,6 @@ function(add_techniques target)
         compile_shader(${shader} spirv)
     endforeach()
     embed_shaders(${target} ${spirv})
+    embed_sources(${target})
     set_property(GLOBAL PROPERTY strata_technique_tests ${tests})
 endfunction()

@@ -89,9 +89,12 @@ void refresh(const Graph& graph, FrameImages& images) {
 /// Replaces acts by what the memo kept, or has the memo keep what they make.
 class Remember {
 public:
-    Remember(Declaration& d, Memo& memo, std::uint64_t frame_key, std::vector<std::vector<std::string>> wanted,
-             std::vector<bool> skip)
-        : d_(&d), memo_(&memo), keys_(frame_key, memo.runs()), wanted_(std::move(wanted)), skip_(std::move(skip)) {}
+    Remember(Declaration& d, const Sources& sources, std::vector<std::vector<std::string>> wanted, std::vector<bool> skip)
+        : d_(&d),
+          memo_(sources.memo),
+          keys_(sources.loaded.key, memo_->runs(), sources.shaders),
+          wanted_(std::move(wanted)),
+          skip_(std::move(skip)) {}
 
     void operator()(const DeclaredAct& act) {
         const std::size_t place = place_++;
@@ -182,10 +185,10 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
         sources.memo->begin_run();
         d = Declaration{};
         d.choices = *choices;
-        Remember remember(d, *sources.memo, sources.loaded.key, std::move(wanted), std::move(skip));
+        Remember remember(d, sources, std::move(wanted), std::move(skip));
         if (const auto filled = fill(d, request, sources, keep, std::ref(remember)); !filled) return filled.error();
     }
-    auto plan = compile(d.graph, ShaderLibrary::built_in());
+    auto plan = compile(d.graph, sources.shaders);
     if (!plan) return plan.error();
     d.plan = *std::move(plan);
     settle_idle_counters(d);

@@ -40,6 +40,7 @@ struct Sources {
     const LoadedFrame& loaded;
     const DeviceScene& scene;
     const DeviceInfo& device;
+    const ShaderLibrary& shaders;
     Memo* memo = nullptr;  ///< null: everything is executed
 };
 

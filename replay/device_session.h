@@ -1,5 +1,6 @@
 // The session behind Session::open: one device, one capture, the frame that is loaded, the memo. What it does is spread over
-// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging) and memory_budget.cpp.
+// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging), memory_budget.cpp and
+// reloaded_shaders.cpp.
 #pragma once
 
 #include <set>
@@ -12,6 +13,8 @@
 #include "replay/session.h"
 
 namespace strata {
+
+class GlslSources;
 
 class DeviceSession final : public Session {
 public:
@@ -27,14 +30,18 @@ public:
     Result<Frame> frame(std::size_t index) override;
 
     Result<Run> run(const Request&) override;
-    Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats) override;
+    Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress&) override;
     Result<PlannedFrame> plan(const Request&) override;
     Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) override;
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
+    Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2 pixel) override;
+    Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) override;
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
     Result<const FragmentLists*> transparent_fragments(const Request&) override;
     Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
+    Result<ReloadedShaders> reload_shaders(const std::filesystem::path&, std::span<const Request> shown) override;
+    void stop_when(std::stop_token stop) override { stop_ = std::move(stop); }
     void forget_memo() override;
 
     /// A run that executes everything, with what each step took and counted.
@@ -58,6 +65,21 @@ private:
         Choice choice;
         ImageSet result;
     };
+    /// Shaders compiled from a folder; those of the library stand in for the ones built in.
+    struct ShaderSet {
+        struct Compiled {
+            std::uint64_t hash = 0;  ///< GlslSources::hash_of
+            std::vector<std::uint32_t> code;
+        };
+        std::map<std::string, Compiled> compiled;  ///< by name; the library's shaders point into it
+        ShaderLibrary library{&ShaderLibrary::built_in()};
+    };
+    /// Null when the shaders in use have no such one.
+    const std::vector<std::uint32_t>* compiled_before(const std::string& shader, std::uint64_t hash) const;
+    Result<std::unique_ptr<ShaderSet>> compile_set(const GlslSources&, ReloadedShaders&) const;
+    const ShaderLibrary& shaders() const {
+        return shader_sets_.empty() ? ShaderLibrary::built_in() : shader_sets_.back()->library;
+    }
     Result<Inspected> inspect(const Request&, Stage);
     /// What is known of a run that executes everything, before any run.
     Result<Run> plan_run(const Request&);
@@ -75,6 +97,8 @@ private:
     Result<void> check_budget(const Plan&, const RunOptions&) const;
     /// Makes room for a plan that uses nothing of the memo.
     Result<void> make_room(const Plan&, const RunOptions&);
+    /// Fails once the device is lost, or whoever asked wants no answer any more.
+    Result<void> check_going() const;
     void upload_scene();
     /// Zeros for what frames leave to the next and none left yet.
     void make_remembered(const Plan&);
@@ -82,6 +106,7 @@ private:
     template <typename Action>
     std::invoke_result_t<Action> guarded(Action);
     Result<Execution> execute(const Declaration&, const RunOptions&);
+    Result<Execution> try_execute(const Declaration&, RunOptions);
     /// What is known of a run after it.
     Run finished(const Declaration&, const Execution&);
     void remember(const Declaration&, const Execution&);
@@ -96,6 +121,9 @@ private:
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
+    std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
+    std::stop_token stop_;
+    bool is_lost_ = false;
     Source source_;
 };
 

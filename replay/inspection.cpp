@@ -70,6 +70,24 @@ std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
     return act.scope + (in_memo ? 1 : 0);
 }
 
+/// The images of one sample that a step writes.
+std::vector<Image> written_by(const Declaration& d, const PlannedStep& planned) {
+    std::vector<Image> written;
+    for (const Barrier& barrier : planned.barriers) {  // one per mip and layer
+        if (!barrier.image || !writes(barrier.after) || d.graph.shape(barrier.image).samples > 1) continue;
+        if (std::ranges::find(written, barrier.image.id, &Image::id) == written.end()) written.push_back(barrier.image);
+    }
+    return written;
+}
+
+/// The texel of an image that shows a pixel of the frame: of one that covers it, at full extent or a pixel for each k x k.
+std::optional<glm::uvec2> texel_under(const Shape& shape, const Extent& frame, glm::uvec2 pixel) {
+    const std::uint32_t k = (frame.width + shape.extent.width - 1) / shape.extent.width;
+    const Extent covering{(frame.width + k - 1) / k, (frame.height + k - 1) / k, 1};
+    if (covering.width != shape.extent.width || covering.height != shape.extent.height) return {};
+    return pixel / k;
+}
+
 ActImages describe_act(const Declaration& d, const DeclaredAct& act) {
     const Stage stage = act.technique->stage;
     std::string label(name(stage));
@@ -123,10 +141,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
         want(result, output, d.images.*find_frame_image(output)->member, first_step_after(d.plan, end_scope(d, *last)));
 
     const auto execution = execute(d, peeks.options());
-    if (!execution) {
-        memo_.drop_unfilled();
-        return execution.error();
-    }
+    if (!execution) return execution.error();
     remember(d, *execution);
     if (!is_known) {
         found_.emplace(Found{loaded_->key, std::move(keys), {}, {}});
@@ -179,11 +194,8 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const Step& step = plan.steps[i].step;
         if (!scopes.contains(step.scope)) continue;
-        std::set<std::uint32_t> written;
-        for (const Barrier& barrier : plan.steps[i].barriers) {
-            if (!barrier.image || !writes(barrier.after) || declared->graph.shape(barrier.image).samples > 1) continue;
-            if (!written.insert(barrier.image.id).second) continue;  // one barrier per mip and layer
-            options.peeks.push_back({i, barrier.image});
+        for (const Image image : written_by(*declared, plan.steps[i])) {
+            options.peeks.push_back({i, image});
             places.push_back(steps.size());
         }
         steps.push_back({i, plan.scopes[step.scope].name, step.name, {}});
@@ -195,28 +207,76 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
     return steps;
 }
 
+Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& request, glm::uvec2 pixel) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    const Extent& frame = declared->images.extent;
+    if (pixel.x >= frame.width || pixel.y >= frame.height)
+        return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", frame.width, frame.height, pixel.x, pixel.y);
+    const Plan& plan = declared->plan;
+    RunOptions options{.kept_images = KeptImages::left};
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+        for (const Image image : written_by(*declared, plan.steps[i]))
+            if (const auto texel = texel_under(declared->graph.shape(image), frame, pixel))
+                options.peeks.push_back({i, image, texel});
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    std::vector<StepImages> steps;
+    for (std::size_t i = 0; i < options.peeks.size(); ++i) {
+        const Peek& peek = options.peeks[i];
+        const Step& step = plan.steps[peek.step].step;
+        if (steps.empty() || steps.back().step != peek.step)
+            steps.push_back({peek.step, plan.scopes[step.scope].name, step.name, {}});
+        steps.back().images.emplace(plan.images[peek.image.id].name, std::move(execution->peeked[i]));
+    }
+    return steps;
+}
+
+Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std::uint32_t draw) {
+    Request for_depth = request;
+    for_depth.outputs = {"depth_layers"};
+    const auto run = this->run(for_depth);
+    if (!run) return run.error();
+    const Frame& frame = loaded_->frame;
+    const std::size_t count = frame.draws.size() + frame.emitters.size();
+    if (draw >= count) return fail(Fault::usage, "the frame has {} draws and emitters; there is no draw {}", count, draw);
+    const auto depth = run->images.find("depth_layers");
+    if (depth == run->images.end()) return strata::draw_cover(frame, draw, nullptr);
+    const ReferenceImage layers = in_double(depth->second);
+    return strata::draw_cover(frame, draw, &layers);
+}
+
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
+<<<<<<< HEAD
     return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
+=======
+    if (const auto on = check_going(); !on) return on.error();
+    return info(stage).truth({loaded_->frame, found_->images});
+>>>>>>> reload
 }
 
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    return judge_stage({.frame = loaded_->frame,
-                        .features = loaded_->features,
-                        .choice = inspected->choice,
-                        .before = found_->images,
-                        .result = inspected->result,
-                        .against = against,
-                        .truth = truth,
-                        .fragments = &found_->fragments});
+    Accuracy accuracy = judge_stage({.frame = loaded_->frame,
+                                     .features = loaded_->features,
+                                     .choice = inspected->choice,
+                                     .before = found_->images,
+                                     .result = inspected->result,
+                                     .against = against,
+                                     .truth = truth,
+                                     .fragments = &found_->fragments,
+                                     .stop = stop_});
+    if (const auto on = check_going(); !on) return on.error();
+    return accuracy;
 }
 
 Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request& request) {
     const auto inspected = inspect(request, Stage::transparency);
     if (!inspected) return inspected.error();
+    if (const auto on = check_going(); !on) return on.error();
     if (!found_->fragments) {
         const auto depth = found_->images.find("depth_layers");
         const View& view = loaded_->frame.view;

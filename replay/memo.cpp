@@ -61,8 +61,9 @@ KeptAct* Memo::reserve(std::uint64_t key, std::span<const ImageRecord> images) {
     shrink(budget_ - act.bytes);
     if (held_ + act.bytes > budget_) return nullptr;
     held_ += act.bytes;
-    for (const auto& image : act.images) executor_->create_image(image.id, image.shape);
-    return &kept_.emplace(key, std::move(act)).first->second;
+    const KeptAct& reserved = kept_.emplace(key, std::move(act)).first->second;
+    for (const auto& image : reserved.images) executor_->create_image(image.id, image.shape);  // drop_unfilled() where that fails
+    return &kept_.at(key);
 }
 
 void Memo::commit(std::uint64_t key, std::vector<CounterRecord> counters) {
@@ -101,6 +102,8 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     std::set<std::uint32_t> images, buffers;
     for (const Step& step : graph.steps()) {
         if (step.scope != act.scope) continue;
+        for (const std::string& shader : step.shaders) hash.add(shaders_->replaced(shader));
+        if (std::holds_alternative<DrawWork>(step.work)) hash.add(shaders_->replaced(mesh_vertex_shader));
         for (const Use& use : uses(step)) {
             use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
             if (!use.image && graph.record(use.buffer).remembered) hash.add(run_);

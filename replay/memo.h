@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/graph/shader.h"
 #include "replay/frame_plan.h"
 #include "replay/gpu/executor.h"
 #include "replay/scene/device_scene.h"
@@ -63,16 +64,19 @@ private:
     std::map<std::uint64_t, KeptAct> kept_;
 };
 
-/// Hash of what an act depends on: technique, settings, the frame, and the keys of the acts whose images and buffers it reads.
+/// Hash of what an act depends on: technique, settings, the frame, replaced shaders, and the keys of the acts whose images and
+/// buffers it reads.
 class ActKeys {
 public:
     /// run: no two runs have the same. What frames leave to the next is part of no key, so acts that look at it have none twice.
-    ActKeys(std::uint64_t frame_key, std::uint64_t run) : frame_key_(frame_key), run_(run) {}
+    ActKeys(std::uint64_t frame_key, std::uint64_t run, const ShaderLibrary& shaders)
+        : frame_key_(frame_key), run_(run), shaders_(&shaders) {}
     /// The key of the act just declared as `scope`; remembers it as the producer of what the scope writes.
     std::uint64_t key(const Graph&, const DeclaredAct&, const Settings&);
 
 private:
     std::uint64_t frame_key_, run_;
+    const ShaderLibrary* shaders_;
     std::map<std::uint32_t, std::uint64_t> image_key_, buffer_key_;  ///< by id: key of the last writer
 };
 

@@ -56,14 +56,14 @@ Result<Run> DeviceSession::run(const Request& request) {
     Declaration& d = *declared;
     if (!request.until.empty()) {
         const auto until = find_step(d.plan, request.until);
-        if (!until) return until.error();
+        if (!until) {
+            memo_.drop_unfilled();
+            return until.error();
+        }
         options.until = *until;
     }
     const auto execution = execute(d, options);
-    if (!execution) {
-        memo_.drop_unfilled();
-        return execution.error();
-    }
+    if (!execution) return execution.error();
     Run run = finished(d, *execution);
     if (options.until) memo_.drop_unfilled();
     else remember(d, *execution);
@@ -94,7 +94,14 @@ Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
     return PlannedFrame{std::move(declared->plan), std::move(declared->frame.skipped)};
 }
 
+Result<void> DeviceSession::check_going() const {
+    if (stop_.stop_requested()) return fail(Fault::stopped, "stopped");
+    if (is_lost_) return fail(Fault::device_failed, "the device was lost and does nothing any more; open the capture again");
+    return {};
+}
+
 Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
+    if (const auto on = check_going(); !on) return on.error();
     const FrameVariant variant = variant_of(request);
     times_ = {};
     Lap lap;
@@ -104,7 +111,8 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
         if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
         times_.load = lap();
     }
-    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), memo}, keep); });
+    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
+    if (!declared) memo_.drop_unfilled();
     times_.declare = lap();
     return declared;
 }
@@ -133,6 +141,9 @@ template <typename Action>
 std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
     try {
         return action();
+    } catch (const DeviceLost& failure) {
+        is_lost_ = true;
+        return fail(Fault::device_failed, "{}; open the capture again", failure.what());
     } catch (const DeviceFailure& failure) {
         return fail(Fault::device_failed, "{}", failure.what());
     }
@@ -152,8 +163,10 @@ void DeviceSession::upload_scene() {
 
 void DeviceSession::make_remembered(const Plan& plan) {
     for (const BufferRecord& buffer : plan.buffers)
-        if (buffer.remembered && remembered_.insert(buffer.import->key).second)
+        if (buffer.remembered && !remembered_.contains(buffer.import->key)) {
             executor_->upload(*buffer.import, std::vector<std::byte>(buffer.bytes));
+            remembered_.insert(buffer.import->key);
+        }
 }
 
 void DeviceSession::forget_memo() {
@@ -162,17 +175,29 @@ void DeviceSession::forget_memo() {
 }
 
 Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
+    auto execution = try_execute(d, options);
+    if (execution) {
+        times_.device = execution->host_ms;
+        return execution;
+    }
+    memo_.drop_unfilled();
+    if (stop_.stop_requested()) return check_going().error();
+    if (execution.error().fault == Fault::device_failed) remembered_.clear();  // the frame may have got halfway
+    return execution;
+}
+
+Result<Execution> DeviceSession::try_execute(const Declaration& d, RunOptions options) {
+    if (const auto on = check_going(); !on) return on.error();
+    options.stop = stop_;
     if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
     const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
     if (!uses_memo)
         if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
-    auto execution = guarded([&]() -> Result<Execution> {
+    return guarded([&]() -> Result<Execution> {
         upload_scene();
         make_remembered(d.plan);
         return executor_->run(d.plan, options);
     });
-    if (execution) times_.device = execution->host_ms;
-    return execution;
 }
 
 Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
@@ -183,6 +208,8 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
     run.images = images_of(d, execution);
     run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;
+    if (const std::size_t replaced = shader_sets_.empty() ? 0 : shader_sets_.back()->compiled.size())
+        run.notes.push_back(fmt::format("{} replaced at run time", counted(replaced, "shader")));
     run.pipelines_created = execution.pipelines_created;
     run.host_ms = times_;
     const DeviceMemory memory = executor_->memory();

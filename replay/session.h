@@ -2,14 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "capture_format/reader.h"
 #include "passes/graph/plan.h"
+#include "replay/draw_cover.h"
+#include "replay/eye_move.h"
 #include "replay/frame_plan.h"
 #include "replay/gpu/device.h"
 #include "replay/host_image.h"
@@ -21,13 +26,6 @@ namespace strata {
 
 /// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
 enum class Acts { left, brought_back };
-
-/// Where the eye looks from instead of from its recorded place.
-struct EyeMove {
-    double dolly = 0;  ///< metres ahead along the recorded view
-    double pan = 0;    ///< radians to the right, after that
-    friend bool operator==(const EyeMove&, const EyeMove&) = default;
-};
 
 /// What to replay and what to bring back.
 struct Request {
@@ -50,6 +48,9 @@ struct StepRecord {
     std::optional<Spread> ms;               ///< with timing
     std::vector<double> ms_by_repeat = {};  ///< what ms is the spread of, in turn
 };
+
+/// Called with what is being done and the share that is done, 0..1.
+using Progress = std::function<void(std::string_view what, double done)>;
 
 /// What a run held, in bytes.
 struct RunMemory {
@@ -99,13 +100,13 @@ struct Run {
     RunTimes host_ms;
     std::size_t acts_executed = 0, acts_from_memo = 0;
     std::size_t pipelines_created = 0;  ///< during this run
-    std::vector<std::string> notes;     ///< what had to be reduced to fit the device
+    std::vector<std::string> notes;     ///< what had to be reduced to fit the device; shaders that are not those built in
     std::vector<ActImages> acts;        ///< with Acts::brought_back, in the order of the frame
 };
 
 /// What a step of the plan wrote, read back right after it.
 struct StepImages {
-    std::size_t step = 0;                     ///< in the plan that keeps every image and so leaves nothing out
+    std::size_t step = 0;                     ///< its place in the plan
     std::string scope, name;                  ///< as in StepRecord
     std::map<std::string, HostImage> images;  ///< by their names in the graph
 };
@@ -125,6 +126,12 @@ struct Accuracy {
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
     std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
+};
+
+/// What Session::reload_shaders did.
+struct ReloadedShaders {
+    std::vector<std::string> replaced;  ///< names of those that differ from the ones built in now
+    std::size_t compiled = 0;           ///< the others of them were, by an earlier reload
 };
 
 /// What a result is compared with. The model of a frame of a million samples takes minutes, and who asks for the model alone
@@ -149,7 +156,7 @@ public:
     /// Runs once. Stage outputs that are still valid come from the memo.
     virtual Result<Run> run(const Request&) = 0;
     /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread.
-    virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats) = 0;
+    virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;
     /// The plan of a request, without running it.
     struct PlannedFrame {
         Plan plan;
@@ -160,8 +167,15 @@ public:
     virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
     /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
     Result<std::vector<ActImages>> act_images(Request);
-    /// What every step of a stage's acts wrote, in order.
+    /// What every step of a stage's acts wrote, in order, by the plan that keeps every image and so leaves nothing out.
     virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
+    /// What a pixel is after every step that writes it, by the request's plan: images of one texel with all their layers and
+    /// slices. Of images at lower resolution (tiles) the texel that covers the pixel; what does not lie on the screen, and what
+    /// has several samples, is not among them (its layers are).
+    virtual Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2 pixel) = 0;
+    /// Which pixels show a draw of the frame (an emitter after the draws), row by row from the top: the draw in double, held
+    /// against the depth the request's techniques leave.
+    virtual Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) = 0;
     /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
     virtual Result<ImageSet> truth(const Request&, Stage) = 0;
     /// Runs the request's technique of a stage and compares with its model and with the stage's truth (computed unless given).
@@ -173,6 +187,15 @@ public:
     virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
     /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
     virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
+
+    /// Compiles the shaders that a folder (its passes/...) has other sources for than those built in, and uses them from here on;
+    /// the rest are those built in. On failure, which says FILE:LINE of what is wrong, all stay as they were; so they do when one
+    /// of the requests that are shown would have no plan with them. Stage outputs that depend on none of them stay valid.
+    virtual Result<ReloadedShaders> reload_shaders(const std::filesystem::path& folder, std::span<const Request> shown = {}) = 0;
+
+    /// Once a stop is requested, from any thread, every call fails with Fault::stopped before the next thing it would do: load a
+    /// frame, compile a pipeline, submit to the device, compute a truth, a row of a model. A new token lets it go on.
+    virtual void stop_when(std::stop_token) = 0;
 
     /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;

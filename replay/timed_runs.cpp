@@ -82,13 +82,16 @@ Result<Run> DeviceSession::plan_run(const Request& request) {
     return describe_run(*declared);
 }
 
-Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats) {
+Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
     std::vector<Run> runs;
     std::vector<std::vector<std::vector<StepCost>>> step_costs(requests.size());  // [request][repeat][step]
     for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {                   // the first of each warms up
         memo_.clear();
         ExecutedActs acts;
         for (std::size_t i = 0; i < requests.size(); ++i) {
+            if (progress)
+                progress(repeat == 0 ? "warming up" : fmt::format("timing, {} of {}", repeat, repeats),
+                         double(repeat * requests.size() + i) / double((repeats + 1) * requests.size()));
             if (repeat == 0) {
                 auto planned = plan_run(requests[i]);
                 if (!planned) return planned.error();

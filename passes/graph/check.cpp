@@ -44,7 +44,7 @@ std::vector<std::string> shaders_of_draw(const Step& step, const ShaderLibrary& 
     const bool own_vertex = library.find(shaders.front()) != nullptr;
     const bool depth_only = own_vertex && !library.find(shaders.back()) && std::ranges::none_of(step.attachments, is_color);
     if (depth_only) shaders.pop_back();
-    if (!own_vertex) shaders.front() = "shaders/draw.vert";
+    if (!own_vertex) shaders.front() = mesh_vertex_shader;
     return shaders;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 #include <spirv_cross.hpp>
 
@@ -252,6 +253,8 @@ ShaderLibrary::ShaderLibrary(std::span<const EmbeddedShader> embedded) : ShaderL
     for (const EmbeddedShader& shader : embedded) sources_.emplace(shader.name, shader.code);
 }
 
+ShaderLibrary::ShaderLibrary(const ShaderLibrary* under) : ShaderLibrary() { under_ = under; }
+
 const ShaderLibrary& ShaderLibrary::built_in() {
     static const ShaderLibrary library(embedded_shaders());
     return library;
@@ -267,7 +270,7 @@ const Shader* ShaderLibrary::find(std::string_view name) const {
     const std::scoped_lock lock(*mutex_);
     if (const auto known = shaders_.find(name); known != shaders_.end()) return &known->second;
     const auto source = sources_.find(name);
-    if (source == sources_.end()) return nullptr;
+    if (source == sources_.end()) return under_ ? under_->find(name) : nullptr;
     Result<Shader> shader = reflect(source->first, source->second);
     if (!shader) {  // what the build embedded is ours to get right, in every build
         fmt::print(stderr, "{}\n", shader.error().sentence);
@@ -276,14 +279,20 @@ const Shader* ShaderLibrary::find(std::string_view name) const {
     return &shaders_.emplace(source->first, std::move(*shader)).first->second;
 }
 
+std::uint64_t ShaderLibrary::replaced(std::string_view name) const {
+    const std::scoped_lock lock(*mutex_);
+    const auto own = shaders_.find(name);
+    return under_ && own != shaders_.end() ? own->second.hash : 0;
+}
+
 std::vector<std::string> ShaderLibrary::names() const {
     const std::scoped_lock lock(*mutex_);
-    std::vector<std::string> all;
-    for (const auto& [name, shader] : shaders_) all.push_back(name);
-    for (const auto& [name, code] : sources_)
-        if (!shaders_.contains(name)) all.push_back(name);
-    std::ranges::sort(all);
-    return all;
+    std::set<std::string> all;
+    if (under_)
+        for (std::string& name : under_->names()) all.insert(std::move(name));
+    for (const auto& [name, shader] : shaders_) all.insert(name);
+    for (const auto& [name, code] : sources_) all.emplace(name);
+    return {all.begin(), all.end()};
 }
 
 std::size_t ShaderLibrary::reflected() const {

@@ -63,6 +63,9 @@ struct Shader {
     bool chooses_layer = false;                  ///< writes gl_Layer
 };
 
+/// What draws the scene's meshes unless a draw has a vertex shader of its own.
+inline constexpr const char* mesh_vertex_shader = "shaders/draw.vert";
+
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.
 Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code);
 
@@ -76,11 +79,15 @@ class ShaderLibrary {
 public:
     ShaderLibrary();
     explicit ShaderLibrary(std::span<const EmbeddedShader>);
+    /// What is added stands in for the shaders of the same names in another library, which must outlive this one.
+    explicit ShaderLibrary(const ShaderLibrary* under);
     /// The shaders built into the program.
     static const ShaderLibrary& built_in();
     void add(Shader);
     /// Null when there is none.
     const Shader* find(std::string_view name) const;
+    /// Hash of the shader that stands in for one of the library below; 0 where none does.
+    std::uint64_t replaced(std::string_view name) const;
     std::vector<std::string> names() const;
     /// Shaders reflected or added so far: what "only what the scene calls for" counts.
     std::size_t reflected() const;
@@ -88,6 +95,7 @@ public:
 private:
     std::map<std::string, std::span<const std::uint32_t>, std::less<>> sources_;  ///< not looked up yet or already in shaders_
     mutable std::map<std::string, Shader, std::less<>> shaders_;
+    const ShaderLibrary* under_ = nullptr;
     std::unique_ptr<std::mutex> mutex_;  ///< guards shaders_: sessions on several threads share the built-in library
 };
 

@@ -22,10 +22,10 @@ using nlohmann::ordered_json;
 struct Options {
     OpenOptions open;
     ChoiceOptions choices;
-    std::string frames, until;
+    std::string frames, until, eye;
     std::vector<std::string> outputs = {"color", "depth_layers", "display"};
     std::size_t repeat = 1, timed = 0;
-    std::filesystem::path folder = ".";
+    std::filesystem::path folder = ".", shaders;
     double tolerance = 0;
     bool json = false, expect = false, no_expect = false;
 };
@@ -78,7 +78,9 @@ Result<Run> run_once(Session& session, const Request& request, const Options& op
 }
 
 bool expects(const Session& session, const Options& options) {
-    return !options.no_expect && options.until.empty() && (options.expect || !session.capture()->expectations().empty());
+    const bool as_recorded = options.eye.empty() && options.shaders.empty();
+    return as_recorded && !options.no_expect && options.until.empty() &&
+           (options.expect || !session.capture()->expectations().empty());
 }
 
 /// Compared with what is `known` to be expected, where that is not null.
@@ -169,8 +171,13 @@ Result<void> replay(const Options& options) {
     if (!request) return request.error();
     request->until = options.until;
     request->outputs = options.outputs;
+    const auto eye = eye_move_of(options.eye);
+    if (!eye) return eye.error();
+    request->eye = *eye;
     auto session = open(options.open);
     if (!session) return session.error();
+    if (!options.shaders.empty())
+        if (const auto reloaded = (*session)->reload_shaders(options.shaders); !reloaded) return reloaded.error();
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
     if (const auto made = make_folder(options.folder); !made) return made;
@@ -221,7 +228,16 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     app.add_flag("--json", options->json, "one JSON object on stdout");
     app.add_option("--tolerance", options->tolerance, "largest relative rmse to what is expected, where its images are kept")
         ->check(CLI::NonNegativeNumber);
-    auto* expect = app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame");
+    auto* eye =
+        app.add_option("--eye", options->eye,
+                       "look from elsewhere: dolly, truck, pedestal (metres ahead, right, up), pan, tilt, roll (radians), "
+                       "like pan=0.5,dolly=1");
+    auto* shaders = app.add_option("--shaders", options->shaders,
+                                   "a folder whose passes/... hold shaders to use in place of those built in; needs "
+                                   "glslangValidator");
+    auto* expect = app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame")
+                       ->excludes(eye)
+                       ->excludes(shaders);
     app.add_flag("--no-expect", options->no_expect, "do not compare with what the capture expects")->excludes(expect);
     return [options] { return replay(*options); };
 }

@@ -133,6 +133,7 @@ Metadata provenance(const Session& session, const Request& request, const Run& r
                       {"strata.device", device.name},
                       {"strata.driver", device.driver + " " + device.driver_version},
                       {"strata.cpu", device.cpu}};
+    if (const std::string eye = text(request.eye); !eye.empty()) metadata["strata.eye"] = eye;
     for (const auto& [name, image] : run.images) metadata["strata.hash." + name] = hash_of(image);
     return metadata;
 }

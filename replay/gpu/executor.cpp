@@ -22,6 +22,12 @@ struct HostCopies {
     Readback readback;
     std::vector<std::unique_ptr<SampleLayers>> spread;
 
+    Copy copy(const vk::raii::CommandBuffer& commands, const DeviceImage& image, std::optional<glm::uvec2> texel) {
+        Shape shape = image.shape();
+        shape.mips = 1;
+        if (texel) shape.extent.width = shape.extent.height = 1;
+        return {readback.add(commands, image, {shape, texel.value_or(glm::uvec2(0))}), shape};
+    }
     HostImage take(const Copy& copy) const { return {copy.shape, readback.take(copy.ticket)}; }
 };
 
@@ -76,7 +82,7 @@ private:
 
     Execution execute(const Plan&, const RunOptions&);
     void record(const vk::raii::CommandBuffer&, Frame&);
-    HostCopies::Copy copy_out(const vk::raii::CommandBuffer&, DeviceImage&, HostCopies&);
+    HostCopies::Copy copy_out(const vk::raii::CommandBuffer&, DeviceImage&, HostCopies&, std::optional<glm::uvec2> texel = {});
     void record_peeks(const vk::raii::CommandBuffer&, Frame&, std::size_t step);
     void read_kept(Frame&, Execution&);
     void fail_on_messages();
@@ -97,16 +103,18 @@ template <typename Action>
 void VulkanExecutor::guarded(std::string place, Action action) {
     place_ = std::move(place);
     try {
-        action();
-        fail_on_messages();
+        try {
+            action();
+            fail_on_messages();
+        } catch (...) {
+            memory_.reset();
+            throw;
+        }
+    } catch (const vk::DeviceLostError& problem) {
+        throw DeviceLost(fmt::format("{}: {}", place_, problem.what()));
     } catch (const vk::SystemError& problem) {
-        memory_.reset();
         throw DeviceFailure(fmt::format("{}: {}", place_, problem.what()));
-    } catch (const DeviceFailure&) {
-        memory_.reset();
-        throw;
     } catch (const std::out_of_range&) {
-        memory_.reset();
         throw DeviceFailure(fmt::format("{}: an imported resource was never made", place_));
     }
 }
@@ -136,7 +144,9 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     const double pipelines_ms = pipelines_.milliseconds();
     const std::size_t pipelines_before = pipelines_.created();
 
-    pipelines_.make(plan, std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size()));
+    const std::size_t steps = std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
+    pipelines_.make(plan, steps, options.stop);
+    if (options.stop.stop_requested()) throw DeviceFailure("stopped");
     auto commands = device_->begin_commands();
     try {
         record(commands, frame);
@@ -184,19 +194,19 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
     frame.peeks.readback.finish(commands);
 }
 
-/// Copies mip 0 of an image between two steps and leaves it in the layouts it had.
-HostCopies::Copy VulkanExecutor::copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image, HostCopies& copies) {
+/// Copies mip 0 of an image between two steps, or one texel of it, and leaves it in the layouts it had.
+HostCopies::Copy VulkanExecutor::copy_out(const vk::raii::CommandBuffer& commands, DeviceImage& image, HostCopies& copies,
+                                          std::optional<glm::uvec2> texel) {
     const PartRange top{.layers = image.shape().layers};
     const auto before = image.layouts();
     HostCopies::Copy copy;
     if (image.shape().samples > 1) {
         auto& spread = copies.spread.emplace_back(std::make_unique<SampleLayers>(*device_, image, samplers_, placeholders_));
         const DeviceImage& layers = spread->record(commands, pipelines_);
-        copy = {copies.readback.add(commands, layers), layers.shape()};
+        copy = copies.copy(commands, layers, {});
     } else {
         go_to(commands, image, top, vk::ImageLayout::eTransferSrcOptimal);
-        copy = {copies.readback.add(commands, image), image.shape()};
-        copy.shape.mips = 1;
+        copy = copies.copy(commands, image, texel);
     }
     for (std::uint32_t layer = 0; layer < top.layers; ++layer) {
         if (before[layer] != vk::ImageLayout::eUndefined) go_to(commands, image, {.layer = layer}, before[layer]);
@@ -212,7 +222,7 @@ void VulkanExecutor::record_peeks(const vk::raii::CommandBuffer& commands, Frame
             throw DeviceFailure(
                 fmt::format("{}: the image {} holds nothing after this step", place_, frame.plan.images[peek.image.id].name));
         }
-        frame.peeked[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks);
+        frame.peeked[i] = copy_out(commands, frame.resources.image(peek.image), frame.peeks, peek.texel);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,18 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// Nothing works any more on this device.
+class DeviceLost : public DeviceFailure {
+public:
+    using DeviceFailure::DeviceFailure;
+};
+
 /// An image to copy out right after a step of the plan (its index in Plan::steps). A DeviceFailure when no step made it yet, or
 /// a later image has taken its memory.
 struct Peek {
     std::size_t step = 0;
     Image image;
+    std::optional<glm::uvec2> texel = {};  ///< that column of every layer and slice alone; not of several samples
 };
 
 enum class Timestamps { off, on };
@@ -38,6 +46,7 @@ struct RunOptions {
     std::vector<Peek> peeks;
     Timestamps timestamps = Timestamps::off;
     KeptImages kept_images = KeptImages::read;
+    std::stop_token stop;  ///< once requested nothing is submitted any more: a DeviceFailure
 };
 
 /// Device memory in bytes, by the allocator's own count.

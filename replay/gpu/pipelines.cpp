@@ -225,7 +225,7 @@ Pipeline PipelineStore::made(const PlannedStep& planned, const RasterState& stat
     return pipeline;
 }
 
-void PipelineStore::make(const Plan& plan, std::size_t steps) {
+void PipelineStore::make(const Plan& plan, std::size_t steps, const std::stop_token& stop) {
     struct Missing {
         const PlannedStep* step;
         RasterState state;
@@ -245,7 +245,7 @@ void PipelineStore::make(const Plan& plan, std::size_t steps) {
     Lap lap;
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
-        for (std::size_t i = next++; i < order.size(); i = next++) try {
+        for (std::size_t i = next++; i < order.size() && !stop.stop_requested(); i = next++) try {
                 order[i]->pipeline = made(*order[i]->step, order[i]->state);
             } catch (const vk::SystemError&) {  // find() meets it again and says at which step
             }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ public:
     explicit PipelineStore(OpenedDevice&);
 
     /// Makes what the first `steps` steps of a plan need and is not there yet, on all cores: on a CPU driver that is most of the
-    /// time to the first picture. What cannot be made is left for find() to fail at.
-    void make(const Plan&, std::size_t steps);
+    /// time to the first picture. What cannot be made is left for find() to fail at, and so is what a stop came before.
+    void make(const Plan&, std::size_t steps, const std::stop_token&);
     /// The pipeline of a compute or raster step. Images are those of the plan.
     const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
     std::size_t created() const { return pipelines_.size(); }

@@ -6,16 +6,16 @@
 
 namespace strata {
 
-std::size_t Readback::add(const vk::raii::CommandBuffer& commands, const DeviceImage& image) {
-    Shape shape = image.shape();
-    assert(shape.samples == 1);
-    shape.mips = 1;
+std::size_t Readback::add(const vk::raii::CommandBuffer& commands, const DeviceImage& image, const Region& region) {
+    const Shape& shape = region.shape;
+    assert(shape.samples == 1 && shape.mips == 1);
     Copy& copy =
         copies_.emplace_back(DeviceBuffer(*device_, strata::bytes(shape), "readback", MemoryUse::readback), strata::bytes(shape));
     const vk::ImageSubresourceLayers layers(image.subresources({}).aspectMask, 0, 0, shape.layers);
+    const vk::Offset3D first(static_cast<std::int32_t>(region.first.x), static_cast<std::int32_t>(region.first.y), 0);
     const vk::Extent3D extent(shape.extent.width, shape.extent.height, shape.extent.depth);
     commands.copyImageToBuffer(image.handle(), image.layout({}), copy.staging.handle(),
-                               vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
+                               vk::BufferImageCopy(0, 0, 0, layers, first, extent));
     return copies_.size() - 1;
 }
 

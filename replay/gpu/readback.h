@@ -14,8 +14,13 @@ class Readback {
 public:
     explicit Readback(OpenedDevice& device) : device_(&device) {}
 
-    /// Copies mip 0 of a single-sampled image that is in the copied_from layout. Returns a ticket.
-    std::size_t add(const vk::raii::CommandBuffer&, const DeviceImage&);
+    /// What is copied of an image: a shape with one mip, and where its first texel lies.
+    struct Region {
+        Shape shape;
+        glm::uvec2 first{0};
+    };
+    /// Copies of mip 0 of a single-sampled image that is in the copied_from layout. Returns a ticket.
+    std::size_t add(const vk::raii::CommandBuffer&, const DeviceImage&, const Region&);
     std::size_t add(const vk::raii::CommandBuffer&, const DeviceBuffer&, std::uint64_t bytes);
     /// Makes the copies visible to the host: the last command.
     void finish(const vk::raii::CommandBuffer&) const;

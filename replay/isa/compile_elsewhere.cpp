@@ -1,14 +1,12 @@
 #include "replay/isa/compile_elsewhere.h"
 
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <system_error>
+
+#include "replay/process.h"
 
 namespace strata {
 namespace {
@@ -40,18 +38,6 @@ bool is_radv(const std::filesystem::path& path) {
     return path.filename().string().starts_with("radeon_icd") && path.extension() == ".json";
 }
 
-/// A temporary file without a name: gone with whoever holds it.
-using Nameless = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-Nameless nameless_file() { return {std::tmpfile(), &std::fclose}; }
-
-std::string contents(std::FILE* file) {
-    std::string text;
-    std::rewind(file);
-    char block[65536];
-    for (std::size_t got = 0; (got = std::fread(block, 1, sizeof block, file)) > 0;) text.append(block, got);
-    return text;
-}
-
 std::string last_line(std::string text) {
     while (text.ends_with('\n')) text.pop_back();
     return text.substr(text.find_last_of('\n') + 1);
@@ -72,46 +58,13 @@ std::vector<std::string> environment_for(const CompileJob& job, const std::strin
     return made;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-    std::vector<char*> made;
-    for (std::string& text : texts) made.push_back(text.data());
-    made.push_back(nullptr);
-    return made;
-}
-
-/// How the process ended, and what it wrote.
-struct Ended {
-    int status = 0;
-    std::string out, err;
-};
-
-Result<Ended> run(const CompileJob& job, std::vector<std::string> environment, const std::string& input) {
-    const Nameless in = nameless_file(), out = nameless_file(), err = nameless_file();
-    const bool is_written = in && out && err && std::fwrite(input.data(), 1, input.size(), in.get()) == input.size();
-    if (!is_written || std::fflush(in.get()) != 0)
-        return fail(Fault::usage, "cannot write a temporary file: {}", std::generic_category().message(errno));
-    std::rewind(in.get());
+Result<EndedProcess> run(const CompileJob& job, std::vector<std::string> environment, const std::string& input) {
     std::vector<std::string> arguments{job.program.string(), compile_verb, "--device", std::to_string(job.device)};
     if (job.texts == CompilerTexts::kept) arguments.emplace_back("--texts");
-
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (const auto& [file, number] : {std::pair(in.get(), 0), std::pair(out.get(), 1), std::pair(err.get(), 2)})
-        posix_spawn_file_actions_adddup2(&files, fileno(file), number);
-    pid_t child = 0;
-    const int problem =
-        posix_spawn(&child, job.program.c_str(), &files, nullptr, pointers(arguments).data(), pointers(environment).data());
-    posix_spawn_file_actions_destroy(&files);
-    if (problem != 0)
-        return fail(Fault::device_failed, "cannot start {}: {}", job.program.string(), std::generic_category().message(problem));
-    Ended ended;
-    while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {}
-    ended.out = contents(out.get());
-    ended.err = contents(err.get());
-    return ended;
+    return run_process({std::move(arguments), std::move(environment), input});
 }
 
-Result<Compilation> compilation_of(const Ended& ended, std::string_view target) {
+Result<Compilation> compilation_of(const EndedProcess& ended, std::string_view target) {
     if (WIFSIGNALED(ended.status))
         return fail(Fault::device_failed, "the compiler for {} crashed ({}): {}", target, strsignal(WTERMSIG(ended.status)),
                     ended.err.empty() ? "it said nothing" : last_line(ended.err));

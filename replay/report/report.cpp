@@ -88,7 +88,7 @@ void add_timing(Measurement& row, const Run& run, const Report& report) {
 }
 
 /// Times of all rows that can do the frame, and the same in units of the technique whose time is the unit.
-Result<void> time_rows(Session& session, std::span<const Variant> all, Report& report) {
+Result<void> time_rows(Session& session, std::span<const Variant> all, Report& report, const Progress& tell) {
     std::vector<Request> timed;
     std::vector<std::size_t> places;  // in the report, of what is timed
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -96,7 +96,7 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
         timed.push_back(all[i].request);
         places.push_back(i);
     }
-    const auto runs = session.time(timed, report.repeats);
+    const auto runs = session.time(timed, report.repeats, tell);
     if (!runs) return runs.error();
     const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
     const auto unit = std::ranges::find_if(places, [&](std::size_t i) { return all[i].technique->is_time_unit; });
@@ -207,8 +207,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         const auto told = [&](std::string_view what, double done) { tell(what, .4 + .3 * done); };
         if (const auto added = add_flicker(session, wanted, *all, report, told); !added) return added.error();
     }
-    tell("timing", .7);
-    if (const auto timed = time_rows(session, *all, report); !timed) return timed.error();
+    const auto told = [&](std::string_view what, double done) { tell(what, .7 + .3 * done); };
+    if (const auto timed = time_rows(session, *all, report, told); !timed) return timed.error();
     mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
         return row.accuracy.method.empty() ? HUGE_VAL : row.accuracy.method.front().value;

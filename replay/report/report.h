@@ -2,7 +2,6 @@
 // flicker and counters, and what is on the Pareto fronts.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,9 +60,6 @@ struct Report {
     std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
 };
-
-/// Called with what is being done and the share that is done, 0..1.
-using Progress = std::function<void(std::string_view what, double done)>;
 
 Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {});
 

@@ -24,16 +24,24 @@ public:
             if (act.label == act_) act.images.begin()->second.texels[100] ^= std::byte{1};
         return run;
     }
-    Result<std::vector<Run>> time(std::span<const Request> r, std::size_t n) override { return steady_->time(r, n); }
+    Result<std::vector<Run>> time(std::span<const Request> r, std::size_t n, const Progress& p) override {
+        return steady_->time(r, n, p);
+    }
     Result<PlannedFrame> plan(const Request& r) override { return steady_->plan(r); }
     Result<HostImage> peek(const Request& r, std::size_t s, const std::string& i) override { return steady_->peek(r, s, i); }
     Result<std::vector<StepImages>> step_images(const Request& r, Stage s) override { return steady_->step_images(r, s); }
+    Result<std::vector<StepImages>> pixel_steps(const Request& r, glm::uvec2 p) override { return steady_->pixel_steps(r, p); }
+    Result<std::vector<Cover>> draw_cover(const Request& r, std::uint32_t d) override { return steady_->draw_cover(r, d); }
     Result<ImageSet> truth(const Request& r, Stage s) override { return steady_->truth(r, s); }
     Result<Accuracy> judge(const Request& r, Stage s, Against a, const ImageSet* t) override {
         return steady_->judge(r, s, a, t);
     }
     Result<const FragmentLists*> transparent_fragments(const Request& r) override { return steady_->transparent_fragments(r); }
     Result<std::vector<Run>> run(Frame f, std::span<const Request> r) override { return steady_->run(std::move(f), r); }
+    Result<ReloadedShaders> reload_shaders(const std::filesystem::path& f, std::span<const Request> r) override {
+        return steady_->reload_shaders(f, r);
+    }
+    void stop_when(std::stop_token t) override { steady_->stop_when(std::move(t)); }
     void forget_memo() override { steady_->forget_memo(); }
 
 private:

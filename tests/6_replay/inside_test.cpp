@@ -64,6 +64,48 @@ TEST(StepImages, ComeStepByStepAndEndWithWhatTheActLeft) {
     EXPECT_EQ(last.at("color"), hash_of(act_named(acts, "transparency").images.at("color")));
 }
 
+/// The only step of that scope and name; null where there are several, which two plans may count differently.
+const StepImages* only(const std::vector<StepImages>& steps, const StepImages& like) {
+    const auto same = [&](const StepImages& step) { return step.scope == like.scope && step.name == like.name; };
+    return std::ranges::count_if(steps, same) == 1 ? &*std::ranges::find_if(steps, same) : nullptr;
+}
+
+TEST(PixelSteps, AreTheTexelsOfWhatTheStepsWrote) {
+    const auto session = scenario_session("glass_and_smoke");
+    const glm::uvec2 pixel(83, 41);
+    const auto pixels = must(session->pixel_steps({}, pixel));
+    EXPECT_TRUE(std::ranges::is_sorted(pixels, {}, &StepImages::step));
+    std::size_t compared = 0;
+    for (const Stage stage : {Stage::gbuffer, Stage::lighting, Stage::combine, Stage::transparency}) {
+        const auto whole = must(session->step_images({}, stage));
+        for (const StepImages& step : whole) {
+            const StepImages* found = only(pixels, step);
+            if (!found || !only(whole, step)) continue;
+            for (const auto& [name, image] : found->images) {
+                const auto all = step.images.find(name);
+                if (all == step.images.end() || all->second.shape.extent.width != 160) continue;
+                EXPECT_EQ(image.shape.extent.width * image.shape.extent.height, 1u);
+                for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer)
+                    EXPECT_EQ(texel(image, 0, 0, layer), texel(all->second, pixel.x, pixel.y, layer)) << step.name << " " << name;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 4u);
+}
+
+TEST(PixelSteps, EndWithThePictureOnEveryPixelAndTileOfIt) {
+    const auto session = scenario_session("three_panes");
+    const auto display = must(session->run({})).images.at("display");
+    for (const glm::uvec2 pixel : {glm::uvec2(0), glm::uvec2(63, 35), glm::uvec2(30, 20)}) {
+        const auto steps = must(session->pixel_steps({}, pixel));
+        EXPECT_EQ(texel(steps.back().images.at("display"), 0, 0), texel(display, pixel.x, pixel.y));
+    }
+    const auto outside = session->pixel_steps({}, {64, 0});
+    ASSERT_FALSE(outside);
+    EXPECT_EQ(outside.error().sentence, "the frame is 64 x 36; there is no pixel 64, 0");
+}
+
 TEST(StepImages, OfAStageTheFrameDoesNotNeedAreNone) {
     const auto session = scenario_session("opaque_only");
     EXPECT_TRUE(must(session->step_images({}, Stage::transparency)).empty());
