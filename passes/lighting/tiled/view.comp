@@ -39,7 +39,7 @@ float number_of_mode(uint tile) { return is_empty(tile) ? -1.0 : float(mode_of(t
 vec3 shown_of(uint tile) {
     const TileStatistics s = statistics[tile];
     if (shown == view_mode_numbers) return vec3(number_of_mode(tile));
-    if (shown == view_spectrum) return vec3(is_empty(tile) ? -1.0 : float((records[tile].spectrum | order.force) & every_light_feature));
+    if (shown == view_spectrum) return vec3(is_empty(tile) ? -1.0 : float((records[tile].spectrum | order.force) & 0xffffu));
     if (shown == view_modes) return color_of_mode(tile);
     if (shown == view_bytes) return vec3(bytes_used(s));
     if (shown == view_overflow) return overflow_color(s.overflow);
