@@ -17,7 +17,7 @@ constexpr float label_width = 116;
 void draw_legend(const Model& model, Widgets& widgets, const DebugView& view) {
     constexpr int steps = 48;
     const auto own = model.looks.find(model.image.name);
-    Look look{.black = static_cast<float>(view.low), .white = static_cast<float>(view.high), .curve = Curve::raw};
+    Look look = look_of(view);
     if (own != model.looks.end()) look = own->second;
     const ImVec2 size(std::max(40.0f, ImGui::GetContentRegionAvail().x), 12);
     widgets.canvas("legend", size, legend_text(view));
@@ -103,8 +103,26 @@ void draw_overflow(Widgets& widgets, const Replay& replay, const Technique& tech
 
 }  // namespace
 
+Look look_of(const DebugView& view) {
+    return {.black = static_cast<float>(view.low), .white = static_cast<float>(view.high), .curve = Curve::raw};
+}
+
 std::string legend_text(const DebugView& view) {
     return fmt::format("black {:g}, white {:g}{}{}", view.low, view.high, view.unit.empty() ? "" : " ", view.unit);
+}
+
+void ViewReadouts::take_results(Model& model) {
+    if (slice_job_ && slice_job_->result()) {
+        const auto slice = **slice_job_->result();
+        slice_job_.reset();
+        if (!model.image.step && model.image.name == sliced_)
+            model.image.made = std::make_shared<MadePicture>(MadePicture{sliced_of_, slice, look_of(*find_view(sliced_))});
+    }
+    if (!waves_job_ || !waves_job_->result()) return;
+    const Result<TileWaves>& result = *waves_job_->result();
+    if (result) waves_ = std::make_shared<TileWaves>(*result);
+    else waves_error_ = result.error().sentence;
+    waves_job_.reset();
 }
 
 void ViewReadouts::draw(Model& model, Services& services, const ViewChoice& choice) {
@@ -150,22 +168,15 @@ void ViewReadouts::draw_slice(Model& model, Services& services, const ViewChoice
     const double range = view.high - view.low;
     const SliderRange widths{.low = range / 1024, .high = range, .logarithmic = true, .format = format.c_str()};
     if (const auto half = widgets.slider("slice half", half_, widths)) half_ = *half;
-    make_slice(model, services, choice);
+    make_slice(model, services);
 }
 
-void ViewReadouts::make_slice(Model& model, Services& services, const ViewChoice& choice) {
+void ViewReadouts::make_slice(Model& model, Services& services) {
     model.want(sliced_);
     const auto replay = services.replayer.shown("A");
-    if (slice_job_ && slice_job_->result()) {
-        const std::shared_ptr<const HostImage> slice = **slice_job_->result();
-        slice_job_.reset();
-        const Look look{
-            .black = static_cast<float>(choice.view->low), .white = static_cast<float>(choice.view->high), .curve = Curve::raw};
-        model.image.made = std::make_shared<MadePicture>(MadePicture{sliced_of_, slice, look});
-    }
     const auto image = replay ? replay->image(replay, sliced_) : nullptr;
     const Slice wanted{image, at_, half_};
-    if (slice_job_ || !image || wanted == made_) return;
+    if (slice_job_ || !image || (wanted == made_ && model.image.made)) return;
     made_ = wanted;
     sliced_of_ = without_outputs(replay->request);
     slice_job_ = start<std::shared_ptr<const HostImage>>(
@@ -201,12 +212,6 @@ void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice
     if (chosen) gpu_ = *chosen == 0 ? nullptr : gpus[*chosen - 1];
     if (chosen && gpu_) start_waves(now, services, *choice.technique);
     if (!gpu_) return;
-    if (waves_job_ && waves_job_->result()) {
-        const Result<TileWaves>& result = *waves_job_->result();
-        if (result) waves_ = std::make_shared<TileWaves>(*result);
-        else waves_error_ = result.error().sentence;
-        waves_job_.reset();
-    }
     const bool is_stale = waves_of_ != now;
     if (waves_job_) {
         ImGui::ProgressBar(static_cast<float>(waves_job_->progress.fraction()), {-1, 0}, waves_job_->progress.doing().c_str());

@@ -17,14 +17,19 @@ struct ViewChoice {
 /// "black 0, white 64 lights"; of colors that mean something else each what the help says.
 std::string legend_text(const DebugView&);
 
+/// How a view is shown at first.
+Look look_of(const DebugView&);
+
 class ViewReadouts {
 public:
+    /// What its jobs gave since the last frame.
+    void take_results(Model&);
     void draw(Model&, Services&, const ViewChoice&);
     bool is_busy() const { return slice_job_ != nullptr || waves_job_ != nullptr; }
 
 private:
     void draw_slice(Model&, Services&, const ViewChoice&);
-    void make_slice(Model&, Services&, const ViewChoice&);
+    void make_slice(Model&, Services&);
     void draw_waves(Model&, Services&, const ViewChoice&);
     void start_waves(const Request&, Services&, const Technique&);
     void draw_waves_of(Model&, Widgets&, const TileWaves&);

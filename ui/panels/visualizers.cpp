@@ -22,18 +22,13 @@ struct Group {
     std::map<std::string, TextureId> textures;
 
     bool is_known() const { return views || !error.empty(); }
-    /// A job that was stopped gave nothing: the next begins as if there had been none.
-    void forget() {
+    /// What it would have given is of settings that are no more.
+    void stop() {
+        job->progress.cancel();
         job.reset();
         of = {};
-        error.clear();
-        views.reset();
     }
 };
-
-Look look_of(const DebugView& view) {
-    return {.black = static_cast<float>(view.low), .white = static_cast<float>(view.high), .curve = Curve::raw};
-}
 
 class VisualizersPanel final : public Panel {
 public:
@@ -45,7 +40,10 @@ public:
             return;
         }
         take_groups(model, services);
+        readouts_.take_results(model);
         update(services, *replay);
+        if (!model.image.made) chosen_ = model.image.name;
+        drawn_at_ = ImGui::GetFrameCount();
         const ViewChoice chosen = choice_of(model);
         const float height = ImGui::GetContentRegionAvail().y;
         ImGui::BeginChild("gallery", {0, chosen.view ? height * .46f : 0});
@@ -60,7 +58,10 @@ public:
     }
 
     bool is_busy() const override {
-        return readouts_.is_busy() || std::ranges::any_of(groups_, [](const Group& group) { return group.job != nullptr; });
+        // What is finished waits to be taken only while the panel is in front.
+        const bool takes = drawn_at_ == ImGui::GetFrameCount();
+        const auto waits = [&](const Group& group) { return group.job && (takes || !group.job->result()); };
+        return (takes && readouts_.is_busy()) || std::ranges::any_of(groups_, waits);
     }
 
     std::span<const PanelKey> keys() const override;
@@ -99,7 +100,7 @@ private:
         bool is_running = false;
         for (Group& group : groups_) {
             take_result(services, group);
-            if (group.job && group.of != now) group.job->progress.cancel();
+            if (group.job && group.of != now) group.stop();
             is_running |= group.job != nullptr;
         }
         if (is_running || !services.replayer.is_current("A")) return;
@@ -116,13 +117,8 @@ private:
     }
 
     static void take_result(Services& services, Group& group) {
-        if (!group.job) return;
-        if (!group.job->result()) {
-            if (group.job->progress.is_cancelled() && services.replayer.is_idle()) group.forget();
-            return;
-        }
+        if (!group.job || !group.job->result()) return;
         const Result<TechniqueViews>& result = *group.job->result();
-        if (group.job->progress.is_cancelled()) return group.forget();
         if (result) {
             group.views = std::make_shared<TechniqueViews>(*result);
             for (const auto& [name, texels] : group.views->thumbnails)
@@ -143,9 +139,10 @@ private:
 
     ViewChoice choice_of(const Model& model) const {
         if (model.image.step || !model.is_known()) return {};
+        const std::string& shown = model.image.made ? chosen_ : model.image.name;
         for (const auto& [stage, choice] : model.choices())
             for (const DebugView& view : choice.technique->views) {
-                if (model.image.name != output_name(*choice.technique, view.name)) continue;
+                if (shown != output_name(*choice.technique, view.name)) continue;
                 const auto group = std::ranges::find(groups_, choice.technique, &Group::technique);
                 return {choice.technique, &view, group == groups_.end() ? nullptr : group->views};
             }
@@ -209,6 +206,8 @@ private:
     }
 
     std::vector<Group> groups_;
+    std::string chosen_;  ///< the output that was shown before a picture made of it
+    int drawn_at_ = -1;   ///< number of the frame
     ViewReadouts readouts_;
 };
 
