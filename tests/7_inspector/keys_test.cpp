@@ -1,5 +1,6 @@
 // What keys do beside the panels' own: save, go to a pixel, reload shaders, fly and come back.
 #include <cmath>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,6 +106,7 @@ TEST(Keys, RCompilesChangedShadersAndABrokenOneLeavesTheLastGoodOne) {
     must(desk.player->wait());
     EXPECT_EQ(shown_hash(desk), before);
     EXPECT_FALSE(desk.model().uses_shaders);
+    desk.model().shaders = ".";
 }
 
 TEST(Keys, WithTheRightButtonHeldWFliesAndHomeReturns) {
