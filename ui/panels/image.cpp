@@ -54,7 +54,7 @@ public:
         model.under = under_;
     }
 
-    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job) || saved_; }
+    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job) || (saved_ && !saved_->result()); }
 
     std::span<const PanelKey> keys() const override;
 
@@ -71,12 +71,14 @@ public:
         const auto replay = services.replayer.shown("A");
         const CaptureFacts* facts = services.replayer.facts();
         if (saved_ || !replay || !facts || !shown_.picture()) return;
-        const ShownImage shown{model.image.name, shown_.picture()->image, shown_.picture()->layer, look_of(model), {}};
+        const ShownImage shown{shown_name_, shown_.picture()->image, shown_.picture()->layer, look_of(model), {}};
         const std::string stem = stem_of(model.capture, replay->request.frame, shown.name), command = model.command_line();
-        saved_ = start<std::filesystem::path>(services.host, [=, of = *facts](ui::Progress&) {
+        saved_ = start<std::filesystem::path>(services.host, [=, of = *facts, image = model.image](ui::Progress&) {
             ShownImage traced = shown;
             traced.provenance = provenance({of.device, of.id}, replay->request, replay->run);
             traced.provenance["strata.command"] = command;
+            if (image.step) traced.provenance["strata.step"] = std::to_string(*image.step);
+            if (image.made) traced.provenance["strata.made"] = "by a panel, of the image of that name";
             return save(std::filesystem::current_path(), stem, traced);
         });
     }
@@ -105,6 +107,7 @@ private:
     std::shared_ptr<const HostImage> wanted_image(Model& model, Services& services) {
         const auto replay = services.replayer.shown("A");
         message_.clear();
+        if (const Error* error = services.replayer.open_error()) message_ = error->sentence;
         if (const auto& made = model.image.made) {
             if (replay && made->of != without_outputs(replay->request))
                 message_ = "this picture was made of an earlier replay; the panel that made it makes it anew";
