@@ -249,12 +249,8 @@ Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-<<<<<<< HEAD
-    return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
-=======
     if (const auto on = check_going(); !on) return on.error();
-    return info(stage).truth({loaded_->frame, found_->images});
->>>>>>> reload
+    return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
 }
 
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {

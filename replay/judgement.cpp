@@ -12,40 +12,6 @@ namespace {
 // A texel of which every channel is below this is background: comparing it proves nothing.
 constexpr double trivial_below = 1e-6;
 
-<<<<<<< HEAD
-=======
-/// The fragments before the stage, made when the first model wants them.
-const FragmentLists& fragments_of(const JudgedStage& stage, std::optional<FragmentLists>& own) {
-    std::optional<FragmentLists>& kept = stage.fragments ? *stage.fragments : own;
-    if (!kept) kept = transparent_fragments(stage.frame, stage.before.find("depth_layers")->second);
-    return *kept;
-}
-
-/// A pixel model on every sample of the frame.
-ImageSet run_pixels(PixelModel model, const JudgedStage& stage) {
-    const ReferenceImage& behind = stage.before.find("color")->second;
-    std::optional<FragmentLists> own;
-    const FragmentLists& fragments = fragments_of(stage, own);
-    ReferenceImage color(behind.width, behind.height, behind.layers);
-    color.undecided.resize(color.texels.size());
-    tbb::parallel_for(std::size_t(0), std::size_t(color.height) * color.layers, [&](std::size_t row) {
-        if (stage.stop.stop_requested()) return;
-        const auto y = static_cast<std::uint32_t>(row % color.height), layer = static_cast<std::uint32_t>(row / color.height);
-        for (std::uint32_t x = 0; x < color.width; ++x) {
-            const glm::dvec3 from = behind.at(x, y, layer);
-            color.at(x, y, layer) = glm::dvec4(model(fragments.at(x, y, layer), from, stage.choice.settings), 1);
-        }
-    });
-    for (std::uint32_t layer = 0; layer < color.layers; ++layer)  // one bit each: rows share words
-        for (std::uint32_t y = 0; y < color.height; ++y)
-            for (std::uint32_t x = 0; x < color.width; ++x)
-                color.undecided[color.index(x, y, layer)] = fragments.undecided(x, y, layer);
-    ImageSet set;
-    set.emplace("color", std::move(color));
-    return set;
-}
-
->>>>>>> reload
 /// Root mean square over the decided texels' colors: what errors are relative to.
 double root_mean_square(const ReferenceImage& image) {
     double sum = 0;

@@ -16,15 +16,9 @@ struct JudgedStage {
     const ImageSet& before;
     const ImageSet& result;
     Against against = Against::model_and_truth;
-<<<<<<< HEAD
     const ImageSet* truth = nullptr;                    ///< null: computed here
     std::optional<FragmentLists>* fragments = nullptr;  ///< as StageInput's
-=======
-    const ImageSet* truth = nullptr;  ///< null: computed here
-    /// Where the frame's transparent fragments before the stage are kept from one judgement to the next; null: nowhere.
-    std::optional<FragmentLists>* fragments = nullptr;
     std::stop_token stop = {};  ///< once requested, what is left is left out and the answer worth nothing
->>>>>>> reload
 };
 
 Accuracy judge_stage(const JudgedStage&);
