@@ -10,8 +10,21 @@
 namespace strata::ui {
 namespace {
 
-Replayer::Open opener(const std::filesystem::path& capture, const DeviceChoice& device, Partial partial) {
-    return [capture, device, partial] { return Session::open(capture, device, partial); };
+Replayer::Open opener(const std::filesystem::path& capture, const InspectOptions& options) {
+    return
+        [=, device = options.device, partial = options.partial, shaders = options.shaders]() -> Result<std::unique_ptr<Session>> {
+            auto session = Session::open(capture, device, partial);
+            if (!session || shaders.empty()) return session;
+            if (const auto loaded = (*session)->reload_shaders(shaders); !loaded) return loaded.error();
+            return session;
+        };
+}
+
+Model model_of(const std::filesystem::path& capture, const InspectOptions& options, const Request& first) {
+    Model model(capture, options.device, first);
+    model.uses_shaders = !options.shaders.empty();
+    if (model.uses_shaders) model.shaders = options.shaders;
+    return model;
 }
 
 /// Opening shows a sentence in a window; a script has nobody to read it.
@@ -26,8 +39,7 @@ Result<void> play_script(const InspectOptions& options) {
     auto layer = ImguiLayer::headless(options.device);
     if (!layer) return layer.error();
     const auto [width, height] = options.extent.first ? options.extent : std::pair(1280u, 800u);
-    Inspector inspector(**layer, Model(options.capture, options.device, options.first),
-                        opener(options.capture, options.device, options.partial), Layout());
+    Inspector inspector(**layer, model_of(options.capture, options, options.first), opener(options.capture, options), Layout());
     Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
     if (const auto opened = player.wait(); !opened) return opened;
     if (const Error* error = inspector.replayer().open_error()) return *error;
@@ -44,8 +56,8 @@ Result<void> show_window(const InspectOptions& options) {
     const Context context;
     auto window = Window::open(layout.width, layout.height, options.device);
     if (!window) return window.error();
-    auto inspector = std::make_unique<Inspector>((*window)->layer(), Model(options.capture, options.device, options.first),
-                                                 opener(options.capture, options.device, options.partial), layout);
+    auto inspector = std::make_unique<Inspector>((*window)->layer(), model_of(options.capture, options, options.first),
+                                                 opener(options.capture, options), layout);
     while ((*window)->begin_frame(inspector->is_settled() ? Pace::resting : Pace::busy)) {
         (*window)->set_title(inspector->title());
         if (const auto drawn = inspector->frame(); !drawn) return drawn;
@@ -53,8 +65,8 @@ Result<void> show_window(const InspectOptions& options) {
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;
         layout = inspector->layout();
-        inspector = std::make_unique<Inspector>((*window)->layer(), Model(dropped, options.device, {}),
-                                                opener(dropped, options.device, options.partial), layout);
+        inspector =
+            std::make_unique<Inspector>((*window)->layer(), model_of(dropped, options, {}), opener(dropped, options), layout);
     }
     layout = inspector->layout();
     std::tie(layout.width, layout.height) = (*window)->size();

@@ -14,7 +14,7 @@ struct Options {
     ChoiceOptions choices;
     std::size_t frame = 0;
     std::string size;
-    std::filesystem::path script;
+    std::filesystem::path script, shaders;
 };
 
 Result<void> inspect(const Options& options) {
@@ -25,6 +25,7 @@ Result<void> inspect(const Options& options) {
                                  .device = options.open.device,
                                  .partial = options.open.allow_partial ? Partial::allowed : Partial::refused,
                                  .first = *std::move(request),
+                                 .shaders = options.shaders,
                                  .script = options.script};
     if (!options.size.empty()) {
         const auto extent = extent_of(options.size);
@@ -43,6 +44,9 @@ std::function<Result<void>()> declare_inspect(CLI::App& app) {
     app.add_option("--frame", options->frame, "the frame that is shown first");
     app.add_option("--size", options->size, "of the window or of a script's pictures, like 1280x800");
     app.add_option("--script", options->script, "play these commands without a window; see ui/README.md");
+    app.add_option("--shaders", options->shaders,
+                   "a folder whose passes/... hold shaders to use in place of those built in; R compiles them anew (without: of "
+                   "the current folder)");
     return [options] { return inspect(*options); };
 }
 

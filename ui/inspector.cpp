@@ -15,7 +15,14 @@ struct OwnKey {
     std::string_view chord, help;
 };
 constexpr OwnKey own_keys[] = {
-    {"f1", "these keys"}, {"ctrl+z", "undo"}, {"ctrl+y", "redo"}, {"pageup", "the frame before"}, {"pagedown", "the next frame"},
+    {"f1", "these keys"},
+    {"ctrl+z", "undo"},
+    {"ctrl+y", "redo"},
+    {"pageup", "the frame before"},
+    {"pagedown", "the next frame"},
+    {"ctrl+g", "go to a pixel"},
+    {"r", "compile changed shaders and use them"},
+    {"home", "back to the recorded eye"},
 };
 
 bool is_own_key(std::string_view chord) { return is_pressed(*chord_of(chord)); }
@@ -50,6 +57,8 @@ void Inspector::take_results() {
     const std::string sentence = error ? error->sentence : "";
     if (!sentence.empty() && sentence != last_error_) say(LogLine::Kind::failed, sentence);
     last_error_ = sentence;
+    Services all = services();
+    shader_reload_.take_result(model_, all);
     const auto replay = replayer_->shown("A");
     if (!replay || replay == last_replay_) return;
     last_replay_ = replay;
@@ -78,7 +87,7 @@ bool Inspector::is_settled() const {
     if (replayer_->open_error()) return true;
     const bool shows = replayer_->is_current("A") && replayer_->shown("A") == last_replay_;
     const bool busy = std::ranges::any_of(panels_, [](const Shown& shown) { return shown.panel->is_busy(); });
-    return shows && !busy && replayer_->is_idle() && host_->is_idle();
+    return shows && !busy && !shader_reload_.is_busy() && replayer_->is_idle() && host_->is_idle();
 }
 
 std::string Inspector::title() const {
@@ -95,6 +104,14 @@ void Inspector::press_keys() {
     const std::size_t frame = model_.edits().frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
     if (is_own_key("pageup") && frame > 0) model_.select_frame(frame - 1);
     if (is_own_key("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
+    if (is_own_key("ctrl+g")) go_to_pixel_.open();
+    // With the right button held they fly (ui/camera.h).
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Right)) press_panel_keys();
+}
+
+void Inspector::press_panel_keys() {
+    if (is_own_key("r")) shader_reload_.start(model_, *replayer_);
+    if (is_own_key("home")) model_.look_from({});
     Services all = services();
     for (Shown& shown : panels_)
         for (const PanelKey& key : shown.panel->keys())
@@ -120,6 +137,8 @@ void Inspector::draw() {
     ImGui::End();
     ImGui::PopStyleVar(2);
     if (keys_are_shown_) draw_keys();
+    const glm::uvec2 extent = last_replay_ ? glm::uvec2(last_replay_->run.width, last_replay_->run.height) : glm::uvec2(0);
+    go_to_pixel_.draw(model_, widgets_, extent);
 }
 
 void Inspector::draw_top_bar() {
@@ -142,6 +161,8 @@ void Inspector::draw_top_bar() {
     widgets_.help("Ctrl+Y");
     ImGui::SameLine(0, 16);
     draw_activity();
+    ImGui::SameLine(0, 16);
+    shader_reload_.draw(widgets_);
     const CaptureFacts* facts = replayer_->facts();
     const std::string device = facts ? facts->device.name : "opening";
     const float right = ImGui::CalcTextSize(device.c_str()).x + ImGui::CalcTextSize("Keys").x + 48;

@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "ui/go_to_pixel.h"
 #include "ui/layout.h"
 #include "ui/panel.h"
+#include "ui/shader_reload.h"
 #include "ui/theme.h"
 
 namespace strata::ui {
@@ -44,6 +46,7 @@ private:
     Services services();
     void take_results();
     void press_keys();
+    void press_panel_keys();
     void draw();
     void draw_top_bar();
     void draw_frame_choice();
@@ -65,8 +68,10 @@ private:
     std::string last_error_;  ///< that the log has
     std::shared_ptr<const Replay> last_replay_;
     bool keys_are_shown_ = false;
+    GoToPixel go_to_pixel_;
     std::unique_ptr<Replayer> replayer_;
     std::unique_ptr<WorkQueue> host_;
+    ShaderReload shader_reload_;
     std::vector<Shown> panels_;  // last: they hold jobs of the queues
 };
 

@@ -125,6 +125,12 @@ void Model::set_samples(std::uint32_t samples) {
     change(std::move(edits), {});
 }
 
+void Model::look_from(const EyeMove& eye) {
+    Edits edits = edits_;
+    edits.eye = eye;
+    change(std::move(edits), "eye");
+}
+
 void Model::apply(std::string_view technique, const std::vector<std::string>& sets) {
     const auto found = find_technique(technique);
     if (!found) return;
@@ -172,8 +178,11 @@ std::string Model::command_line() const {
     for (const std::string& set : edits_.sets) line += fmt::format(" --set {}", as_shell_word(set));
     for (const Feature feature : edits_.force) line += fmt::format(" --force {}", name(feature));
     if (edits_.samples != 0) line += fmt::format(" --samples {}", edits_.samples);
+    if (const std::string eye = text(edits_.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));
+    if (uses_shaders) line += fmt::format(" --shaders {}", as_shell_word(shaders.string()));
     if (!device.gpu.empty()) line += fmt::format(" --gpu {}", as_shell_word(device.gpu));
-    if (!image.step && image.name != "display") line += fmt::format(" --outputs {},display", as_shell_word(image.name));
+    if (!image.step && !image.made && image.name != "display")
+        line += fmt::format(" --outputs {},display", as_shell_word(image.name));
     return line;
 }
 

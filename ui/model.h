@@ -25,11 +25,25 @@ struct Edits {
     friend bool operator==(const Edits&, const Edits&) = default;
 };
 
-/// Which image is shown: an output or view by its name, or what a step of the plan wrote.
+/// The same frame whatever is brought back of it.
+inline Request without_outputs(Request request) {
+    request.outputs.clear();
+    return request;
+}
+
+/// A picture that a panel made of what a replay gave.
+struct MadePicture {
+    Request of;  ///< without outputs
+    std::shared_ptr<const HostImage> image;
+    Look look;
+};
+
+/// Which image is shown: an output or view by its name, what a step of the plan wrote, or what a panel made.
 struct ImageChoice {
     std::string name = "display";
     std::optional<std::size_t> step;
     std::uint32_t layer = 0;
+    std::shared_ptr<const MadePicture> made = {};
     friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
 };
 
@@ -46,11 +60,14 @@ public:
 
     std::filesystem::path capture;
     DeviceChoice device;
+    std::filesystem::path shaders = ".";  ///< the folder whose passes/... may hold changed shaders
+    bool uses_shaders = false;            ///< whether they were loaded
 
     // What is selected and how it is looked at: no part of undo.
     ImageChoice image;
     std::optional<std::size_t> step;  ///< of the plan
     std::optional<glm::ivec2> pin;
+    std::optional<glm::ivec2> under;  ///< the texel under the pointer, where there is one
     PictureView view;
     std::map<std::string, Look> looks;  ///< by the image's name, where a person changed it
 
@@ -73,6 +90,7 @@ public:
     void force(std::vector<Feature>);
     void select_frame(std::size_t);
     void set_samples(std::uint32_t);
+    void look_from(const EyeMove&);
     /// As a report's row or a compared technique says: --use and --set of one technique.
     void apply(std::string_view technique, const std::vector<std::string>& sets);
 
@@ -85,7 +103,10 @@ public:
 
     /// Asks for an output with every replay of this frame of the window; begin_frame() forgets.
     void want(const std::string& output) { wanted_.insert(output); }
-    void begin_frame() { wanted_ = {"display"}; }
+    void begin_frame() {
+        wanted_ = {"display"};
+        under.reset();
+    }
     Request request() const;
     /// The line for a shell that replays exactly this.
     std::string command_line() const;

@@ -5,6 +5,7 @@ namespace strata::ui {
 std::unique_ptr<Panel> frame_panel();
 std::unique_ptr<Panel> image_panel();
 std::unique_ptr<Panel> techniques_panel();
+std::unique_ptr<Panel> visualizers_panel();
 std::unique_ptr<Panel> log_panel();
 
 std::span<const PanelRow> panels() {
@@ -12,6 +13,8 @@ std::span<const PanelRow> panels() {
         {"Frame", Area::left, "stages and steps in order, what they take, and what was left out and why", frame_panel},
         {"Image", Area::center, "any output of any step, with the values of its texels", image_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},
+        {"Visualizers", Area::right, "what techniques show of their inside, with the numbers that belong to it",
+         visualizers_panel},
         {"Log", Area::bottom, "what the replay said", log_panel},
     };
     return table;

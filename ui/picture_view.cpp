@@ -49,14 +49,6 @@ void draw_numbers(const Placement& placement, const PictureInfo& picture, Range 
         }
 }
 
-const DebugView* find_view(const std::string& name) {
-    const std::size_t colon = name.find(':');
-    const auto technique = find_technique(name.substr(0, colon));
-    if (colon == std::string::npos || !technique) return nullptr;
-    const auto found = std::ranges::find((*technique)->views, name.substr(colon + 1), &DebugView::name);
-    return found == (*technique)->views.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 ImVec2 Placement::on_screen(double x, double y) const {
@@ -170,6 +162,14 @@ std::string values_text(const PictureInfo& picture, glm::ivec2 texel) {
         text += whole ? fmt::format("{}{:.0f}", c ? "  " : "", value[static_cast<int>(c)])
                       : fmt::format("{}{:.5g}", c ? "  " : "", value[static_cast<int>(c)]);
     return text;
+}
+
+const DebugView* find_view(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    const auto technique = find_technique(name.substr(0, colon));
+    if (colon == std::string::npos || !technique) return nullptr;
+    const auto found = std::ranges::find((*technique)->views, name.substr(colon + 1), &DebugView::name);
+    return found == (*technique)->views.end() ? nullptr : &*found;
 }
 
 Look default_look(const std::string& name, const PictureInfo& picture) {

@@ -40,6 +40,8 @@ void draw_pin(const Placement&, glm::ivec2);
 
 /// "0.25 0.5 1 1": as many as the image has channels.
 std::string values_text(const PictureInfo&, glm::ivec2 texel);
+/// A technique's view by "stage/technique:view"; null where there is none.
+const DebugView* find_view(const std::string& name);
 /// How an image is shown when nobody said otherwise.
 Look default_look(const std::string& name, const PictureInfo&);
 

@@ -69,10 +69,19 @@ void Replayer::show(const std::string& place, const Request& request) {
     Place& known = places_[place];
     if (known.wish > 0 && known.wished == request) return;
     known.wished = request;
+    wish(place);
+}
+
+void Replayer::show_again() {
+    for (const auto& [place, known] : places_) wish(place);
+}
+
+void Replayer::wish(const std::string& place) {
+    Place& known = places_.at(place);
     ++known.wish;
     {
         const std::scoped_lock lock(mutex_);
-        wishes_[place] = {known.wish, request};
+        wishes_[place] = {known.wish, known.wished};
     }
     queue_.add_first([this, place] { serve(place); });
 }

@@ -56,6 +56,8 @@ public:
 
     /// Wishes for a picture in a place of that name ("A", "B"). Cheap when it is what was wished last.
     void show(const std::string& place, const Request&);
+    /// Every wish anew: what replays differs though the wishes do not (shaders).
+    void show_again();
     /// The last good one of a place, as of the latest take_results(); null at first.
     std::shared_ptr<const Replay> shown(const std::string& place) const;
     /// Why the latest wish of a place has no picture.
@@ -94,6 +96,7 @@ private:
     };
 
     void open();
+    void wish(const std::string& place);
     Result<std::shared_ptr<const Replay>> answer(const Request&);
     void serve(const std::string& place);
 

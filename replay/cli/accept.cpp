@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/expectation_writer.h"
-#include "replay/cli/revision.h"
+#include "replay/revision.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/expectation_check.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/registry.h"
-#include "replay/cli/revision.h"
 
 namespace strata {
 namespace {
@@ -122,21 +121,6 @@ ordered_json json_of(const RunTimes& times) {
 }
 
 }  // namespace
-
-Metadata provenance(const Session& session, const Request& request, const Run& run) {
-    ordered_json choices(run.choices);
-    const DeviceInfo& device = session.device();
-    Metadata metadata{{"software", fmt::format("strata {}", tool_revision)},
-                      {"strata.capture", session.capture_id()},
-                      {"strata.frame", std::to_string(request.frame)},
-                      {"strata.settings", choices.dump()},
-                      {"strata.device", device.name},
-                      {"strata.driver", device.driver + " " + device.driver_version},
-                      {"strata.cpu", device.cpu}};
-    if (const std::string eye = text(request.eye); !eye.empty()) metadata["strata.eye"] = eye;
-    for (const auto& [name, image] : run.images) metadata["strata.hash." + name] = hash_of(image);
-    return metadata;
-}
 
 ordered_json json_of(const Metadata& provenance, const Run& run, const ExpectationVerdict* verdict) {
     ordered_json json{{"schema", "strata.replay"}, {"schema_version", 1}};

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "replay/cli/revision.h"
+#include "replay/revision.h"
 #include "replay/gpu/device.h"
 
 namespace strata {

@@ -4,8 +4,10 @@
 
 #include "passes/frame_images.h"
 #include "replay/counted.h"
+#include "ui/camera.h"
 #include "ui/panel.h"
 #include "ui/picture_view.h"
+#include "ui/save_shown.h"
 #include "ui/theme.h"
 
 namespace strata::ui {
@@ -42,14 +44,17 @@ public:
         shown_.show(image, model.image.layer, services.host, services.layer);
         const PictureInfo* picture = shown_.picture();
         if (image && picture && picture->image == image) shown_name_ = model.image.name;
-        if (picture) default_ = default_look(shown_name_, *picture);
+        if (picture) default_ = model.image.made ? model.image.made->look : default_look(shown_name_, *picture);
+        take_saved(services);
         draw_choice(model, services.widgets, picture);
         draw_look(model, services.widgets, picture);
+        draw_eye(model, services.widgets);
         draw_canvas(model, services, picture);
         draw_line(model, services.widgets, picture);
+        model.under = under_;
     }
 
-    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job); }
+    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job) || (saved_ && !saved_->result()); }
 
     std::span<const PanelKey> keys() const override;
 
@@ -60,6 +65,22 @@ public:
     }
     void zoom(Model& model, double factor) const {
         if (shown_.picture()) zoom_by(model.view, placement_, factor);
+    }
+    /// What is shown into the folder the inspector was started in.
+    void save_shown(const Model& model, Services& services) {
+        const auto replay = services.replayer.shown("A");
+        const CaptureFacts* facts = services.replayer.facts();
+        if (saved_ || !replay || !facts || !shown_.picture()) return;
+        const ShownImage shown{shown_name_, shown_.picture()->image, shown_.picture()->layer, look_of(model), {}};
+        const std::string stem = stem_of(model.capture, replay->request.frame, shown.name), command = model.command_line();
+        saved_ = start<std::filesystem::path>(services.host, [=, of = *facts, image = model.image](ui::Progress&) {
+            ShownImage traced = shown;
+            traced.provenance = provenance({of.device, of.id}, replay->request, replay->run);
+            traced.provenance["strata.command"] = command;
+            if (image.step) traced.provenance["strata.step"] = std::to_string(*image.step);
+            if (image.made) traced.provenance["strata.made"] = "by a panel, of the image of that name";
+            return save(std::filesystem::current_path(), stem, traced);
+        });
     }
     void change_exposure(Model& model, float stops) {
         Look look = look_of(model);
@@ -86,6 +107,12 @@ private:
     std::shared_ptr<const HostImage> wanted_image(Model& model, Services& services) {
         const auto replay = services.replayer.shown("A");
         message_.clear();
+        if (const Error* error = services.replayer.open_error()) message_ = error->sentence;
+        if (const auto& made = model.image.made) {
+            if (replay && made->of != without_outputs(replay->request))
+                message_ = "this picture was made of an earlier replay; the panel that made it makes it anew";
+            return made->image;
+        }
         if (!model.image.step) {
             model.want(model.image.name);
             if (!replay) return nullptr;
@@ -130,10 +157,12 @@ private:
     static void draw_choice(Model& model, Widgets& widgets, const PictureInfo* picture) {
         const std::vector<std::string> outputs = outputs_of(model);
         std::vector<std::string_view> items(outputs.begin(), outputs.end());
-        const std::string of_step = model.image.step ? fmt::format("step {}: {}", *model.image.step, model.image.name) : "";
-        if (model.image.step) items.insert(items.begin(), of_step);
+        const std::string own = model.image.step   ? fmt::format("step {}: {}", *model.image.step, model.image.name)
+                                : model.image.made ? fmt::format("made: {}", model.image.name)
+                                                   : "";
+        if (!own.empty()) items.insert(items.begin(), own);
         const auto current =
-            model.image.step ? 0 : static_cast<std::size_t>(std::ranges::find(items, model.image.name) - items.begin());
+            !own.empty() ? 0 : static_cast<std::size_t>(std::ranges::find(items, model.image.name) - items.begin());
         ImGui::SetNextItemWidth(230);
         if (const auto chosen = widgets.combo("image", items, current)) {
             model.image = {.name = std::string(items[*chosen])};
@@ -227,6 +256,27 @@ private:
             }
     }
 
+    static void draw_eye(Model& model, Widgets& widgets) {
+        const std::string eye = text(model.edits().eye);
+        if (eye.empty()) return;
+        ImGui::AlignTextToFramePadding();
+        widgets.text("eye", "\xe2\x97\x8e seen from elsewhere: what the capture expects does not apply", &palette().warning);
+        widgets.help(fmt::format("metres and radians from the recorded eye: {}", eye));
+        ImGui::SameLine();
+        if (widgets.button("recorded eye", "Back")) model.look_from({});
+        widgets.help("Home");
+    }
+
+    void take_saved(Services& services) {
+        if (!saved_ || !saved_->result()) return;
+        const Result<std::filesystem::path>& path = *saved_->result();
+        if (path)
+            services.log.push_back(
+                {LogLine::Kind::said, services.seconds, fmt::format("saved {}.exr, .png and .json", path->string())});
+        else services.log.push_back({LogLine::Kind::failed, services.seconds, path.error().sentence});
+        saved_.reset();
+    }
+
     void draw_canvas(Model& model, Services& services, const PictureInfo* picture) {
         ImVec2 size = ImGui::GetContentRegionAvail();
         size.y = std::max(size.y - ImGui::GetTextLineHeightWithSpacing(), 20.0f);
@@ -237,7 +287,7 @@ private:
         under_.reset();
         if (picture) {
             placement_ = place(model.view, from, size, picture->texels);
-            take_mouse(model, *picture);
+            take_mouse(model, services, *picture);
             draw_picture(services.layer, placement_, shown_.texture(), look_of(model));
             draw_details(placement_, *picture);
             if (model.pin && picture->contains(*model.pin)) draw_pin(placement_, *model.pin);
@@ -249,14 +299,16 @@ private:
         list.AddText(nullptr, 0, {from.x + 14, from.y + 11}, packed(palette().warning), message_.c_str(), nullptr, size.x - 20);
     }
 
-    void take_mouse(Model& model, const PictureInfo& picture) {
+    void take_mouse(Model& model, const Services& services, const PictureInfo& picture) {
+        camera_.move(model, services, placement_);
         const glm::ivec2 texel = placement_.texel_at(ImGui::GetIO().MousePos);
         if (ImGui::IsItemHovered() && picture.contains(texel)) under_ = texel;
-        const bool was_click = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
-                               ImGui::GetIO().MouseDragMaxDistanceSqr[0] < 9;
+        const bool was_click = !camera_.is_held() && ImGui::IsItemDeactivated() &&
+                               ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseDragMaxDistanceSqr[0] < 9;
         if (was_click && picture.contains(texel)) model.pin = texel;
-        if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) model.pin.reset();
-        move_by_mouse(model.view, placement_);
+        const bool stays = ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Right] < 9;
+        if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right) && stays) model.pin.reset();
+        if (!camera_.is_held()) move_by_mouse(model.view, placement_);
         placement_ = place(model.view, placement_.from,
                            {placement_.to.x - placement_.from.x, placement_.to.y - placement_.from.y}, picture.texels);
     }
@@ -290,6 +342,8 @@ private:
     std::string shown_name_ = "display", message_;
     Look default_;
     std::optional<Peeked> peeked_;
+    JobOf<std::filesystem::path> saved_;
+    Camera camera_;
     Placement placement_;
     std::optional<glm::ivec2> under_;
 };
@@ -318,6 +372,8 @@ std::span<const PanelKey> ImagePanel::keys() const {
         {"right", "move the pinned pixel", nudge_pin<1, 0>},
         {"up", "move the pinned pixel", nudge_pin<0, -1>},
         {"down", "move the pinned pixel", nudge_pin<0, 1>},
+        {"f12", "save what is shown as EXR and PNG, with where it comes from",
+         [](Panel& panel, Model& model, Services& services) { static_cast<ImagePanel&>(panel).save_shown(model, services); }},
         {"d", "the displayed picture", [](Panel&, Model& model, Services&) { model.image = {}; }},
     };
     return table;

@@ -10,11 +10,16 @@ layout(constant_id = 0) const uint shown = view_modes;
 layout(set = 0, binding = 0, rgba32f) uniform writeonly image2DArray picture;
 layout(set = 0, binding = 1, scalar) readonly buffer Records { TileRecord records[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Statistics { TileStatistics statistics[]; };
+layout(push_constant, scalar) uniform Push { ModeOrder order; };
+
+uint mode_of(uint tile) { return records[tile].counts >> 16 & 255u; }
+
+bool is_empty(uint tile) { return mode_of(tile) == empty_tile_mode; }
 
 // 17 hues; black where nothing is shaded.
 vec3 color_of_mode(uint tile) {
-    const uint mode = records[tile].counts >> 16 & 255u;
-    if (mode == empty_tile_mode) return vec3(0.0);
+    if (is_empty(tile)) return vec3(0.0);
+    const uint mode = mode_of(tile);
     const float hue = 6.0 * float(mode * 5u % most_modes) / float(most_modes);
     const vec3 ramp = vec3(abs(hue - 3.0) - 1.0, 2.0 - abs(hue - 2.0), 2.0 - abs(hue - 4.0));
     return 0.25 + 0.75 * clamp(ramp, 0.0, 1.0);
@@ -29,14 +34,12 @@ uint bytes_used(TileStatistics s) {
 vec3 overflow_color(uint overflow) { return vec3(overflow & 1u, overflow >> 1 & 1u, overflow >> 2 & 1u); }
 
 // -1 where nothing is shaded.
-float number_of_mode(uint tile) {
-    const uint mode = records[tile].counts >> 16 & 255u;
-    return mode == empty_tile_mode ? -1.0 : float(mode);
-}
+float number_of_mode(uint tile) { return is_empty(tile) ? -1.0 : float(mode_of(tile)); }
 
 vec3 shown_of(uint tile) {
     const TileStatistics s = statistics[tile];
     if (shown == view_mode_numbers) return vec3(number_of_mode(tile));
+    if (shown == view_spectrum) return vec3(is_empty(tile) ? -1.0 : float((records[tile].spectrum | order.force) & 0xffffu));
     if (shown == view_modes) return color_of_mode(tile);
     if (shown == view_bytes) return vec3(bytes_used(s));
     if (shown == view_overflow) return overflow_color(s.overflow);

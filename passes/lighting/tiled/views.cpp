@@ -26,7 +26,8 @@ Image nothing_shaded(Graph& graph, Extent extent, double value) {
 
 template <std::uint32_t shown>
 Image picture(Graph& graph, FrameImages& frame, const Settings& settings) {
-    if (!frame.gbuffer0) return nothing_shaded(graph, frame.extent, shown == view_mode_numbers ? -1 : 0);
+    if (!frame.gbuffer0)
+        return nothing_shaded(graph, frame.extent, shown == view_mode_numbers || shown == view_spectrum ? -1 : 0);
     const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
     Image picture = graph.create("tiled view", Shape{.extent = frame.extent, .format = Format::rgba32f});
     graph.compute("lighting/tiled/view.comp")
@@ -34,6 +35,7 @@ Image picture(Graph& graph, FrameImages& frame, const Settings& settings) {
         .loads("Statistics", culled.statistics)
         .stores("picture", picture)
         .fixes("shown", shown)
+        .push(culled.order)
         .over(frame.extent);
     return picture;
 }
@@ -113,6 +115,8 @@ std::vector<DebugView> tiled_views() {
         {"tile features", "bits of the tile's feature spectrum", "bits", 0, 16, picture<view_features>},
         {"mode numbers", "number of the shading mode of each tile, as the table of modes has it; -1 where nothing is shaded", "",
          -1, 16, picture<view_mode_numbers>},
+        {"spectrum", "each tile's feature spectrum as a number, as the table of spectra has it; -1 where nothing is shaded",
+         "bits", -1, every_light_feature, picture<view_spectrum>},
     };
 }
 

@@ -16,6 +16,7 @@ const uint view_pixel_tests = 5u;
 const uint view_culled = 6u;
 const uint view_features = 7u;
 const uint view_mode_numbers = 8u;
+const uint view_spectrum = 9u;
 
 // What list_table.comp has the masks of.
 const uint list_blockers = 0u;
