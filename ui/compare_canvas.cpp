@@ -15,8 +15,9 @@ void draw_background(ImVec2 from, ImVec2 size) {
     ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + size.x, from.y + size.y}, IM_COL32(14, 15, 18, 255));
 }
 
-/// The label in the upper left corner of its half, or in the upper right one where `at` is negative.
+/// In an upper corner, where there is room.
 void draw_label(const std::string& label, ImVec2 at, float width) {
+    if (label.empty() || width < 70) return;
     const ImVec2 text = ImGui::CalcTextSize(label.c_str(), nullptr, false, std::max(width - 24, 20.0f));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({at.x + 6, at.y + 6}, {at.x + text.x + 18, at.y + text.y + 10}, IM_COL32(20, 22, 27, 200), 4);

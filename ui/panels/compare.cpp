@@ -13,9 +13,27 @@ namespace strata::ui {
 namespace {
 
 void add_magma(Texels& texels, double share) {
-    for (const std::uint8_t byte : {magma(share).x, magma(share).y, magma(share).z})
-        texels.rgba.push_back(static_cast<float>(byte) / 255);
+    const Rgb color = magma(share);
+    for (const std::uint8_t byte : {color.x, color.y, color.z}) texels.rgba.push_back(static_cast<float>(byte) / 255);
     texels.rgba.push_back(1);
+}
+
+struct Compared {
+    ComparedPictures pictures;
+    Texels flip;  ///< in FLIP's own colors, those of its papers and of `strata diff`
+};
+
+/// Takes seconds for a large picture.
+Result<std::shared_ptr<const Compared>> compared(const PicturePair& pair) {
+    auto pictures = compare(pair);
+    if (!pictures) return pictures.error();
+    auto made = std::make_shared<Compared>(Compared{*std::move(pictures), {}});
+    if (const auto& map = made->pictures.flip) {
+        made->flip = {map->shape.extent.width, map->shape.extent.height, {}};
+        for (std::uint32_t y = 0; y < made->flip.height; ++y)
+            for (std::uint32_t x = 0; x < made->flip.width; ++x) add_magma(made->flip, texel(*map, x, y).x);
+    }
+    return std::shared_ptr<const Compared>(std::move(made));
 }
 
 class ComparePanel final : public Panel {
@@ -36,7 +54,9 @@ public:
 
     std::span<const PanelKey> keys() const override;
     /// What nobody looks at is not brought up to date.
-    bool is_busy() const override { return is_in_front() && (sides_.is_busy() || job_ || map_.is_busy()); }
+    bool is_busy() const override {
+        return is_in_front() && (sides_.is_busy() || job_ || (map_index() && maps_[*map_index()].is_busy()));
+    }
 
     void flip(bool to_b) {
         if (!is_in_front()) return;
@@ -51,8 +71,10 @@ private:
     void update(const Model& model, Services& services) {
         sides_.update(model, services);
         compare_both(services);
-        map_.show(map_image(), model.image.layer, services.host, services.layer);
-        if (compared_ != drawn_flip_ && compared_ && compared_->flip) draw_flip_map(services.layer);
+        if (const auto map = map_index()) maps_[*map].show(map_image(), model.image.layer, services.host, services.layer);
+        if (!compared_ || compared_ == colored_ || mode_ != CompareMode::flip_map) return;
+        if (compared_->pictures.flip) flip_texture_ = services.layer.upload(flip_texture_, compared_->flip);
+        colored_ = compared_;
     }
 
     void compare_both(Services& services) {
@@ -60,8 +82,6 @@ private:
             const auto& result = *job_->result();
             compared_ = result ? *result : nullptr;
             message_ = result ? "" : result.error().sentence;
-            gain_.reset();
-            up_to_.reset();
             job_.reset();
         }
         const ComparedSide &a = sides_.a().picture, &b = sides_.b().picture;
@@ -77,28 +97,20 @@ private:
         if (images == compared_images_) return;
         compared_images_ = images;
         if (job_) job_->progress.cancel();
-        using Compared = std::shared_ptr<const ComparedPictures>;
-        job_ = start<Compared>(services.host, [pair](Progress&) -> Result<Compared> {
-            auto compared = compare(pair);
-            if (!compared) return compared.error();
-            return Compared(std::make_shared<ComparedPictures>(*std::move(compared)));
-        });
+        job_ = start<std::shared_ptr<const Compared>>(services.host, [pair](Progress&) { return compared(pair); });
     }
+
+    /// Which of maps_ is looked at; nothing where pictures are.
+    std::optional<std::size_t> map_index() const {
+        if (shows_pictures()) return {};
+        return static_cast<std::size_t>(mode_) - static_cast<std::size_t>(CompareMode::difference);
+    }
+    const PictureInfo* map_picture() const { return map_index() ? maps_[*map_index()].picture() : nullptr; }
 
     std::shared_ptr<const HostImage> map_image() const {
         if (!compared_) return nullptr;
-        if (mode_ == CompareMode::relative) return compared_->relative;
-        return mode_ == CompareMode::flip_map ? compared_->flip : compared_->difference;
-    }
-
-    /// FLIP's own colors, those of its papers and of `strata diff`.
-    void draw_flip_map(ImguiLayer& layer) {
-        const Extent& extent = compared_->flip->shape.extent;
-        Texels texels{extent.width, extent.height, {}};
-        for (std::uint32_t y = 0; y < extent.height; ++y)
-            for (std::uint32_t x = 0; x < extent.width; ++x) add_magma(texels, texel(*compared_->flip, x, y).x);
-        flip_texture_ = layer.upload(flip_texture_, texels);
-        drawn_flip_ = compared_;
+        if (mode_ == CompareMode::relative) return compared_->pictures.relative;
+        return mode_ == CompareMode::flip_map ? compared_->pictures.flip : compared_->pictures.difference;
     }
 
     bool shows_pictures() const { return mode_ <= CompareMode::flip; }
@@ -142,29 +154,36 @@ private:
     /// Where the scale of a map ends. 999 of 1000 texels lie below what it is by itself.
     double scale_end() const {
         if (mode_ == CompareMode::flip_map) return 1;
-        const PictureInfo* map = map_.picture();
+        const PictureInfo* map = map_picture();
         if (mode_ == CompareMode::difference && gain_) return 1 / *gain_;
         if (mode_ == CompareMode::relative && up_to_) return *up_to_;
-        if (!map || map->image != map_image()) return 1;
+        if (!map) return 1;
         const double bulk = std::max(std::abs(map->bulk.low), std::abs(map->bulk.high));
         return round_up(bulk > 0 ? bulk : std::max(std::abs(map->range.low), std::abs(map->range.high)));
     }
 
     void draw_range(Widgets& widgets) {
+        const bool is_asked = widgets.button("auto", "Auto");
+        widgets.help("999 of 1000 texels lie within the scale");
+        if (is_asked || ranged_image_ != sides_.image()) {
+            gain_.reset();
+            up_to_.reset();
+            ranged_image_ = sides_.image();
+        }
+        ImGui::SameLine(0, 3);
+        ImGui::SetNextItemWidth(-1);
         if (mode_ == CompareMode::difference) {
-            const auto gain =
-                widgets.slider("gain", 1 / scale_end(), {.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "gain %.4g"});
-            if (gain) gain_ = *gain;
+            const SliderRange range{.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "gain %.4g"};
+            if (const auto gain = widgets.slider("gain", 1 / scale_end(), range)) gain_ = *gain;
             widgets.help("what a difference is multiplied by to be seen");
         } else {
-            const auto percent = widgets.slider("up to", scale_end() * 100,
-                                                {.low = 1e-4, .high = 1e4, .logarithmic = true, .format = "up to %.4g %%"});
-            if (percent) up_to_ = *percent / 100;
+            const SliderRange range{.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "up to %.4g %%"};
+            if (const auto percent = widgets.slider("up to", scale_end() * 100, range)) up_to_ = *percent / 100;
             widgets.help("where the scale ends");
         }
     }
 
-    bool is_signed() const { return compared_ && row(compared_->difference->shape.format).channels == 1; }
+    bool is_signed() const { return compared_ && row(compared_->pictures.difference->shape.format).channels == 1; }
 
     Look map_look() const {
         const auto end = static_cast<float>(scale_end());
@@ -177,7 +196,7 @@ private:
 
     CanvasPicture canvas_picture(const ChosenSide& side, const Model& model) const {
         const std::string& trouble = side.picture.message();
-        return {side.shown.picture(), side.shown.texture(), look_of(model),
+        return {side.picture.picture().image ? side.shown.picture() : nullptr, side.shown.texture(), look_of(model),
                 fmt::format("{}  {}{}", side.name, name(side.source), trouble.empty() ? "" : fmt::format(": {}", trouble))};
     }
 
@@ -188,9 +207,9 @@ private:
         ComparedView view{
             .mode = mode_, .a = canvas_picture(sides_.a(), model), .b = canvas_picture(sides_.b(), model), .size = size};
         const bool is_flip = mode_ == CompareMode::flip_map;
-        const bool is_there = compared_ && map_image() && map_.picture() && map_.picture()->image == map_image();
-        if (is_there) view.map = {map_.picture(), is_flip ? flip_texture_ : map_.texture(), map_look(), map_caption()};
-        else view.map.label = is_flip && compared_ ? flip_help(*compared_) : trouble();
+        if (const PictureInfo* map = map_picture(); map && map_image())
+            view.map = {map, is_flip ? flip_texture_ : maps_[*map_index()].texture(), map_look(), map_caption()};
+        else view.map.label = is_flip && compared_ ? flip_help(compared_->pictures) : trouble();
         canvas_.draw(view, model, services);
     }
 
@@ -204,8 +223,9 @@ private:
         if (mode_ == CompareMode::flip_map) return "FLIP, 0: the same, 1: as different as can be";
         if (mode_ == CompareMode::relative)
             return fmt::format("|B \xe2\x88\x92 A| / max(|A|, RMS of A = {:.3g}), largest channel",
-                               compared_->measured.error.reference);
-        return fmt::format("{}, {}", is_signed() ? "B \xe2\x88\x92 A" : "|B \xe2\x88\x92 A| per channel", compared_->unit);
+                               compared_->pictures.measured.error.reference);
+        return fmt::format("{}, {}", is_signed() ? "B \xe2\x88\x92 A" : "|B \xe2\x88\x92 A| per channel",
+                           compared_->pictures.unit);
     }
 
     void draw_legend(const Model& model, Services& services) {
@@ -229,7 +249,8 @@ private:
         ImGui::SameLine();
         widgets.text("high", number(high), &palette().dim);
         ImGui::SameLine(0, 12);
-        const std::string caption = shows_pictures() ? (compared_ ? compared_->unit : "") : (compared_ ? map_caption() : "");
+        const std::string caption =
+            shows_pictures() ? (compared_ ? compared_->pictures.unit : "") : (compared_ ? map_caption() : "");
         widgets.text("caption", caption, &palette().dim);
         widgets.help("magenta: NaN, orange: infinite");
     }
@@ -250,29 +271,30 @@ private:
         const std::string why = trouble();
         if (!compared_)
             return widgets.text("state", why.empty() ? "being compared" : why, why.empty() ? &palette().dim : &palette().bad);
-        if (compared_->measured.error.identical) {
+        if (compared_->pictures.measured.error.identical) {
             widgets.text("state", "bit for bit the same", &palette().good);
         } else {
-            widgets.text("flip", flip_text(*compared_));
-            widgets.help(flip_help(*compared_));
+            widgets.text("flip mean", flip_text(compared_->pictures));
+            widgets.help(flip_help(compared_->pictures));
             ImGui::SameLine(0, 14);
-            widgets.text("rmse", rmse_text(*compared_));
-            widgets.help(fmt::format("root mean square over all values of all layers, {}; A's own is {:.4g}", compared_->unit,
-                                     compared_->measured.error.reference));
+            widgets.text("rmse", rmse_text(compared_->pictures));
+            widgets.help(fmt::format("root mean square over all values of all layers, {}; A's own is {:.4g}",
+                                     compared_->pictures.unit, compared_->pictures.measured.error.reference));
             ImGui::SameLine(0, 14);
-            if (widgets.button("worst", worst_text(*compared_))) go_to_worst(model);
-            widgets.help(fmt::format("{:.9g} in A, {:.9g} in B; a click goes there", compared_->measured.error.worst_pixel.a,
-                                     compared_->measured.error.worst_pixel.b));
+            if (widgets.button("worst", worst_text(compared_->pictures))) go_to_worst(model);
+            widgets.help(fmt::format("{:.9g} in A, {:.9g} in B; a click goes there",
+                                     compared_->pictures.measured.error.worst_pixel.a,
+                                     compared_->pictures.measured.error.worst_pixel.b));
         }
-        const std::string odd = oddities_text(*compared_);
-        widgets.text("differing", differing_text(*compared_), &palette().dim);
+        const std::string odd = oddities_text(compared_->pictures);
+        widgets.text("differing", differing_text(compared_->pictures), &palette().dim);
         if (odd.empty()) return;
         ImGui::SameLine(0, 14);
         widgets.text("oddities", odd, &palette().warning);
     }
 
     void go_to_worst(Model& model) {
-        const WorstPixel& worst = compared_->measured.error.worst_pixel;
+        const WorstPixel& worst = compared_->pictures.measured.error.worst_pixel;
         model.pin = glm::ivec2(static_cast<int>(worst.x), static_cast<int>(worst.y));
         model.image.layer = worst.layer;
         canvas_.go_to(model.view, *model.pin);
@@ -300,11 +322,11 @@ private:
     };
 
     CompareSides sides_;
-    std::string message_;
-    JobOf<std::shared_ptr<const ComparedPictures>> job_;
+    std::string message_, ranged_image_;
+    JobOf<std::shared_ptr<const Compared>> job_;
     std::pair<std::shared_ptr<const HostImage>, std::shared_ptr<const HostImage>> compared_images_;
-    std::shared_ptr<const ComparedPictures> compared_, drawn_flip_;
-    ShownPicture map_;
+    std::shared_ptr<const Compared> compared_, colored_;  ///< colored_: whose FLIP the texture has
+    std::array<ShownPicture, 3> maps_;                    ///< difference, relative, FLIP
     std::optional<double> gain_, up_to_;
     TextureId flip_texture_ = 0, legend_ = 0, magma_legend_ = 0;
     CompareMode mode_ = CompareMode::wipe;
