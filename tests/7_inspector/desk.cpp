@@ -1,5 +1,7 @@
 #include "tests/7_inspector/desk.h"
 
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,6 +42,10 @@ Desk& Desk::clean() {
     model.looks.clear();
     if (model.is_known()) model.reset_all();
     model.select_frame(0);
+    must(desk.player->wait());
+    std::set<Area> areas;
+    for (const PanelRow& row : panels())
+        if (areas.insert(row.area).second) must(desk.player->click(fmt::format("tabs/{}", row.name)));
     ImGui::GetIO().MousePos = {-1000, -1000};
     must(desk.player->wait());
     return desk;
