@@ -8,7 +8,7 @@
 namespace strata::ui {
 
 /// The one of this program: a device and its pipelines are made once. Every call brings it back to frame 0 as recorded, with its
-/// views as they are at first.
+/// views as they are at first, the first tab of every region in front.
 class Desk {
 public:
     static Desk& clean();

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include "passes/frame_images.h"
 #include "replay/counted.h"
 #include "ui/camera.h"
+#include "ui/outputs.h"
 #include "ui/panel.h"
 #include "ui/picture_view.h"
 #include "ui/save_shown.h"
@@ -12,21 +12,6 @@
 
 namespace strata::ui {
 namespace {
-
-/// Every output that can be asked for by name: frame images first, then the views of the chosen techniques.
-std::vector<std::string> outputs_of(const Model& model) {
-    std::vector<std::string> names;
-    for (const FrameImageRow& row : frame_images())
-        // Where an image's samples are to be had as layers, those are what can be read.
-        if (!find_frame_image(fmt::format("{}_layers", row.name))) names.emplace_back(row.name);
-    // What a person looks at most is last in the frame.
-    std::ranges::reverse(names);
-    if (model.is_known())
-        for (const auto& [stage, choice] : model.choices())
-            for (const DebugView& view : choice.technique->views)
-                names.push_back(fmt::format("{}:{}", choice.technique->name, view.name));
-    return names;
-}
 
 struct Peeked {
     Request request;

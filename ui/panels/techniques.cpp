@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ui/panel.h"
+#include "ui/param_widget.h"
 #include "ui/theme.h"
 
 namespace strata::ui {
@@ -105,19 +106,7 @@ private:
         widgets.help(param.help);
         ImGui::SameLine(label_width);
         ImGui::SetNextItemWidth(changed ? -reset_width : -1);
-        std::optional<double> set;
-        if (!param.choices.empty()) {
-            const auto chosen = widgets.combo("value", param.choices, static_cast<std::size_t>(value));
-            if (chosen) set = static_cast<double>(*chosen);
-        } else {
-            set = widgets.slider("value", value,
-                                 {.low = param.low,
-                                  .high = param.high,
-                                  .logarithmic = param.scale == Scale::logarithmic,
-                                  .whole = param.scalar == Scalar::integer,
-                                  .format = "%.4g"});
-        }
-        widgets.help(fmt::format("{}\nCtrl+click types a number", param.help));
+        const std::optional<double> set = draw_value(widgets, param, value);
         if (set) model.set(stage, param.name, *set);
         if (!changed) return;
         ImGui::SameLine();
