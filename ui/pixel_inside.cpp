@@ -67,8 +67,8 @@ Result<void> read_views(Answering& answering, const InsideQuestion& question, Pi
         const auto run = run_for(answering, question.request, output);
         if (!run) return run.error();
         if (question.pixel.x >= run->width || question.pixel.y >= run->height)
-            return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height,
-                        question.pixel.x, question.pixel.y);
+            return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height, question.pixel.x,
+                        question.pixel.y);
         const auto image = run->images.find(output);
         if (image == run->images.end()) continue;
         const glm::dvec4 value = texel(image->second, question.pixel.x, question.pixel.y);

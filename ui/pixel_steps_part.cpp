@@ -113,9 +113,7 @@ private:
         ImGui::Unindent(10);
         ImGui::TableNextColumn();
         if (is_light(value)) draw_swatch(glm::dvec3(value.value));
-        const ImVec4& color = has_no_number(value)             ? palette().bad
-                              : value.change == Change::changed ? palette().accent
-                                                                : faint;
+        const ImVec4& color = has_no_number(value) ? palette().bad : value.change == Change::changed ? palette().accent : faint;
         std::string text = text_of(value, double{view.near});
         if (value.layer + 1 == most_layers && value.layers > most_layers)
             text += fmt::format("   and {} more layers", value.layers - most_layers);
