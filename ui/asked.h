@@ -48,8 +48,10 @@ public:
     Asked& operator=(const Asked&) = delete;
     ~Asked() { withdraw(); }
 
-    /// Once per frame with what is to be known now; costs nothing while that stays the same.
+    /// Once per frame with what is to be known now; costs nothing while that stays the same. While the picture "A" is on its way
+    /// the session is left to it.
     void ask(Replayer& replayer, const Question& question, const Compute& compute) {
+        if (!replayer.is_current("A")) return withdraw();
         take();
         if (asked_ == question) return;
         withdraw();
@@ -84,7 +86,7 @@ public:
     std::size_t version() const { return version_; }
     const std::string& error() const { return error_; }
     /// Null while nothing is being computed.
-    const Progress* progress() const { return job_ ? &job_->progress : nullptr; }
+    const Progress* progress() const { return job_ && !job_->result() ? &job_->progress : nullptr; }
 
 private:
     void take() {

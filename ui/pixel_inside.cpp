@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-
-#include "replay/counted.h"
 
 namespace strata::ui {
 namespace {
@@ -12,6 +9,12 @@ namespace {
 std::string number_text(double value) {
     return value == std::floor(value) && std::abs(value) < 1e9 ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
 }
+
+std::string mask_text(double value) {
+    return value < 0 ? number_text(value) : fmt::format("{:#06x}", static_cast<std::uint32_t>(value));
+}
+
+bool is_mask(const TableColumn& column) { return column.unit == "bits"; }
 
 std::optional<std::size_t> column_of(const DebugTable& table, std::string_view name) {
     const auto found = std::ranges::find(table.columns, name, &TableColumn::name);
@@ -39,7 +42,8 @@ std::optional<Key> key_of(const Technique& technique, const DebugTable& table, c
 InsideRows rows_of(const DebugTable& table, const NumberTable& numbers, const Key& key) {
     InsideRows made{.table = &table};
     const TableColumn& column = table.columns[key.column];
-    made.why = fmt::format("{} {}", column.name, number_text(key.value));
+    const auto text = [&](double value) { return is_mask(column) ? mask_text(value) : number_text(value); };
+    made.why = fmt::format("{} {}", column.name, text(key.value));
     double last = -1;
     for (const std::vector<double>& row : numbers.rows) {
         last = std::max(last, row[key.column]);
@@ -47,7 +51,7 @@ InsideRows rows_of(const DebugTable& table, const NumberTable& numbers, const Ke
     }
     if (!made.rows.empty()) return made;
     if (numbers.rows.empty()) made.none = "the table is empty";
-    else if (last < key.value) made.none = fmt::format("no row: the table's last is of {} {}", column.name, number_text(last));
+    else if (last < key.value) made.none = fmt::format("no row: the table's last is of {} {}", column.name, text(last));
     else made.none = "no row";
     return made;
 }
@@ -72,7 +76,11 @@ Result<void> read_views(Answering& answering, const InsideQuestion& question, Pi
         const auto image = run->images.find(output);
         if (image == run->images.end()) continue;
         const glm::dvec4 value = texel(image->second, question.pixel.x, question.pixel.y);
-        inside.values.push_back({views[i].name, views[i].unit, views[i].help, value});
+        const bool mask = std::ranges::any_of(question.technique->tables, [&](const DebugTable& table) {
+            const auto column = key_column(*question.technique, table, views[i]);
+            return column && is_mask(table.columns[*column]);
+        });
+        inside.values.push_back({views[i].name, views[i].unit, views[i].help, value, mask});
     }
     return {};
 }
@@ -120,7 +128,7 @@ std::optional<std::size_t> key_column(const Technique& technique, const DebugTab
 }
 
 std::string text_of(const PixelInside& inside, const TableColumn& column, double value) {
-    if (column.unit == "bits") return fmt::format("{:#06x}", static_cast<std::uint32_t>(value));
+    if (is_mask(column)) return mask_text(value);
     std::string text = number_text(value);
     if (column.name == "light" && value >= 0 && value < static_cast<double>(inside.lights.size()))
         if (const std::string& name = inside.lights[static_cast<std::size_t>(value)]; !name.empty())
@@ -130,6 +138,7 @@ std::string text_of(const PixelInside& inside, const TableColumn& column, double
 
 std::string text_of(const InsideValue& inside) {
     const glm::dvec4& v = inside.value;
+    if (inside.is_mask) return mask_text(v.x);
     std::string text = number_text(v.x);
     if (v.x != v.y || v.y != v.z) text += fmt::format("  {}  {}", number_text(v.y), number_text(v.z));
     return inside.unit.empty() ? text : fmt::format("{} {}", text, inside.unit);

@@ -20,6 +20,7 @@ struct InsideQuestion {
 struct InsideValue {
     std::string_view view, unit, help;
     glm::dvec4 value{0};
+    bool is_mask = false;  ///< as a table has it whose rows it is the key of
 };
 
 /// Rows of a table that are about the pixel.

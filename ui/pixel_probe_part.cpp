@@ -104,7 +104,7 @@ private:
     }
 
     void draw_methods(const Model& model, Widgets& widgets) {
-        if (!widgets.tree("methods", false, ImGuiTreeNodeFlags_SpanAvailWidth).open) return;
+        if (!widgets.tree("methods", false).open) return;
         const std::string now = short_method(method_of(model.choices().at(Stage::transparency)));
         if (const auto set = widgets.checkbox("as chosen", as_chosen_)) as_chosen_ = *set;
         widgets.help(now);
@@ -116,7 +116,7 @@ private:
         ImGui::SameLine();
         if (widgets.button("none")) methods_.clear();
         for (const Technique* technique : known) draw_method(widgets, std::string(technique->name), technique->summary);
-        if (widgets.tree("other settings", false, ImGuiTreeNodeFlags_SpanAvailWidth).open) {
+        if (widgets.tree("other settings", false).open) {
             for (const Technique* technique : known)
                 for (const std::string_view point : technique->points)
                     draw_method(widgets, fmt::format("{} {}", technique->name, point), technique->summary);

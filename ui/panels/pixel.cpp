@@ -32,34 +32,14 @@ public:
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("Pixel");
         const auto replay = services.replayer.shown("A");
-        if (!replay || !model.is_known() || !model.pin) {
-            withdraw_but(parts_.size());
-            ImGui::PushTextWrapPos(0);
-            widgets.text(
-                "state",
-                replay ? "A click on a picture pins a pixel; what happened to it is shown here." : "nothing replayed yet",
-                &palette().dim);
-            ImGui::PopTextWrapPos();
-            return;
-        }
-        draw_head(model, widgets, *replay);
-        std::size_t shown = parts_.size();
-        if (ImGui::BeginTabBar("parts")) {
-            for (std::size_t i = 0; i < parts_.size(); ++i) {
-                const bool selected = ImGui::BeginTabItem(part_rows[i].name);
-                {
-                    const auto tabs = widgets.in("parts");
-                    widgets.tab(part_rows[i].name, selected);
-                }
-                widgets.help(part_rows[i].help);
-                if (!selected) continue;
-                shown = i;
-                draw_part(*parts_[i], model, services, *replay);
-                ImGui::EndTabItem();
-            }
-            ImGui::EndTabBar();
-        }
-        withdraw_but(shown);
+        if (replay && model.is_known() && model.pin) draw_head(model, widgets, *replay);
+        if (replay && model.is_known() && model.pin) return draw_parts(model, services, *replay);
+        withdraw_but(parts_.size());
+        ImGui::PushTextWrapPos(0);
+        widgets.text("state",
+                     replay ? "A click on a picture pins a pixel. What happened to it is shown here." : "nothing replayed yet",
+                     &palette().dim);
+        ImGui::PopTextWrapPos();
     }
 
     bool is_busy() const override {
@@ -77,12 +57,24 @@ private:
         if (widgets.button("unpin", "Unpin")) model.pin.reset();
     }
 
-    /// While another replay is on its way the session is its own, and the last answer stays in sight.
-    static void draw_part(PixelPart& part, Model& model, Services& services, const Replay& replay) {
-        if (!model.pin) return;
-        if (services.replayer.is_current("A")) return part.draw(model, services, replay);
-        part.withdraw();
-        services.widgets.text("waiting", "the frame is being replayed", &palette().dim);
+    void draw_parts(Model& model, Services& services, const Replay& replay) {
+        std::size_t shown = parts_.size();
+        if (ImGui::BeginTabBar("parts")) {
+            for (std::size_t i = 0; i < parts_.size(); ++i) {
+                const bool selected = ImGui::BeginTabItem(part_rows[i].name);
+                {
+                    const auto scope = services.widgets.in("parts");
+                    services.widgets.tab(part_rows[i].name, selected);
+                }
+                services.widgets.help(part_rows[i].help);
+                if (!selected) continue;
+                shown = i;
+                parts_[i]->draw(model, services, replay);
+                ImGui::EndTabItem();
+            }
+            ImGui::EndTabBar();
+        }
+        withdraw_but(shown);
     }
 
     /// What is not in front computes nothing.
