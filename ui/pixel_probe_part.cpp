@@ -12,7 +12,8 @@
 namespace strata::ui {
 namespace {
 
-constexpr float least_plot = 190, most_plot = 420;
+// Of the list of methods six rows are seen at a time: at 800 pixels plot and figures fit below it.
+constexpr float list_height = 156, least_plot = 190, most_plot = 420;
 
 std::string help_of(const ProbeCurve& curve) {
     std::string text = curve.method;
@@ -22,7 +23,7 @@ std::string help_of(const ProbeCurve& curve) {
         text += fmt::format("\n{} of depth, {:.3g} to {:.3g} m thick", counted(curve.slices.size(), "slice"),
                             thinnest.to - thinnest.from, thickest.to - thickest.from);
     }
-    for (const std::string& note : curve.notes) text += "\n" + note;
+    for (const std::string& note : curve.notes) text += fmt::format("\n{}", note);
     return text;
 }
 
@@ -115,6 +116,7 @@ private:
         widgets.help("every technique of the stage as it is by default");
         ImGui::SameLine();
         if (widgets.button("none")) methods_.clear();
+        ImGui::BeginChild("list", {0, list_height}, true);
         for (const Technique* technique : known) draw_method(widgets, std::string(technique->name), technique->summary);
         if (widgets.tree("other settings", false).open) {
             for (const Technique* technique : known)
@@ -122,6 +124,7 @@ private:
                     draw_method(widgets, fmt::format("{} {}", technique->name, point), technique->summary);
             widgets.tree_end();
         }
+        ImGui::EndChild();
         widgets.tree_end();
     }
 

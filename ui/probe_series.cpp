@@ -105,7 +105,7 @@ std::string method_of(const Choice& choice) {
     std::string method(choice.technique->name);
     const std::vector<std::string> now = choice.settings.lines(), defaults = Settings(choice.technique->params).lines();
     for (std::size_t i = 0; i < now.size(); ++i)
-        if (now[i] != defaults[i]) method += " " + now[i];
+        if (now[i] != defaults[i]) method += fmt::format(" {}", now[i]);
     return method;
 }
 

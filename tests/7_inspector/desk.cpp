@@ -1,5 +1,7 @@
 #include "tests/7_inspector/desk.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +44,18 @@ Desk& Desk::clean() {
     model.select_frame(0);
     ImGui::GetIO().MousePos = {-1000, -1000};
     must(desk.player->wait());
+    desk.bring_first_panels_to_the_front();
     return desk;
+}
+
+void Desk::bring_first_panels_to_the_front() {
+    for (const Area area : {Area::left, Area::center, Area::right, Area::bottom}) {
+        const auto first = std::ranges::find(panels(), area, &PanelRow::area);
+        const std::string tab = fmt::format("tabs/{}", first->name);
+        if (said(tab) != "selected") must(player->click(tab));
+    }
+    ImGui::GetIO().MousePos = {-1000, -1000};
+    must(player->wait());
 }
 
 const WidgetRecord& Desk::widget(std::string_view path) {

@@ -1,5 +1,6 @@
 // The panel of the pinned pixel says what the session says.
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include <gmock/gmock.h>
