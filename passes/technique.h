@@ -131,6 +131,7 @@ struct TableColumn {
 struct DebugTable {
     std::string_view name, help;
     std::vector<TableColumn> columns;  ///< 1 to 4
+    std::uint32_t tile = 0;            ///< pixels a side of the tiles, counted row by row, of column "tile"; 0: it has none
     Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 

@@ -15,9 +15,9 @@
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 
-#include "passes/reference/triangles.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/counted.h"
+#include "replay/drawn_by.h"
 
 namespace strata {
 namespace {
@@ -25,19 +25,6 @@ namespace {
 bool is_chromatic(const Fragment& fragment) {
     const glm::dvec3& t = fragment.transmittance;
     return t.x != t.y || t.y != t.z;
-}
-
-/// The draw or emitter that a fragment's triangle belongs to.
-std::string drawn_by(const Frame& frame, std::uint32_t submission) {
-    std::uint32_t end = 0;
-    for (const std::uint32_t draw : transparent_draws(frame)) {
-        end += triangle_count(frame, draw);
-        if (submission >= end) continue;
-        if (draw < frame.draws.size()) return fmt::format("draw {} '{:.60}'", draw, frame.draws[draw].name);
-        const std::size_t emitter = draw - frame.draws.size();
-        return fmt::format("emitter {} '{:.60}'", emitter, frame.emitters[emitter].name);
-    }
-    return "no draw";
 }
 
 Result<void> refuse_chromatic(const FragmentLists& lists, std::uint32_t sample, const Frame& frame) {

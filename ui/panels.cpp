@@ -5,6 +5,7 @@ namespace strata::ui {
 std::unique_ptr<Panel> frame_panel();
 std::unique_ptr<Panel> image_panel();
 std::unique_ptr<Panel> compare_panel();
+std::unique_ptr<Panel> pixel_panel();
 std::unique_ptr<Panel> techniques_panel();
 std::unique_ptr<Panel> visualizers_panel();
 std::unique_ptr<Panel> log_panel();
@@ -12,6 +13,7 @@ std::unique_ptr<Panel> log_panel();
 std::span<const PanelRow> panels() {
     static constexpr PanelRow table[] = {
         {"Frame", Area::left, "stages and steps in order, what they take, and what was left out and why", frame_panel},
+        {"Pixel", Area::left, "the pinned pixel: after every step, its fragments, its transmittance, its tile", pixel_panel},
         {"Image", Area::center, "any output of any step, with the values of its texels", image_panel},
         {"Compare", Area::center, "two of: replays, expectation, truth, files; pictures and numbers", compare_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},

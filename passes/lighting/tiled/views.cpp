@@ -135,10 +135,12 @@ std::vector<DebugTable> tiled_tables() {
          .help = "lights of each tile, and which of the light's 32 blockers the tile's pixels test; the first ones of each tile "
                  "where they are more than fit",
          .columns = {{"tile", ""}, {"light", ""}, {"blockers 0 to 15", "bits"}, {"blockers 16 to 31", "bits"}},
+         .tile = tile_size,
          .add = list_table<list_blockers>},
         {.name = "portals",
          .help = "the same of the light's 32 portals",
          .columns = {{"tile", ""}, {"light", ""}, {"portals 0 to 15", "bits"}, {"portals 16 to 31", "bits"}},
+         .tile = tile_size,
          .add = list_table<list_portals>},
     };
 }
