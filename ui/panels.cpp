@@ -4,6 +4,7 @@ namespace strata::ui {
 
 std::unique_ptr<Panel> frame_panel();
 std::unique_ptr<Panel> image_panel();
+std::unique_ptr<Panel> cost_panel();
 std::unique_ptr<Panel> techniques_panel();
 std::unique_ptr<Panel> log_panel();
 
@@ -11,6 +12,8 @@ std::span<const PanelRow> panels() {
     static constexpr PanelRow table[] = {
         {"Frame", Area::left, "stages and steps in order, what they take, and what was left out and why", frame_panel},
         {"Image", Area::center, "any output of any step, with the values of its texels", image_panel},
+        {"Accuracy and cost", Area::center, "every method of a stage: its error against its cost; a click applies one",
+         cost_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},
         {"Log", Area::bottom, "what the replay said", log_panel},
     };
