@@ -94,9 +94,9 @@ private:
             // What was modelled is what one wants to see.
             if (running_ == stage_ && !study.missing.empty()) cost_ = {study.columns.back().label, {}};
             forget_zoom();
-            services.log.push_back({LogLine::Kind::said, services.seconds,
-                                    fmt::format("measured {} of {} in {:.1f} s", counted(study.report.rows.size(), "setting"),
-                                                name(running_), services.seconds - began_)});
+            services.log.push_back(
+                {LogLine::Kind::said, services.seconds,
+                 fmt::format("measured {} of {}", counted(study.report.rows.size(), "setting"), name(running_))});
         } else {
             failure_ = result.error().sentence;
             services.log.push_back({LogLine::Kind::failed, services.seconds, failure_});
