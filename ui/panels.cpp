@@ -6,6 +6,7 @@ std::unique_ptr<Panel> frame_panel();
 std::unique_ptr<Panel> image_panel();
 std::unique_ptr<Panel> compare_panel();
 std::unique_ptr<Panel> pixel_panel();
+std::unique_ptr<Panel> cost_panel();
 std::unique_ptr<Panel> techniques_panel();
 std::unique_ptr<Panel> visualizers_panel();
 std::unique_ptr<Panel> log_panel();
@@ -16,6 +17,8 @@ std::span<const PanelRow> panels() {
         {"Pixel", Area::left, "the pinned pixel: after every step, its fragments, its transmittance, its tile", pixel_panel},
         {"Image", Area::center, "any output of any step, with the values of its texels", image_panel},
         {"Compare", Area::center, "two of: replays, expectation, truth, files; pictures and numbers", compare_panel},
+        {"Accuracy and cost", Area::center, "every method of a stage: its error against its cost; a click applies one",
+         cost_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},
         {"Visualizers", Area::right, "what techniques show of their inside, with the numbers that belong to it",
          visualizers_panel},

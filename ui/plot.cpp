@@ -115,6 +115,27 @@ void draw_series(const PlotSeries& series, const Field& field) {
     if (series.kind == SeriesKind::step && before) list.AddLine(*before, {field.to.x, before->y}, color, 1.5f);
 }
 
+void draw_spreads(const PlotSeries& series, const Field& field) {
+    constexpr float cap = 3;
+    const ImU32 color = packed(series.color, .7f);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (std::size_t i = 0; i < series.spreads.size(); ++i) {
+        const glm::dvec2 point = series.points[i];
+        if (!field.has(point) || series.spreads[i] <= 0) continue;
+        // A logarithmic axis has no place for what the spread leaves of a small time: the bar ends at the edge.
+        const ImVec2 from = field.at({std::max(field.x.low, point.x - series.spreads[i]), point.y});
+        const ImVec2 to = field.at({point.x + series.spreads[i], point.y});
+        list.AddLine(from, to, color, 1.5f);
+        list.AddLine({from.x, from.y - cap}, {from.x, from.y + cap}, color);
+        list.AddLine({to.x, to.y - cap}, {to.x, to.y + cap}, color);
+    }
+}
+
+void draw_ring(const PlotSeries& series, std::size_t point, const Field& field) {
+    if (!field.has(series.points[point])) return;
+    ImGui::GetWindowDrawList()->AddCircle(field.at(series.points[point]), point_radius + 3, packed(palette().text), 0, 1.5f);
+}
+
 /// The point nearest to the mouse, of those it can mean.
 std::optional<PlotPoint> nearest(std::span<const PlotSeries> all, const PlotView& view, const Field& field, ImVec2 mouse) {
     std::optional<PlotPoint> best;
@@ -134,7 +155,7 @@ std::optional<PlotPoint> nearest(std::span<const PlotSeries> all, const PlotView
 }
 
 void show_values(const Plot& plot, const PlotSeries& series, std::size_t point, const Field& field) {
-    ImGui::GetWindowDrawList()->AddCircle(field.at(series.points[point]), point_radius + 3, packed(palette().text), 0, 1.5f);
+    draw_ring(series, point, field);
     ImGui::BeginTooltip();
     ImGui::TextColored(series.color, "%s", series.label.c_str());
     if (point < series.notes.size() && !series.notes[point].empty()) ImGui::TextUnformatted(series.notes[point].c_str());
@@ -233,8 +254,12 @@ PlotEvent draw_plot(Widgets& widgets, const Plot& plot, std::span<const PlotSeri
     list.AddRectFilled(field.from, field.to, packed({0, 0, 0, .25f}), 2);
     draw_ticks(plot, field);
     list.PushClipRect(field.from, field.to, true);
-    for (const PlotSeries& series : all)
-        if (!view.hidden.contains(series.label)) draw_series(series, field);
+    for (const PlotSeries& series : all) {
+        if (view.hidden.contains(series.label)) continue;
+        draw_spreads(series, field);
+        draw_series(series, field);
+    }
+    if (plot.marked) draw_ring(all[plot.marked->series], plot.marked->point, field);
     list.PopClipRect();
 
     PlotEvent event;

@@ -49,6 +49,7 @@ struct PlotSeries {
     std::vector<glm::dvec2> points;  ///< a line's and a step's in the order of x; a value stays until the next x
     ImVec4 color = {1, 1, 1, 1};
     std::vector<std::string> notes = {};  ///< shown with a point that the mouse is on; none, or as many as points
+    std::vector<double> spreads = {};     ///< half the length of a bar along x through each point; none, or as many as points
 };
 
 /// What the mouse made of a plot: kept by the panel.
@@ -72,6 +73,7 @@ struct Plot {
     std::string_view label;  ///< its part of the widgets' path
     PlotAxis x, y;
     ImVec2 size;
+    std::optional<PlotPoint> marked = {};  ///< drawn with a ring, as under the mouse
 };
 PlotEvent draw_plot(Widgets&, const Plot&, std::span<const PlotSeries>, PlotView&);
 
