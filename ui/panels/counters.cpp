@@ -3,6 +3,7 @@
 #include <array>
 
 #include "ui/counter_rows.h"
+#include "ui/find_text.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 
@@ -10,12 +11,6 @@ namespace strata::ui {
 namespace {
 
 enum class Against : std::size_t { last_change, recorded };
-
-std::string lower(std::string_view text) {
-    std::string made(text);
-    std::ranges::transform(made, made.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return made;
-}
 
 class CountersPanel final : public Panel {
 public:
@@ -88,8 +83,7 @@ private:
 
     bool matches(const CounterRow& row) const {
         if (changed_only_ && row.now == row.before) return false;
-        const std::string wanted = lower(find_);
-        return lower(row.name).find(wanted) != std::string::npos || lower(row.technique).find(wanted) != std::string::npos;
+        return is_found_in(row.name, find_) || is_found_in(row.technique, find_);
     }
 
     void draw_table(Widgets& widgets, const std::vector<CounterRow>& rows) const {
