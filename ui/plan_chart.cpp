@@ -11,6 +11,9 @@ constexpr float least_column = 12, widest_fit = 30, most_zoom = 12;
 // Names lean over the column after the last.
 constexpr float lean = 52;
 
+// Whole pixels, so that all columns are of one width.
+float column_of(float fit, float zoom) { return std::floor(fit * zoom); }
+
 float visible_width(const PlanChart& chart) { return std::max(1.0f, chart.to.x - chart.cells.x - lean); }
 
 /// Neither further than the ends of the cells, nor away from where they all fit.
@@ -28,7 +31,8 @@ PlanChart place(const ChartView& view, ImVec2 from, ImVec2 size, const ChartSize
     PlanChart chart{.from = from, .to = {from.x + size.x, from.y + size.y}, .columns = cells.columns, .rows = cells.rows};
     chart.cells = {from.x + PlanChart::names, from.y + cells.header};
     const float fit = visible_width(chart) / static_cast<float>(std::max<std::size_t>(cells.columns, 1));
-    chart.column = std::round(std::clamp(fit, least_column, widest_fit) * view.zoom);
+    chart.fit = std::clamp(fit, least_column, widest_fit);
+    chart.column = column_of(chart.fit, view.zoom);
     const ChartView seen = clamped(view, chart);
     chart.origin = {chart.cells.x - seen.x, chart.cells.y - seen.y};
     return chart;
@@ -54,8 +58,7 @@ ChartView moved(const ChartView& view, const PlanChart& chart, const ChartMouse&
     PlanChart after = chart;
     if (mouse.wheel != 0 && mouse.at.x >= chart.cells.x) {
         now.zoom = std::clamp(view.zoom * std::pow(1.25f, mouse.wheel), 1.0f, most_zoom);
-        const float before = chart.column / view.zoom;
-        after.column = std::round(before * now.zoom);
+        after.column = column_of(chart.fit, now.zoom);
         const float under = (mouse.at.x - chart.origin.x) / chart.column;  // columns
         now.x = under * after.column - (mouse.at.x - chart.cells.x);
     }

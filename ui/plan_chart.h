@@ -27,6 +27,7 @@ struct PlanChart {
     ImVec2 cells;      ///< upper left corner of what is seen of the cells
     ImVec2 origin;     ///< of the first cell: left of and above `cells` where the view was pulled
     float column = 0;  ///< pixels
+    float fit = 0;     ///< of a column at zoom 1
     std::size_t columns = 0, rows = 0;
     static constexpr float row = 19, names = 148;
 

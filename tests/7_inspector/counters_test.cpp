@@ -57,11 +57,13 @@ TEST(CountersPanel, SaysWhatTheReplayCountedAndWhatItCountedBeforeAChange) {
     for (const CounterRecord& record : first->run.counters)
         EXPECT_EQ(desk.said(fmt::format("Counters/{}/{}/now", record.technique, record.name)), grouped(record.value));
     const Choice& recorded = desk.model().choices().at(Stage::transparency);
-    for (const Technique* other : techniques_of(Stage::transparency))
-        if (other != recorded.technique && other->counters.size() > 0) {
-            desk.model().use(*other);
-            break;
-        }
+    const auto counts_otherwise = [&](const Technique* other) {
+        return other != recorded.technique && !other->counters.empty() && other->needs.empty();
+    };
+    const auto others = techniques_of(Stage::transparency);
+    const auto other = std::ranges::find_if(others, counts_otherwise);
+    ASSERT_NE(other, others.end());
+    desk.model().use(**other);
     must(desk.player->wait());
     EXPECT_THAT(desk.said("Counters/before"), testing::HasSubstr(first->run.choices.at("transparency")));
     must(desk.player->choose("Counters/against", "as recorded"));
