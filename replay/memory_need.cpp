@@ -36,33 +36,6 @@ void count_images(const Executor& executor, const Plan& plan, MemoryNeed& need) 
 
 double mib(std::uint64_t bytes) { return double(bytes) / (1 << 20); }
 
-/// First and last step that uses a resource.
-struct Life {
-    std::uint64_t bytes = 0;
-    std::size_t first = 0, last = 0;
-};
-
-/// Of the plan's own images and buffers. What is kept lives to the end.
-std::vector<Life> lives_of(const Plan& plan) {
-    std::map<std::pair<bool, std::uint32_t>, Life> lives;  // by kind and id
-    for (std::size_t i = 0; i < plan.steps.size(); ++i)
-        for (const Use& use : uses(plan.steps[i])) {
-            const bool is_image = bool(use.image);
-            const std::uint32_t id = is_image ? use.image.id : use.buffer.id;
-            if (is_image ? plan.images[id].import.has_value() : plan.buffers[id].import.has_value()) continue;
-            const std::uint64_t size = is_image ? bytes(plan.images[id].shape) : plan.buffers[id].bytes;
-            lives.try_emplace({is_image, id}, Life{size, i, i}).first->second.last = i;
-        }
-    const auto keep = [&](bool is_image, std::uint32_t id) {
-        if (const auto life = lives.find({is_image, id}); life != lives.end()) life->second.last = plan.steps.size();
-    };
-    for (const Image image : plan.kept_images) keep(true, image.id);
-    for (const Buffer buffer : plan.kept_buffers) keep(false, buffer.id);
-    std::vector<Life> all;
-    for (const auto& [key, life] : lives) all.push_back(life);
-    return all;
-}
-
 }  // namespace
 
 MemoryNeed memory_need(const Executor& executor, const Plan& plan, const RunOptions& options,
@@ -93,6 +66,26 @@ std::string text(const MemoryNeed& need) {
     return text;
 }
 
+std::vector<Life> lives_of(const Plan& plan) {
+    std::map<std::pair<bool, std::uint32_t>, Life> lives;  // by kind and id
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+        for (const Use& use : uses(plan.steps[i])) {
+            const bool is_image = bool(use.image);
+            const std::uint32_t id = is_image ? use.image.id : use.buffer.id;
+            if (is_image ? plan.images[id].import.has_value() : plan.buffers[id].import.has_value()) continue;
+            const std::uint64_t size = is_image ? bytes(plan.images[id].shape) : plan.buffers[id].bytes;
+            lives.try_emplace({is_image, id}, Life{is_image, id, size, i, i}).first->second.last = i;
+        }
+    const auto keep = [&](bool is_image, std::uint32_t id) {
+        if (const auto life = lives.find({is_image, id}); life != lives.end()) life->second.last = plan.steps.size();
+    };
+    for (const Image image : plan.kept_images) keep(true, image.id);
+    for (const Buffer buffer : plan.kept_buffers) keep(false, buffer.id);
+    std::vector<Life> all;
+    for (const auto& [key, life] : lives) all.push_back(life);
+    return all;
+}
+
 MemoryOverTime memory_over_time(const Plan& plan) {
     MemoryOverTime over_time;
     const std::vector<Life> lives = lives_of(plan);
@@ -104,6 +97,7 @@ MemoryOverTime memory_over_time(const Plan& plan) {
             if (life.first <= i && i <= life.last) alive += life.bytes;
             if (life.first == i) stage.allocated += life.bytes;
         }
+        over_time.alive.push_back(alive);
         stage.peak = std::max(stage.peak, alive);
         if (alive <= over_time.peak) continue;
         over_time.peak = alive;

@@ -29,6 +29,16 @@ MemoryNeed memory_need(const Executor&, const Plan&, const RunOptions&, std::spa
 /// "312.4 MiB (250.0 of images, ...); the largest images are 'color' with 133.0 MiB, ..."
 std::string text(const MemoryNeed&);
 
+/// The steps that use an image or buffer of a plan's own, and the texels or bytes it takes.
+struct Life {
+    bool is_image = false;
+    std::uint32_t id = 0;
+    std::uint64_t bytes = 0;
+    std::size_t first = 0, last = 0;  ///< what is kept lives to the end: last is the number of steps
+};
+/// Of every image and buffer that a step uses; buffers first.
+std::vector<Life> lives_of(const Plan&);
+
 /// What the steps of a stage hold.
 struct StageMemory {
     std::uint64_t allocated = 0;  ///< images and buffers they are the first to use
@@ -40,6 +50,7 @@ struct MemoryOverTime {
     std::map<std::string, StageMemory> stages;
     std::string fullest_scope, fullest_step;  ///< where the most is alive
     std::uint64_t peak = 0;
+    std::vector<std::uint64_t> alive;  ///< at each step
 };
 MemoryOverTime memory_over_time(const Plan&);
 

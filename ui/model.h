@@ -15,6 +15,8 @@
 
 namespace strata::ui {
 
+struct Outline;
+
 /// How a frame is made, as differences to how it was recorded. What undo brings back.
 struct Edits {
     std::size_t frame = 0;
@@ -65,7 +67,9 @@ public:
 
     // What is selected and how it is looked at: no part of undo.
     ImageChoice image;
-    std::optional<std::size_t> step;  ///< of the plan
+    std::optional<std::size_t> step;         ///< of the plan
+    std::optional<std::uint32_t> draw;       ///< of the frame, as in Session::draw_cover()
+    std::shared_ptr<const Outline> outline;  ///< of a draw, over every picture of its frame; null: none
     std::optional<glm::ivec2> pin;
     std::optional<glm::ivec2> under;  ///< the texel under the pointer, where there is one
     PictureView view;

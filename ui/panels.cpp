@@ -9,6 +9,9 @@ std::unique_ptr<Panel> pixel_panel();
 std::unique_ptr<Panel> cost_panel();
 std::unique_ptr<Panel> techniques_panel();
 std::unique_ptr<Panel> visualizers_panel();
+std::unique_ptr<Panel> plan_panel();
+std::unique_ptr<Panel> counters_panel();
+std::unique_ptr<Panel> capture_panel();
 std::unique_ptr<Panel> log_panel();
 
 std::span<const PanelRow> panels() {
@@ -19,9 +22,12 @@ std::span<const PanelRow> panels() {
         {"Compare", Area::center, "two of: replays, expectation, truth, files; pictures and numbers", compare_panel},
         {"Accuracy and cost", Area::center, "every method of a stage: its error against its cost; a click applies one",
          cost_panel},
+        {"Plan", Area::center, "which step writes and reads what, barriers, who shares memory, what was left out", plan_panel},
         {"Techniques", Area::right, "how each stage is done: technique, settings, forced features", techniques_panel},
         {"Visualizers", Area::right, "what techniques show of their inside, with the numbers that belong to it",
          visualizers_panel},
+        {"Counters", Area::bottom, "what techniques counted, beside what they counted before", counters_panel},
+        {"Capture", Area::bottom, "what the frame is made of: draws, materials, lights, weather", capture_panel},
         {"Log", Area::bottom, "what the replay said", log_panel},
     };
     return table;

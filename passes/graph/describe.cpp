@@ -12,22 +12,6 @@
 namespace strata {
 namespace {
 
-std::string size_text(std::uint64_t size) {
-    if (size < 1024) return fmt::format("{} B", size);
-    if (size < 1024 * 1024) return fmt::format("{:.1f} KiB", static_cast<double>(size) / 1024);
-    return fmt::format("{:.1f} MiB", static_cast<double>(size) / (1024 * 1024));
-}
-
-std::string shape_text(const Shape& shape) {
-    std::string text = fmt::format("{} x {}", shape.extent.width, shape.extent.height);
-    if (shape.extent.depth > 1) text += fmt::format(" x {}", shape.extent.depth);
-    text += fmt::format(" {}", row(shape.format).name);
-    if (shape.layers > 1) text += fmt::format(", {} layers", shape.layers);
-    if (shape.mips > 1) text += fmt::format(", {} mips", shape.mips);
-    if (shape.samples > 1) text += fmt::format(", {} samples", shape.samples);
-    return text;
-}
-
 std::string part_text(const Part& part) {
     std::string text;
     if (part.mip) text += fmt::format(" mip {}", *part.mip);
@@ -41,18 +25,6 @@ const std::string& name_of(const Plan& plan, Image image, Buffer buffer) {
 
 std::string count_text(std::size_t count, std::string_view singular, std::string_view plural) {
     return fmt::format("{} {}", count, count == 1 ? singular : plural);
-}
-
-std::string barrier_text(const Plan& plan, const Barrier& barrier) {
-    const std::string what = name_of(plan, barrier.image, barrier.buffer) + part_text(barrier.part);
-    std::string text = fmt::format("        {}: {} -> {}", what, names(barrier.all_before), names(barrier.all_after));
-    if (!barrier.image || plan.slot_of_image[barrier.image.id] == no_index) return text + "\n";
-    const MemorySlot& slot = plan.slots[plan.slot_of_image[barrier.image.id]];
-    const auto owner = std::ranges::find(slot.images, barrier.image.id);
-    if (barrier.discard && owner != slot.images.begin())
-        text += fmt::format(", takes over the memory of {}", plan.images[*(owner - 1)].name);
-    else if (barrier.discard) text += ", new";
-    return text + "\n";
 }
 
 std::string groups_text(const PlannedStep& planned) {
@@ -82,7 +54,7 @@ std::string memory_text(const Plan& plan) {
     std::string text = "\nmemory\n";
     for (std::size_t i = 0; i < plan.slots.size(); ++i) {
         const MemorySlot& slot = plan.slots[i];
-        text += fmt::format("    slot {}: {} ({}):", i, shape_text(slot.shape), size_text(slot.bytes));
+        text += fmt::format("    slot {}: {} ({}):", i, describe(slot.shape), size_text(slot.bytes));
         for (std::size_t k = 0; k < slot.images.size(); ++k)
             text += fmt::format("{} {}", k == 0 ? "" : ", then", plan.images[slot.images[k]].name);
         text += "\n";
@@ -112,6 +84,34 @@ std::string edge_text(const std::string& step, const Use& use) {
 
 }  // namespace
 
+std::string size_text(std::uint64_t bytes) {
+    if (bytes < 1024) return fmt::format("{} B", bytes);
+    if (bytes < 1024 * 1024) return fmt::format("{:.1f} KiB", static_cast<double>(bytes) / 1024);
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024));
+}
+
+std::string describe(const Shape& shape) {
+    std::string text = fmt::format("{} x {}", shape.extent.width, shape.extent.height);
+    if (shape.extent.depth > 1) text += fmt::format(" x {}", shape.extent.depth);
+    text += fmt::format(" {}", row(shape.format).name);
+    if (shape.layers > 1) text += fmt::format(", {} layers", shape.layers);
+    if (shape.mips > 1) text += fmt::format(", {} mips", shape.mips);
+    if (shape.samples > 1) text += fmt::format(", {} samples", shape.samples);
+    return text;
+}
+
+std::string describe(const Plan& plan, const Barrier& barrier) {
+    const std::string what = name_of(plan, barrier.image, barrier.buffer) + part_text(barrier.part);
+    std::string text = fmt::format("{}: {} -> {}", what, names(barrier.all_before), names(barrier.all_after));
+    if (!barrier.image || plan.slot_of_image[barrier.image.id] == no_index) return text;
+    const MemorySlot& slot = plan.slots[plan.slot_of_image[barrier.image.id]];
+    const auto owner = std::ranges::find(slot.images, barrier.image.id);
+    if (barrier.discard && owner != slot.images.begin())
+        text += fmt::format(", takes over the memory of {}", plan.images[*(owner - 1)].name);
+    else if (barrier.discard) text += ", new";
+    return text;
+}
+
 std::string describe(const Plan& plan) {
     std::string text = summary(plan);
     std::uint32_t scope = no_index;
@@ -121,10 +121,10 @@ std::string describe(const Plan& plan) {
             text += fmt::format("\n{}\n", plan.scopes[scope].name);
         }
         text += fmt::format("    {}{}{}\n", planned.step.name, groups_text(planned), raster_text(planned));
-        for (const Barrier& barrier : planned.barriers) text += barrier_text(plan, barrier);
+        for (const Barrier& barrier : planned.barriers) text += fmt::format("        {}\n", describe(plan, barrier));
     }
     if (!plan.final_barriers.empty()) text += "\nat the end\n";
-    for (const Barrier& barrier : plan.final_barriers) text += barrier_text(plan, barrier);
+    for (const Barrier& barrier : plan.final_barriers) text += fmt::format("        {}\n", describe(plan, barrier));
     text += memory_text(plan);
     if (!plan.culled.empty()) text += "\nleft out\n";
     for (const CulledStep& culled : plan.culled)

@@ -37,6 +37,8 @@ Desk& Desk::clean() {
     Model& model = desk.model();
     model.image = {};
     model.step.reset();
+    model.draw.reset();
+    model.outline.reset();
     model.pin.reset();
     model.view = {};
     model.looks.clear();
@@ -49,7 +51,17 @@ Desk& Desk::clean() {
         if (fronts.insert(row.area).second) must(desk.player->click(fmt::format("tabs/{}", row.name)));
     ImGui::GetIO().MousePos = {-1000, -1000};
     must(desk.player->wait());
+    desk.bring_first_tabs_to_the_front();
     return desk;
+}
+
+void Desk::bring_first_tabs_to_the_front() {
+    for (const Area area : {Area::left, Area::center, Area::right, Area::bottom}) {
+        const auto first = std::ranges::find(panels(), area, &PanelRow::area);
+        const std::string tab = fmt::format("tabs/{}", first->name);
+        if (widget(tab).value != "selected") must(player->click(tab));
+    }
+    must(player->wait());
 }
 
 const WidgetRecord& Desk::widget(std::string_view path) {

@@ -28,6 +28,7 @@ public:
 
 private:
     Desk();
+    void bring_first_tabs_to_the_front();
 };
 
 /// The frame of a scenario in the desk's capture.

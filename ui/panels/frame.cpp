@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "replay/counted.h"
+#include "ui/find_text.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
 
@@ -19,12 +20,6 @@ struct Times {
 std::string milliseconds(const Spread& spread) {
     return spread.mad > 0 ? fmt::format("{:.2f} \xc2\xb1 {:.2f}", spread.median, spread.mad)
                           : fmt::format("{:.2f}", spread.median);
-}
-
-std::string lower(std::string_view text) {
-    std::string made(text);
-    std::ranges::transform(made, made.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return made;
 }
 
 /// A row of a plan in the open: the steps from first to end of one act.
@@ -142,10 +137,8 @@ private:
     }
 
     bool matches(const PlanRow& row) const {
-        const std::string wanted = lower(find_);
-        return wanted.empty() || lower(row.name).find(wanted) != std::string::npos ||
-               std::ranges::any_of(row.images,
-                                   [&](const std::string& image) { return lower(image).find(wanted) != std::string::npos; });
+        return is_found_in(row.name, find_) ||
+               std::ranges::any_of(row.images, [&](const std::string& image) { return is_found_in(image, find_); });
     }
 
     void draw_tree(Model& model, Widgets& widgets, const Replay& replay) {

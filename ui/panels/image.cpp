@@ -4,6 +4,7 @@
 
 #include "replay/counted.h"
 #include "ui/camera.h"
+#include "ui/outline.h"
 #include "ui/outputs.h"
 #include "ui/panel.h"
 #include "ui/picture_view.h"
@@ -275,6 +276,7 @@ private:
             take_mouse(model, services, *picture);
             draw_picture(services.layer, placement_, shown_.texture(), look_of(model));
             draw_details(placement_, *picture);
+            if (model.outline) draw_outline(placement_, *model.outline, model.request());
             if (model.pin && picture->contains(*model.pin)) draw_pin(placement_, *model.pin);
         }
         if (message_.empty()) return;
