@@ -18,7 +18,7 @@ constexpr OwnKey own_keys[] = {
     {"f1", "these keys"}, {"ctrl+z", "undo"}, {"ctrl+y", "redo"}, {"pageup", "the frame before"}, {"pagedown", "the next frame"},
 };
 
-bool is_own_key(std::string_view chord) { return is_pressed(*chord_of(chord)); }
+bool is_down(std::string_view chord) { return is_pressed(*chord_of(chord)); }
 
 }  // namespace
 
@@ -29,13 +29,13 @@ Inspector::Inspector(ImguiLayer& layer, Model model, Replayer::Open open, Layout
       replayer_(std::make_unique<Replayer>(std::move(open))),
       host_(std::make_unique<WorkQueue>()) {
     for (const PanelRow& row : panels()) panels_.push_back({&row, row.make()});
-    layer_->upload_fonts();
+    layer_->begin();
     replayer_->show("A", model_.request());
 }
 
 Inspector::~Inspector() = default;
 
-Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, log_, seconds_}; }
+Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, log_, layout_.settings, seconds_}; }
 
 void Inspector::say(LogLine::Kind kind, std::string text) { log_.push_back({kind, seconds_, std::move(text)}); }
 
@@ -88,17 +88,17 @@ std::string Inspector::title() const {
 }
 
 void Inspector::press_keys() {
-    if (is_own_key("f1")) keys_are_shown_ = !keys_are_shown_;
-    if (keys_are_shown_ && is_own_key("escape")) keys_are_shown_ = false;
-    if (is_own_key("ctrl+z")) model_.undo();
-    if (is_own_key("ctrl+y")) model_.redo();
+    if (is_down("f1")) keys_are_shown_ = !keys_are_shown_;
+    if (keys_are_shown_ && is_down("escape")) keys_are_shown_ = false;
+    if (is_down("ctrl+z")) model_.undo();
+    if (is_down("ctrl+y")) model_.redo();
     const std::size_t frame = model_.edits().frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
-    if (is_own_key("pageup") && frame > 0) model_.select_frame(frame - 1);
-    if (is_own_key("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
+    if (is_down("pageup") && frame > 0) model_.select_frame(frame - 1);
+    if (is_down("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
     Services all = services();
     for (Shown& shown : panels_)
         for (const PanelKey& key : shown.panel->keys())
-            if (is_own_key(key.chord)) key.pressed(*shown.panel, model_, all);
+            if (is_down(key.chord)) key.pressed(*shown.panel, model_, all);
 }
 
 void Inspector::draw() {

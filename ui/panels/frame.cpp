@@ -43,12 +43,17 @@ std::vector<Act> acts_of(const std::vector<PlanRow>& steps) {
     return acts;
 }
 
+bool was_executed(const Run& run, std::string_view scope) {
+    return std::ranges::find(run.steps, scope, &StepRecord::scope) != run.steps.end();
+}
+
 class FramePanel final : public Panel {
 public:
     void draw(Model& model, Services& services) override {
         const auto scope = services.widgets.in("Frame");
         const auto replay = services.replayer.shown("A");
         take_times(services);
+        measure_after_change(model, services, replay.get());
         draw_head(model, services, replay.get());
         if (!replay) return;
         ImGui::BeginChild("tree");
@@ -79,12 +84,20 @@ private:
     void measure(const Model& model, Services& services) {
         if (is_busy()) return;
         const Request request = model.request();
+        tried_ = request;
         timing_ = services.replayer.start<Times>([request](Session& session, Progress& progress) -> Result<Times> {
             if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
             auto runs = session.time(std::span(&request, 1), repeats);
             if (!runs) return runs.error();
             return Times{request, std::move(runs->front())};
         });
+    }
+
+    void measure_after_change(const Model& model, Services& services, const Replay* replay) {
+        const auto wanted = services.settings.find(always);
+        if (wanted == services.settings.end() || !wanted->second || !replay || !services.replayer.is_current("A")) return;
+        if (services.replayer.error("A") || (tried_ && *tried_ == replay->request)) return;
+        measure(model, services);
     }
 
     void take_times(Services& services) {
@@ -102,6 +115,8 @@ private:
         ImGui::EndDisabled();
         widgets.help("times every step: median and deviation of three runs that execute everything");
         ImGui::SameLine();
+        if (const auto set = widgets.checkbox("always", services.settings[always])) services.settings[always] = *set;
+        widgets.help("measures after every change");
         ImGui::SetNextItemWidth(-1);
         if (std::exchange(focus_find_, false)) ImGui::SetKeyboardFocusHere();
         if (auto text = widgets.input("find", find_, "find a step")) find_ = *std::move(text);
@@ -163,7 +178,11 @@ private:
             if (row.clicked) select(model, replay, act.end - 1);
             draw_time(widgets, act.scope, stage_time(act));
             ImGui::TableNextColumn();
-            draw_share(replay, act);
+            if (times_) draw_share(replay, act);
+            else
+                widgets.text(fmt::format("{} made", act.scope), was_executed(replay.run, act.scope) ? "made" : "kept",
+                             &palette().dim);
+            if (!times_) widgets.help("made in the latest replay, or kept from an earlier one");
             if (!row.open) continue;
             for (std::size_t i = act.first; i < act.end; ++i)
                 if (matches(replay.steps[i])) draw_step(model, widgets, replay, i);
@@ -217,8 +236,11 @@ private:
         widgets.tree_end();
     }
 
+    static constexpr const char* always = "measure after every change";
+
     JobOf<Times> timing_;
     std::optional<Times> times_;
+    std::optional<Request> tried_;  ///< what was measured last, with success or without
     std::string find_;
     bool focus_find_ = false;
 };
