@@ -266,18 +266,20 @@ void Inspector::draw_keys() {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
     ImGui::Begin("keys", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    const auto scope = widgets_.in("keys");
-    const auto row = [&](std::string_view chord, std::string_view help) {
-        ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
-        ImGui::SameLine(130);
-        widgets_.text(chord, help);
-    };
-    for (const OwnKey& key : own_keys) row(key.chord, key.help);
-    for (const Shown& shown : panels_) {
-        if (shown.panel->keys().empty()) continue;
-        ImGui::Dummy({0, 4});
-        ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
-        for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
+    {
+        const auto scope = widgets_.in("keys");
+        const auto row = [&](std::string_view chord, std::string_view help) {
+            ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
+            ImGui::SameLine(130);
+            widgets_.text(chord, help);
+        };
+        for (const OwnKey& key : own_keys) row(key.chord, key.help);
+        for (const Shown& shown : panels_) {
+            if (shown.panel->keys().empty()) continue;
+            ImGui::Dummy({0, 4});
+            ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
+            for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
+        }
     }
     ImGui::End();
     ImGui::PopStyleColor();

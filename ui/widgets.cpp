@@ -99,11 +99,13 @@ std::optional<std::size_t> Widgets::combo(std::string_view label, std::span<cons
     }
     record(label, WidgetKind::combo, shown);
     records_.back().open = true;
-    const Scope scope = in(label);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (ImGui::Selectable(std::string(items[i]).c_str(), i == current) && i != current) chosen = i;
-        record(items[i], WidgetKind::choice, std::string(items[i]));
-        if (i == current) ImGui::SetItemDefaultFocus();
+    {
+        const Scope scope = in(label);
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            if (ImGui::Selectable(std::string(items[i]).c_str(), i == current) && i != current) chosen = i;
+            record(items[i], WidgetKind::choice, std::string(items[i]));
+            if (i == current) ImGui::SetItemDefaultFocus();
+        }
     }
     ImGui::EndCombo();
     return chosen;
