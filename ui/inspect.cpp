@@ -31,7 +31,11 @@ Result<void> play_script(const InspectOptions& options) {
     Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
     if (const auto opened = player.wait(); !opened) return opened;
     if (const Error* error = inspector.replayer().open_error()) return *error;
-    return play(player, *lines, options.script.string(), std::filesystem::current_path());
+    if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path()); !played)
+        return played;
+    const std::vector<std::string> messages = (*layer)->take_messages();
+    return messages.empty() ? Result<void>()
+                            : fail(Fault::device_failed, "the validation layer says of the inspector: {}", messages.front());
 }
 
 Result<void> show_window(const InspectOptions& options) {

@@ -110,6 +110,8 @@ void Inspector::draw() {
     ImGui::Begin("inspector", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(2);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const float bar = ImGui::GetFrameHeight() + 10;
     const float status = ImGui::GetFrameHeight();
     draw_top_bar();
@@ -117,8 +119,8 @@ void Inspector::draw() {
     draw_regions({size.x, std::max(100.0f, size.y - bar - status)});
     ImGui::SetCursorPos({8, size.y - status + 2});
     draw_status();
+    ImGui::PopStyleVar();
     ImGui::End();
-    ImGui::PopStyleVar(2);
     if (keys_are_shown_) draw_keys();
 }
 
