@@ -75,6 +75,7 @@ public:
     void release(TextureId texture) override { textures_.erase(texture); }
     ImTextureID shown(TextureId, const Look&) override;
     void begin() override;
+    void begin_frame() override { shown_.clear(); }
     Result<void> draw(const ImDrawData&) override;
     Picture read_back() override { return target_.read_back(); }
     LayerDevice& device() override { return *device_; }
@@ -276,7 +277,6 @@ Result<void> Layer::draw(const ImDrawData& data) {
         target_.resize({static_cast<std::uint32_t>(data.DisplaySize.x), static_cast<std::uint32_t>(data.DisplaySize.y)});
         copy_triangles(data);
         target_.render([&](const vk::raii::CommandBuffer& commands) { record(commands, data); });
-        shown_.clear();
         return {};
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());

@@ -60,7 +60,9 @@ public:
 
     /// Forgets every texture and makes the fonts of the current context one: for an inspector's first frame.
     virtual void begin() = 0;
-    /// Draws the frame and forgets what was shown() in it.
+    /// Forgets what was shown() in the frame before.
+    virtual void begin_frame() = 0;
+    /// Draws the frame; one that nobody looks at need not be.
     virtual Result<void> draw(const ImDrawData&) = 0;
     /// The frame drawn last.
     virtual Picture read_back() = 0;

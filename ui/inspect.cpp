@@ -52,7 +52,8 @@ Result<void> show_window(const InspectOptions& options) {
                                                  opener(options.capture, options.device, options.partial), layout);
     while ((*window)->begin_frame(inspector->is_settled() ? Pace::resting : Pace::busy)) {
         (*window)->set_title(inspector->title());
-        if (const auto drawn = inspector->frame(); !drawn) return drawn;
+        inspector->frame();
+        if (const auto drawn = inspector->render(); !drawn) return drawn;
         if (const auto shown = (*window)->present(); !shown) return shown;
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;

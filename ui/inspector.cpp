@@ -60,18 +60,18 @@ void Inspector::take_results() {
                     counted(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
 }
 
-Result<void> Inspector::frame() {
+void Inspector::frame() {
     seconds_ += static_cast<double>(ImGui::GetIO().DeltaTime);
     take_results();
     model_.begin_frame();
     widgets_.begin_frame();
+    layer_->begin_frame();
     ImGui::NewFrame();
     press_keys();
     draw();
     if (!ImGui::IsAnyItemActive()) model_.settle();
     ImGui::Render();
     replayer_->show("A", model_.request());
-    return layer_->draw(*ImGui::GetDrawData());
 }
 
 bool Inspector::is_settled() const {
