@@ -74,7 +74,8 @@ public:
     TextureId upload(TextureId, const Texels&) override;
     void release(TextureId texture) override { textures_.erase(texture); }
     ImTextureID shown(TextureId, const Look&) override;
-    void upload_fonts() override;
+    void begin() override;
+    void begin_frame() override { shown_.clear(); }
     Result<void> draw(const ImDrawData&) override;
     Picture read_back() override { return target_.read_back(); }
     LayerDevice& device() override { return *device_; }
@@ -203,12 +204,12 @@ ImTextureID Layer::shown(TextureId texture, const Look& look) {
     return reinterpret_cast<ImTextureID>(shown_.size());
 }
 
-void Layer::upload_fonts() {
+void Layer::begin() {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
     const vk::Extent2D extent(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-    textures_.erase(0);
+    textures_.clear();
     textures_.emplace(0, make_texture(extent, vk::Format::eR8G8B8A8Unorm,
                                       std::as_bytes(std::span(pixels, std::size_t{4} * extent.width * extent.height))));
 }
@@ -276,7 +277,6 @@ Result<void> Layer::draw(const ImDrawData& data) {
         target_.resize({static_cast<std::uint32_t>(data.DisplaySize.x), static_cast<std::uint32_t>(data.DisplaySize.y)});
         copy_triangles(data);
         target_.render([&](const vk::raii::CommandBuffer& commands) { record(commands, data); });
-        shown_.clear();
         return {};
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());

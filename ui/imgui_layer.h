@@ -58,9 +58,11 @@ public:
     /// What ImDrawList::AddImage takes to show the texture in this frame.
     virtual ImTextureID shown(TextureId, const Look&) = 0;
 
-    /// Makes the current context's fonts a texture: once, before its first frame.
-    virtual void upload_fonts() = 0;
-    /// Draws the frame and forgets what was shown() in it.
+    /// Forgets every texture and makes the fonts of the current context one: for an inspector's first frame.
+    virtual void begin() = 0;
+    /// Forgets what was shown() in the frame before.
+    virtual void begin_frame() = 0;
+    /// Draws the frame; one that nobody looks at need not be.
     virtual Result<void> draw(const ImDrawData&) = 0;
     /// The frame drawn last.
     virtual Picture read_back() = 0;

@@ -43,7 +43,11 @@ Result<void> play_script(const InspectOptions& options) {
     Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
     if (const auto opened = player.wait(); !opened) return opened;
     if (const Error* error = inspector.replayer().open_error()) return *error;
-    return play(player, *lines, options.script.string(), std::filesystem::current_path());
+    if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path()); !played)
+        return played;
+    const std::vector<std::string> messages = (*layer)->take_messages();
+    return messages.empty() ? Result<void>()
+                            : fail(Fault::device_failed, "the validation layer says of the inspector: {}", messages.front());
 }
 
 Result<void> show_window(const InspectOptions& options) {
@@ -60,7 +64,8 @@ Result<void> show_window(const InspectOptions& options) {
                                                  opener(options.capture, options), layout);
     while ((*window)->begin_frame(inspector->is_settled() ? Pace::resting : Pace::busy)) {
         (*window)->set_title(inspector->title());
-        if (const auto drawn = inspector->frame(); !drawn) return drawn;
+        inspector->frame();
+        if (const auto drawn = inspector->render(); !drawn) return drawn;
         if (const auto shown = (*window)->present(); !shown) return shown;
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;

@@ -25,7 +25,7 @@ constexpr OwnKey own_keys[] = {
     {"home", "back to the recorded eye"},
 };
 
-bool is_own_key(std::string_view chord) { return is_pressed(*chord_of(chord)); }
+bool is_down(std::string_view chord) { return is_pressed(*chord_of(chord)); }
 
 }  // namespace
 
@@ -36,13 +36,13 @@ Inspector::Inspector(ImguiLayer& layer, Model model, Replayer::Open open, Layout
       replayer_(std::make_unique<Replayer>(std::move(open))),
       host_(std::make_unique<WorkQueue>()) {
     for (const PanelRow& row : panels()) panels_.push_back({&row, row.make()});
-    layer_->upload_fonts();
+    layer_->begin();
     replayer_->show("A", model_.request());
 }
 
 Inspector::~Inspector() = default;
 
-Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, log_, seconds_}; }
+Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, log_, layout_.settings, seconds_}; }
 
 void Inspector::say(LogLine::Kind kind, std::string text) { log_.push_back({kind, seconds_, std::move(text)}); }
 
@@ -69,18 +69,18 @@ void Inspector::take_results() {
                     counted(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
 }
 
-Result<void> Inspector::frame() {
+void Inspector::frame() {
     seconds_ += static_cast<double>(ImGui::GetIO().DeltaTime);
     take_results();
     model_.begin_frame();
     widgets_.begin_frame();
+    layer_->begin_frame();
     ImGui::NewFrame();
     press_keys();
     draw();
     if (!ImGui::IsAnyItemActive()) model_.settle();
     ImGui::Render();
     replayer_->show("A", model_.request());
-    return layer_->draw(*ImGui::GetDrawData());
 }
 
 bool Inspector::is_settled() const {
@@ -97,25 +97,25 @@ std::string Inspector::title() const {
 }
 
 void Inspector::press_keys() {
-    if (is_own_key("f1")) keys_are_shown_ = !keys_are_shown_;
-    if (keys_are_shown_ && is_own_key("escape")) keys_are_shown_ = false;
-    if (is_own_key("ctrl+z")) model_.undo();
-    if (is_own_key("ctrl+y")) model_.redo();
+    if (is_down("f1")) keys_are_shown_ = !keys_are_shown_;
+    if (keys_are_shown_ && is_down("escape")) keys_are_shown_ = false;
+    if (is_down("ctrl+z")) model_.undo();
+    if (is_down("ctrl+y")) model_.redo();
     const std::size_t frame = model_.edits().frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
-    if (is_own_key("pageup") && frame > 0) model_.select_frame(frame - 1);
-    if (is_own_key("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
-    if (is_own_key("ctrl+g")) go_to_pixel_.open();
+    if (is_down("pageup") && frame > 0) model_.select_frame(frame - 1);
+    if (is_down("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
+    if (is_down("ctrl+g")) go_to_pixel_.open();
     // With the right button held they fly (ui/camera.h).
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Right)) press_panel_keys();
 }
 
 void Inspector::press_panel_keys() {
-    if (is_own_key("r")) shader_reload_.start(model_, *replayer_);
-    if (is_own_key("home")) model_.look_from({});
+    if (is_down("r")) shader_reload_.start(model_, *replayer_);
+    if (is_down("home")) model_.look_from({});
     Services all = services();
     for (Shown& shown : panels_)
         for (const PanelKey& key : shown.panel->keys())
-            if (is_own_key(key.chord)) key.pressed(*shown.panel, model_, all);
+            if (is_down(key.chord)) key.pressed(*shown.panel, model_, all);
 }
 
 void Inspector::draw() {
@@ -127,6 +127,8 @@ void Inspector::draw() {
     ImGui::Begin("inspector", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(2);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const float bar = ImGui::GetFrameHeight() + 10;
     const float status = ImGui::GetFrameHeight();
     draw_top_bar();
@@ -134,8 +136,8 @@ void Inspector::draw() {
     draw_regions({size.x, std::max(100.0f, size.y - bar - status)});
     ImGui::SetCursorPos({8, size.y - status + 2});
     draw_status();
+    ImGui::PopStyleVar();
     ImGui::End();
-    ImGui::PopStyleVar(2);
     if (keys_are_shown_) draw_keys();
     const glm::uvec2 extent = last_replay_ ? glm::uvec2(last_replay_->run.width, last_replay_->run.height) : glm::uvec2(0);
     go_to_pixel_.draw(model_, widgets_, extent);
@@ -287,18 +289,20 @@ void Inspector::draw_keys() {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
     ImGui::Begin("keys", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    const auto scope = widgets_.in("keys");
-    const auto row = [&](std::string_view chord, std::string_view help) {
-        ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
-        ImGui::SameLine(130);
-        widgets_.text(chord, help);
-    };
-    for (const OwnKey& key : own_keys) row(key.chord, key.help);
-    for (const Shown& shown : panels_) {
-        if (shown.panel->keys().empty()) continue;
-        ImGui::Dummy({0, 4});
-        ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
-        for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
+    {
+        const auto scope = widgets_.in("keys");
+        const auto row = [&](std::string_view chord, std::string_view help) {
+            ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
+            ImGui::SameLine(130);
+            widgets_.text(chord, help);
+        };
+        for (const OwnKey& key : own_keys) row(key.chord, key.help);
+        for (const Shown& shown : panels_) {
+            if (shown.panel->keys().empty()) continue;
+            ImGui::Dummy({0, 4});
+            ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
+            for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
+        }
     }
     ImGui::End();
     ImGui::PopStyleColor();

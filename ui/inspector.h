@@ -25,7 +25,9 @@ public:
     ~Inspector();
 
     /// One frame, of which ImGuiIO knows size, time and input.
-    Result<void> frame();
+    void frame();
+    /// Draws it: a frame that nobody looks at need not be.
+    Result<void> render() { return layer_->draw(*ImGui::GetDrawData()); }
     /// Nothing is being computed that would change what is shown.
     bool is_settled() const;
     /// "smoke.strata, frame 0 - Strata on llvmpipe".

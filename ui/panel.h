@@ -1,6 +1,7 @@
 // What a panel of the inspector is: one file in ui/panels and one row in panels.cpp.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,10 +31,10 @@ struct Services {
     WorkQueue& host;  ///< for work without the device: statistics of pictures, differences
     ImguiLayer& layer;
     std::vector<LogLine>& log;
+    std::map<std::string, bool>& settings;  ///< what people switched on, kept from session to session
     double seconds = 0;
 };
 
-class Model;
 class Panel;
 
 /// A key while no text is being typed.

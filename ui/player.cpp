@@ -36,13 +36,20 @@ Player::Player(Inspector& inspector, ImguiLayer& layer, ImVec2 size) : inspector
     io.MousePos = {-1000, -1000};
 }
 
+/// Nobody looks at most of a script's frames, and on a CPU driver a drawn one takes from the replay what it is waited for: only
+/// shot() and picture() draw.
 Result<void> Player::frames(int count) {
     for (int i = 0; i < count; ++i) {
         ImGui::GetIO().DeltaTime = frame_seconds;
-        if (const auto drawn = inspector_->frame(); !drawn) return drawn;
+        inspector_->frame();
         ImGui::GetIO().MouseWheel = 0;
     }
     return {};
+}
+
+Result<Picture> Player::picture() {
+    if (const auto drawn = inspector_->render(); !drawn) return drawn.error();
+    return layer_->read_back();
 }
 
 Result<void> Player::wait() {
@@ -199,8 +206,9 @@ Result<void> Player::expect(const std::string& path, const std::string& text) co
 }
 
 Result<void> Player::shot(const std::filesystem::path& path) {
-    const Picture picture = layer_->read_back();
-    return write_png(path, Extent{picture.width, picture.height, 1}, picture.rgb);
+    const auto picture = this->picture();
+    if (!picture) return picture.error();
+    return write_png(path, Extent{picture->width, picture->height, 1}, picture->rgb);
 }
 
 Result<void> Player::tree(const std::filesystem::path& path) const {

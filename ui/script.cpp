@@ -95,14 +95,22 @@ Result<void> play(Hands& hands, const ScriptLine& line) {
     return command->play(hands, words);
 }
 
-/// Words apart by spaces, of which those in quotes may hold some. Fails where a quote is not closed.
+/// Words apart by spaces, of which those in quotes may hold some; outside of quotes a backslash takes the next character as it
+/// is. Fails where a quote is not closed.
 Result<Words> words_of(std::string_view line) {
     Words words;
     char quote = 0;
-    bool inside = false;
+    bool inside = false, escaped = false;
     for (const char c : line) {
         if (quote == 0 && !inside && c == '#') break;
-        if (quote != 0 && c == quote) {
+        if (!escaped && quote == 0 && c == '\\') {
+            escaped = true;
+        } else if (escaped) {
+            if (!inside) words.emplace_back();
+            inside = true;
+            escaped = false;
+            words.back() += c;
+        } else if (quote != 0 && c == quote) {
             quote = 0;
         } else if (quote == 0 && (c == '\'' || c == '"')) {
             quote = c;

@@ -39,6 +39,8 @@ public:
     Result<void> move(const std::string& path, float x, float y);
     Result<void> wheel(float steps);
     Result<void> expect(const std::string& path, const std::string& text) const;
+    /// The last frame.
+    Result<Picture> picture();
     Result<void> shot(const std::filesystem::path&);
     Result<void> tree(const std::filesystem::path&) const;
     Inspector& inspector() { return *inspector_; }

@@ -99,11 +99,13 @@ std::optional<std::size_t> Widgets::combo(std::string_view label, std::span<cons
     }
     record(label, WidgetKind::combo, shown);
     records_.back().open = true;
-    const Scope scope = in(label);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (ImGui::Selectable(std::string(items[i]).c_str(), i == current) && i != current) chosen = i;
-        record(items[i], WidgetKind::choice, std::string(items[i]));
-        if (i == current) ImGui::SetItemDefaultFocus();
+    {
+        const Scope scope = in(label);
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            if (ImGui::Selectable(std::string(items[i]).c_str(), i == current) && i != current) chosen = i;
+            record(items[i], WidgetKind::choice, std::string(items[i]));
+            if (i == current) ImGui::SetItemDefaultFocus();
+        }
     }
     ImGui::EndCombo();
     return chosen;
@@ -135,13 +137,13 @@ bool Widgets::selectable(std::string_view label, bool selected, std::string_view
     return clicked;
 }
 
-Widgets::TreeRow Widgets::tree(std::string_view label, bool selected, ImGuiTreeNodeFlags flags) {
+Widgets::TreeRow Widgets::tree(std::string_view label, bool selected, ImGuiTreeNodeFlags flags, std::string_view face) {
     flags |= ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_OpenOnDoubleClick | ImGuiTreeNodeFlags_SpanFullWidth;
     if (selected) flags |= ImGuiTreeNodeFlags_Selected;
     TreeRow row;
-    row.open = ImGui::TreeNodeEx(std::string(label).c_str(), flags);
+    row.open = ImGui::TreeNodeEx(id_of(label, face).c_str(), flags);
     row.clicked = ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen();
-    record(label, WidgetKind::tree, std::string(label));
+    record(label, WidgetKind::tree, std::string(face.empty() ? label : face));
     records_.back().open = row.open;
     if (!row.open || flags & ImGuiTreeNodeFlags_NoTreePushOnOpen) return row;
     tree_lengths_.push_back(path_.size());
@@ -179,11 +181,13 @@ void Widgets::tab(std::string_view label, bool selected) { record(label, WidgetK
 
 void Widgets::help(std::string_view text) const {
     if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {9, 7});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 }  // namespace strata::ui

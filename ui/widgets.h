@@ -70,7 +70,7 @@ public:
     struct TreeRow {
         bool open = false, clicked = false;
     };
-    TreeRow tree(std::string_view label, bool selected, ImGuiTreeNodeFlags flags = 0);
+    TreeRow tree(std::string_view label, bool selected, ImGuiTreeNodeFlags flags = 0, std::string_view face = {});
     void tree_end();
     /// A name and what it is: "name" in grey, the value beside it.
     void value(std::string_view label, std::string_view text);

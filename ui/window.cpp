@@ -16,7 +16,7 @@ namespace {
 
 // Frames drawn after the last event, so that what it began (a hover, a list that opens) is seen to its end.
 constexpr int frames_after_event = 10;
-constexpr double busy_seconds = 1.0 / 30, resting_seconds = 0.5;
+constexpr double busy_seconds = 1.0 / 60, resting_seconds = 0.5;
 
 /// GLFW is there while one of these is.
 class Glfw {
@@ -87,9 +87,9 @@ public:
         } else {
             glfwWaitEventsTimeout(pace == Pace::busy ? busy_seconds : resting_seconds);
         }
+        while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
         ImGui_ImplGlfw_NewFrame();
         after_event_ = something_happened() ? frames_after_event : std::max(0, after_event_ - 1);
-        while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
         return !glfwWindowShouldClose(window_.get());
     }
 

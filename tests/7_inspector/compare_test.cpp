@@ -149,7 +149,7 @@ TEST(Compare, TheDividerHasAOnItsLeftAndBOnItsRight) {
     const WidgetRecord canvas = desk.widget("Compare/picture");
     const Placement placement = place(desk.model().view, canvas.from, {canvas.to.x - canvas.from.x, canvas.to.y - canvas.from.y},
                                       Texels{width, height, {}});
-    const Picture window = desk.layer->read_back();
+    const Picture window = must(desk.player->picture());
     std::size_t unlike = 0;
     for (const std::uint32_t x : {width / 2 - 9, width / 2 + 9})
         for (std::uint32_t y = height / 2 - 12; y < height / 2 + 12; ++y) {

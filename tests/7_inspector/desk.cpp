@@ -75,6 +75,7 @@ std::string Desk::said(std::string_view path) { return widget(path).value; }
 
 void Desk::expect_no_conflicts() {
     must(player->frames(1));
+    must(inspector->render());
     EXPECT_THAT(inspector->widgets().conflicts(), testing::IsEmpty());
     EXPECT_THAT(layer->take_messages(), testing::IsEmpty());
 }

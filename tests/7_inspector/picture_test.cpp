@@ -50,7 +50,7 @@ TEST(ImageView, ShowsTheBytesThatAHeadlessReplayOfTheCommandWrites) {
         const HostImage display = must(session->run(desk.model().request())).images.at("display");
         const Extent extent = display.shape.extent;
         const glm::ivec2 corner = corner_of(desk.widget("Image/picture"), extent.width, extent.height);
-        const Picture shown = desk.layer->read_back();
+        const Picture shown = must(desk.player->picture());
         std::size_t lit = 0;
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {

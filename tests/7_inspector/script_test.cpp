@@ -49,10 +49,10 @@ TEST(Script, AWholeSessionPlays) {
                     "choose Techniques/transparency/technique weighted\n"
                     "wait\n"
                     "expect Techniques/transparency/technique weighted\n"
-                    "type Techniques/transparency/falloff/value 55\n"
+                    "type Techniques/transparency/scale/value 55\n"
                     "wait\n"
-                    "expect Techniques/transparency/falloff/value 55\n"
-                    "expect status/command 'transparency/weighted:falloff=55'\n"
+                    "expect Techniques/transparency/scale/value 55\n"
+                    "expect status/command 'transparency/weighted:scale=55'\n"
                     "drag Image/exposure 2\n"
                     "pin 3 4\n"
                     "wait\n"
@@ -61,7 +61,7 @@ TEST(Script, AWholeSessionPlays) {
                     "tree a.json\n"
                     "key ctrl+z\n"
                     "wait\n"
-                    "expect Techniques/transparency/falloff/value 20\n"));
+                    "expect Techniques/transparency/scale/value 1\n"));
     EXPECT_NEAR(desk.model().looks.at("display").exposure, 2, .1);
     const HostImage shot = must(read_png(folder() / "a.png"));
     EXPECT_EQ(shot.shape.extent.width, 1280u);

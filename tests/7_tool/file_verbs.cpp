@@ -14,6 +14,7 @@ constexpr FileVerb table[] = {
     {"spectra", "spectra", "--modes 3 -o spectra.json", ".strata", true},
     {"diff", "diff", "--use transparency/weighted --limit 1000 -o pictures --junit junit.xml", ".strata", true},
     {"probe", "probe", "--at 8,4 --methods sorted_lists --depths 16 -o probed", ".strata", true},
+    {"inspect", "inspect", "--size 400x300 --script /dev/null", ".strata", true},
     {"export_deep", "export --deep --transmittance mean -o made.exr", "", ".strata", true},
     {"export_gltf", "export --gltf -o made.glb", "", ".strata", true},
     {"export_json", "export --json -o made.json", "", ".strata", true},

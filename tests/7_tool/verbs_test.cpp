@@ -19,7 +19,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr const char* verb_names[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
-                                      "graph", "diff",   "report", "probe", "bench",    "spectra", "isa"};
+                                      "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 

@@ -38,20 +38,32 @@ std::vector<Act> acts_of(const std::vector<PlanRow>& steps) {
     return acts;
 }
 
+/// "shadows/pcf", and where it acts when that is not at its own stage: "shadows/pcf at occlusion".
+std::string face_of(const Act& act) {
+    const std::size_t colon = act.scope.find(": ");
+    if (colon == std::string_view::npos) return std::string(act.scope);
+    const std::string_view at = act.scope.substr(0, colon), technique = act.scope.substr(colon + 2);
+    return at == name(act.stage) ? std::string(technique) : fmt::format("{} at {}", technique, at);
+}
+
+bool was_executed(const Run& run, std::string_view scope) {
+    return std::ranges::find(run.steps, scope, &StepRecord::scope) != run.steps.end();
+}
+
 class FramePanel final : public Panel {
 public:
     void draw(Model& model, Services& services) override {
         const auto scope = services.widgets.in("Frame");
         const auto replay = services.replayer.shown("A");
         take_times(services);
+        measure_after_change(model, services, replay.get());
         draw_head(model, services, replay.get());
         if (!replay) return;
         ImGui::BeginChild("tree");
         constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
-        if (ImGui::BeginTable("steps", 3, flags)) {
+        if (ImGui::BeginTable("steps", 2, flags)) {
             ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch);
-            ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 92);
-            ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, 54);
+            ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, time_width);
             draw_tree(model, services.widgets, *replay);
             ImGui::EndTable();
         }
@@ -74,12 +86,20 @@ private:
     void measure(const Model& model, Services& services) {
         if (is_busy()) return;
         const Request request = model.request();
+        tried_ = request;
         timing_ = services.replayer.start<Times>([request](Session& session, Progress& progress) -> Result<Times> {
             if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
             auto runs = session.time(std::span(&request, 1), repeats);
             if (!runs) return runs.error();
             return Times{request, std::move(runs->front())};
         });
+    }
+
+    void measure_after_change(const Model& model, Services& services, const Replay* replay) {
+        const auto wanted = services.settings.find(always);
+        if (wanted == services.settings.end() || !wanted->second || !replay || !services.replayer.is_current("A")) return;
+        if (services.replayer.error("A") || (tried_ && *tried_ == replay->request)) return;
+        measure(model, services);
     }
 
     void take_times(Services& services) {
@@ -97,6 +117,8 @@ private:
         ImGui::EndDisabled();
         widgets.help("times every step: median and deviation of three runs that execute everything");
         ImGui::SameLine();
+        if (const auto set = widgets.checkbox("always", services.settings[always])) services.settings[always] = *set;
+        widgets.help("measures after every change");
         ImGui::SetNextItemWidth(-1);
         if (std::exchange(focus_find_, false)) ImGui::SetKeyboardFocusHere();
         if (auto text = widgets.input("find", find_, "find a step")) find_ = *std::move(text);
@@ -115,23 +137,28 @@ private:
         return step.scope == row.scope && step.name == row.name && step.ms ? &*step.ms : nullptr;
     }
 
-    void draw_share(const Replay& replay, const Act& act) const {
+    /// What an act takes, over a bar of its share; before any timing, whether it was made or kept.
+    void draw_act_time(Widgets& widgets, const Replay& replay, const Act& act) const {
+        ImGui::TableNextColumn();
         double ms = 0;
         for (std::size_t i = act.first; i < act.end; ++i)
             if (const Spread* spread = time_of(replay.steps[i], i)) ms += spread->median;
-        if (!times_ || !times_->run.frame_ms || times_->run.frame_ms->median <= 0) return;
-        const float share = static_cast<float>(std::min(1.0, ms / times_->run.frame_ms->median));
+        if (!times_ || ms <= 0) {
+            widgets.text(fmt::format("{} made", act.scope), was_executed(replay.run, act.scope) ? "made" : "kept",
+                         &palette().dim);
+            widgets.help("made in the latest replay, or kept from an earlier one");
+            return;
+        }
+        const float share = static_cast<float>(std::min(1.0, ms / std::max(ms, times_->run.frame_ms->median)));
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float height = ImGui::GetTextLineHeight() - 4;
         const ImVec4 color = color_of_stage(static_cast<std::size_t>(act.stage));
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 2}, {at.x + 50, at.y + 2 + height}, packed({1, 1, 1, .05f}), 2);
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 2}, {at.x + std::max(1.0f, 50 * share), at.y + 2 + height},
-                                                  packed(color, .9f), 2);
-        ImGui::Dummy({50, height});
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%.1f %% of the frame", 100.0 * static_cast<double>(share));
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {at.x, at.y}, {at.x + std::max(1.0f, time_width * share), at.y + ImGui::GetTextLineHeight()}, packed(color, .35f), 2);
+        widgets.text(fmt::format("{} ms", act.scope), fmt::format("{:.2f} ms", ms));
+        widgets.help(fmt::format("{:.1f} % of the frame", 100.0 * static_cast<double>(share)));
     }
 
-    void draw_time(Widgets& widgets, std::string_view label, const Spread* spread) const {
+    static void draw_step_time(Widgets& widgets, std::string_view label, const Spread* spread) {
         ImGui::TableNextColumn();
         if (spread) widgets.text(fmt::format("{} ms", label), milliseconds(*spread), &palette().dim);
     }
@@ -150,24 +177,16 @@ private:
             if (!find_.empty()) ImGui::SetNextItemOpen(true);
             const ImVec4 color = color_of_stage(static_cast<std::size_t>(act.stage));
             ImGui::PushStyleColor(ImGuiCol_Text, color);
-            const Widgets::TreeRow row = widgets.tree(act.scope, false);
+            const Widgets::TreeRow row = widgets.tree(act.scope, false, 0, face_of(act));
             ImGui::PopStyleColor();
             widgets.help(counted(act.end - act.first, "step"));
             if (row.clicked) select(model, replay, act.end - 1);
-            draw_time(widgets, act.scope, stage_time(act));
-            ImGui::TableNextColumn();
-            draw_share(replay, act);
+            draw_act_time(widgets, replay, act);
             if (!row.open) continue;
             for (std::size_t i = act.first; i < act.end; ++i)
                 if (matches(replay.steps[i])) draw_step(model, widgets, replay, i);
             widgets.tree_end();
         }
-    }
-
-    const Spread* stage_time(const Act& act) const {
-        if (!times_) return nullptr;
-        const auto found = times_->run.stage_ms.find(std::string(name(act.stage)));
-        return found == times_->run.stage_ms.end() ? nullptr : &found->second;
     }
 
     void draw_step(Model& model, Widgets& widgets, const Replay& replay, std::size_t index) {
@@ -180,8 +199,7 @@ private:
         for (const std::string& image : row.images) help += fmt::format("\nwrites {}", image);
         help += fmt::format("\n{} before it", counted(row.barriers, "barrier"));
         widgets.help(help);
-        draw_time(widgets, label, time_of(row, index));
-        ImGui::TableNextColumn();
+        draw_step_time(widgets, label, time_of(row, index));
     }
 
     /// Selecting a step selects what it writes everywhere.
@@ -210,8 +228,12 @@ private:
         widgets.tree_end();
     }
 
+    static constexpr float time_width = 96;
+    static constexpr const char* always = "measure after every change";
+
     JobOf<Times> timing_;
     std::optional<Times> times_;
+    std::optional<Request> tried_;  ///< what was measured last, with success or without
     std::string find_;
     bool focus_find_ = false;
 };

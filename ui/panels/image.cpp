@@ -316,8 +316,7 @@ private:
         }
         if (model.pin && picture->contains(*model.pin)) {
             ImGui::SameLine(0, 14);
-            widgets.text("pinned",
-                         fmt::format("\xe2\x8c\x96 {} {}:  {}", model.pin->x, model.pin->y, values_text(*picture, *model.pin)),
+            widgets.text("pinned", fmt::format("pin {} {}:  {}", model.pin->x, model.pin->y, values_text(*picture, *model.pin)),
                          &palette().accent);
         }
         if (!under_) return;
