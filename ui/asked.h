@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -12,36 +11,10 @@
 
 namespace strata::ui {
 
-/// The session as a question may use it: each of its calls ends soon after a stop is asked for.
-class Answering {
-public:
-    Answering(Session& session, Progress& progress, std::stop_token stop)
-        : session_(&session), progress_(&progress), stop_(std::move(stop)) {
-        session_->stop_when(stop_);
-    }
-    Answering(const Answering&) = delete;
-    Answering& operator=(const Answering&) = delete;
-    ~Answering() { session_->stop_when({}); }
-
-    Session& session() const { return *session_; }
-    /// Between two steps: pictures that a person waits for go first, and they are stopped by nothing. False: stop now.
-    bool at(double fraction, const std::string& doing) {
-        session_->stop_when({});
-        const bool go_on = progress_->at(fraction, doing);
-        session_->stop_when(stop_);
-        return go_on;
-    }
-
-private:
-    Session* session_;
-    Progress* progress_;
-    std::stop_token stop_;
-};
-
 template <typename Question, typename Answer>
 class Asked {
 public:
-    using Compute = std::function<Result<Answer>(Answering&, const Question&)>;
+    using Compute = std::function<Result<Answer>(Session&, Progress&, const Question&)>;
 
     Asked() = default;
     Asked(const Asked&) = delete;
@@ -57,12 +30,8 @@ public:
         withdraw();
         asked_ = question;
         error_.clear();
-        stop_ = std::stop_source();
         job_ = replayer.start<Answer>(
-            [question, compute, stop = stop_.get_token()](Session& session, Progress& progress) -> Result<Answer> {
-                Answering answering(session, progress, stop);
-                return compute(answering, question);
-            });
+            [question, compute](Session& session, Progress& progress) { return compute(session, progress, question); });
     }
     /// Stops what is being computed; the next ask() begins it anew.
     void withdraw() {
@@ -102,7 +71,6 @@ private:
     }
     void drop() {
         job_->progress.cancel();
-        stop_.request_stop();
         job_.reset();
     }
 
@@ -110,7 +78,6 @@ private:
     std::optional<std::pair<Question, Answer>> answer_;
     std::size_t version_ = 0;
     std::string error_;
-    std::stop_source stop_;
     JobOf<Answer> job_;
 };
 

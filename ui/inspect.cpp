@@ -24,6 +24,7 @@ Model model_of(const std::filesystem::path& capture, const InspectOptions& optio
     Model model(capture, options.device, first);
     model.uses_shaders = !options.shaders.empty();
     if (model.uses_shaders) model.shaders = options.shaders;
+    model.program = "/proc/self/exe";
     return model;
 }
 

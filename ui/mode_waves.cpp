@@ -30,12 +30,12 @@ PipelineRequests variants_of(const Plan& plan, const Technique& technique) {
     return kept;
 }
 
-Result<Compilation> compile_each(const PipelineRequests& requests, const GpuModel& model, Progress& progress) {
+Result<Compilation> compile_each(const PipelineRequests& requests, const ModesOnGpu& of, Progress& progress) {
     Compilation made;
     for (const PipelineRequest& pipeline : requests.pipelines) {
         const double done = static_cast<double>(made.pipelines.size()) / static_cast<double>(requests.pipelines.size());
         if (!progress.at(done, pipeline.label)) return fail(Fault::usage, "stopped");
-        auto compiled = compile_elsewhere({pipeline}, {.model = &model, .program = "/proc/self/exe", .environment = environ});
+        auto compiled = compile_elsewhere({pipeline}, {.model = &of.gpu, .program = of.program, .environment = environ});
         if (!compiled) return compiled.error();
         made.device = compiled->device;
         made.driver = compiled->driver;
@@ -63,7 +63,7 @@ Result<TileWaves> waves_of_modes(Session& session, Progress& progress, const Req
     request.outputs = outputs_of_variants(of.technique);
     const auto run = session.run(request);
     if (!run) return run.error();
-    const auto made = compile_each(requests, of.gpu, progress);
+    const auto made = compile_each(requests, of, progress);
     if (!made) return made.error();
     const IsaOfGpu gpu = isa_of_gpu(&of.gpu, *made, requests, std::move(passes));
     return waves_of_tiles({of.technique, *run, gpu, requests});

@@ -13,6 +13,7 @@ std::vector<const GpuModel*> compilable_gpus();
 struct ModesOnGpu {
     const Technique& technique;
     const GpuModel& gpu;
+    std::filesystem::path program = {};  ///< Model::program
 };
 
 /// Compiles the technique's variants alone, each in a process of its own, so that pictures people wait for go in between.

@@ -64,6 +64,7 @@ public:
     DeviceChoice device;
     std::filesystem::path shaders = ".";  ///< the folder whose passes/... may hold changed shaders
     bool uses_shaders = false;            ///< whether they were loaded
+    std::filesystem::path program;        ///< this one, to compile in a process of its own; empty: nothing is compiled so
 
     // What is selected and how it is looked at: no part of undo.
     ImageChoice image;

@@ -5,9 +5,9 @@
 
 namespace strata::ui {
 
-Result<std::vector<SampleFragments>> fragments_of(Answering& answering, const PixelQuestion& question) {
-    if (!answering.at(0, "the frame's transparent fragments, in double")) return fail(Fault::usage, "stopped");
-    const auto lists = answering.session().transparent_fragments(question.request);
+Result<std::vector<SampleFragments>> fragments_of(Session& session, Progress& progress, const PixelQuestion& question) {
+    if (!progress.at(0, "the frame's transparent fragments, in double")) return fail(Fault::usage, "stopped");
+    const auto lists = session.transparent_fragments(question.request);
     if (!lists) return lists.error();
     const glm::uvec2 at = question.pixel;
     if (at.x >= (*lists)->width() || at.y >= (*lists)->height())
@@ -24,7 +24,7 @@ Result<std::vector<SampleFragments>> fragments_of(Answering& answering, const Pi
         }
     }
     // The lists are the session's and go with its next call.
-    const auto frame = answering.session().frame(question.request.frame);
+    const auto frame = session.frame(question.request.frame);
     if (!frame) return frame.error();
     for (SampleFragments& sample : samples)
         for (PixelFragment& fragment : sample.fragments) fragment.drawn_by = drawn_by(*frame, fragment.fragment.submission);

@@ -30,6 +30,6 @@ struct PixelQuestion {
 };
 
 /// By sample.
-Result<std::vector<SampleFragments>> fragments_of(Answering&, const PixelQuestion&);
+Result<std::vector<SampleFragments>> fragments_of(Session&, Progress&, const PixelQuestion&);
 
 }  // namespace strata::ui

@@ -57,18 +57,18 @@ InsideRows rows_of(const DebugTable& table, const NumberTable& numbers, const Ke
 }
 
 /// The one output of a request; nothing where the frame lacks it.
-Result<Run> run_for(Answering& answering, Request request, std::string output) {
+Result<Run> run_for(Session& session, Request request, std::string output) {
     request.outputs = {std::move(output)};
-    return answering.session().run(request);
+    return session.run(request);
 }
 
-Result<void> read_views(Answering& answering, const InsideQuestion& question, PixelInside& inside) {
+Result<void> read_views(Session& session, Progress& progress, const InsideQuestion& question, PixelInside& inside) {
     const std::span<const DebugView> views = question.technique->views;
     const auto count = static_cast<double>(views.size() + question.technique->tables.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::string output = fmt::format("{}:{}", question.technique->name, views[i].name);
-        if (!answering.at(static_cast<double>(i) / count, output)) return fail(Fault::usage, "stopped");
-        const auto run = run_for(answering, question.request, output);
+        if (!progress.at(static_cast<double>(i) / count, output)) return fail(Fault::usage, "stopped");
+        const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         if (question.pixel.x >= run->width || question.pixel.y >= run->height)
             return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height, question.pixel.x,
@@ -85,9 +85,9 @@ Result<void> read_views(Answering& answering, const InsideQuestion& question, Pi
     return {};
 }
 
-Result<void> read_tables(Answering& answering, const InsideQuestion& question, PixelInside& inside) {
+Result<void> read_tables(Session& session, Progress& progress, const InsideQuestion& question, PixelInside& inside) {
     const Technique& technique = *question.technique;
-    const auto frame = answering.session().frame(question.request.frame);
+    const auto frame = session.frame(question.request.frame);
     if (!frame) return frame.error();
     const auto count = static_cast<double>(technique.views.size() + technique.tables.size());
     for (std::size_t i = 0; i < technique.tables.size(); ++i) {
@@ -96,8 +96,8 @@ Result<void> read_tables(Answering& answering, const InsideQuestion& question, P
         const auto key = key_of(technique, table, inside.values, tile);
         if (!key) continue;
         const std::string output = fmt::format("{}:{}", technique.name, table.name);
-        if (!answering.at(static_cast<double>(technique.views.size() + i) / count, output)) return fail(Fault::usage, "stopped");
-        const auto run = run_for(answering, question.request, output);
+        if (!progress.at(static_cast<double>(technique.views.size() + i) / count, output)) return fail(Fault::usage, "stopped");
+        const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         const auto numbers = run->tables.find(output);
         if (numbers == run->tables.end()) continue;
@@ -144,10 +144,10 @@ std::string text_of(const InsideValue& inside) {
     return inside.unit.empty() ? text : fmt::format("{} {}", text, inside.unit);
 }
 
-Result<PixelInside> inside_of(Answering& answering, const InsideQuestion& question) {
+Result<PixelInside> inside_of(Session& session, Progress& progress, const InsideQuestion& question) {
     PixelInside inside;
-    if (const auto read = read_views(answering, question, inside); !read) return read.error();
-    if (const auto read = read_tables(answering, question, inside); !read) return read.error();
+    if (const auto read = read_views(session, progress, question, inside); !read) return read.error();
+    if (const auto read = read_tables(session, progress, question, inside); !read) return read.error();
     return inside;
 }
 

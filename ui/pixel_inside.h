@@ -46,6 +46,6 @@ std::optional<std::size_t> key_column(const Technique&, const DebugTable&, const
 std::string text_of(const PixelInside&, const TableColumn&, double value);
 std::string text_of(const InsideValue&);
 
-Result<PixelInside> inside_of(Answering&, const InsideQuestion&);
+Result<PixelInside> inside_of(Session&, Progress&, const InsideQuestion&);
 
 }  // namespace strata::ui

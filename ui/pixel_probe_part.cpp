@@ -69,9 +69,10 @@ private:
             same.methods = question.methods;
             if (same == question && before->methods != question.methods) known = *asked_.answer();
         }
-        asked_.ask(services.replayer, question, [known = std::move(known)](Answering& answering, const ProbeQuestion& asked) {
-            return probe_each(answering, asked, known);
-        });
+        asked_.ask(services.replayer, question,
+                   [known = std::move(known)](Session& session, Progress& progress, const ProbeQuestion& asked) {
+                       return probe_each(session, progress, asked, known);
+                   });
     }
 
     void draw_options(const Model& model, Widgets& widgets, const Replay& replay) {

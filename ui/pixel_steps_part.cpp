@@ -38,9 +38,9 @@ public:
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("steps");
         asked_.ask(services.replayer, {replay.request, glm::uvec2(*model.pin)},
-                   [](Answering& answering, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
-                       if (!answering.at(0, "the frame, step by step")) return fail(Fault::usage, "stopped");
-                       const auto steps = answering.session().pixel_steps(question.request, question.pixel);
+                   [](Session& session, Progress& progress, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
+                       if (!progress.at(0, "the frame, step by step")) return fail(Fault::usage, "stopped");
+                       const auto steps = session.pixel_steps(question.request, question.pixel);
                        if (!steps) return steps.error();
                        return history_of(*steps);
                    });

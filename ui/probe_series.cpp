@@ -53,7 +53,7 @@ double in_channel(const glm::dvec3& value, ProbeChannel channel) {
     return value[static_cast<int>(channel) - 1];
 }
 
-Result<Probe> probe_each(Answering& answering, const ProbeQuestion& question, const std::optional<Probe>& known) {
+Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuestion& question, const std::optional<Probe>& known) {
     const PixelAt at{question.pixel.x, question.pixel.y, question.sample};
     std::optional<Probe> made = known;
     if (made) made->curves.clear();
@@ -65,20 +65,20 @@ Result<Probe> probe_each(Answering& answering, const ProbeQuestion& question, co
             continue;
         }
         const double share = static_cast<double>(i) / static_cast<double>(question.methods.size());
-        if (!answering.at(share, short_method(method))) return fail(Fault::usage, "stopped");
+        if (!progress.at(share, short_method(method))) return fail(Fault::usage, "stopped");
         const ProbeOptions options{.methods = {method}, .samples = samples, .axis = question.axis};
         if (!made) {
-            auto first = probe(answering.session(), question.request, at, options);
+            auto first = probe(session, question.request, at, options);
             if (!first) return first.error();
             made = *std::move(first);
             continue;
         }
         if (!seed) {
-            const auto frame = answering.session().frame(question.request.frame);
+            const auto frame = session.frame(question.request.frame);
             if (!frame) return frame.error();
             seed = frame->seed;
         }
-        auto next = probe(answering.session(), stack_of(*made, *seed), options);
+        auto next = probe(session, stack_of(*made, *seed), options);
         if (!next) return next.error();
         made->curves.push_back(std::move(next->curves.front()));
     }

@@ -21,7 +21,7 @@ struct ProbeQuestion {
 };
 
 /// One method after the other. `known` is an answer to the same question with other methods: their curves are not made again.
-Result<Probe> probe_each(Answering&, const ProbeQuestion&, const std::optional<Probe>& known);
+Result<Probe> probe_each(Session&, Progress&, const ProbeQuestion&, const std::optional<Probe>& known);
 
 enum class ProbeQuantity { transmittance, error };
 enum class ProbeChannel { mean, red, green, blue };

@@ -55,14 +55,45 @@ Replayer::Replayer(Open open) : open_(std::move(open)) {
     queue_.add_first([this] { this->open(); });
 }
 
+Replayer::~Replayer() {
+    closing_.request_stop();
+    const std::scoped_lock lock(mutex_);
+    if (running_) running_->cancel();
+}
+
 void Replayer::open() {
-    auto session = open_();
+    session_ = nullptr;  // its memory may be what the next one needs
+    auto session = within_memory<std::unique_ptr<Session>>(open_);
     Result<CaptureFacts> facts =
         session ? Result<CaptureFacts>(CaptureFacts{(*session)->device(), (*session)->frame_count(), (*session)->capture_id()})
                 : Result<CaptureFacts>(session.error());
-    session_ = session ? *std::move(session) : nullptr;
+    if (session) session_ = *std::move(session);
     const std::scoped_lock lock(mutex_);
     opened_ = std::move(facts);
+}
+
+Result<std::shared_ptr<Session>> Replayer::begin(Progress& progress, Yields yields) {
+    if (closing_.stop_requested()) return fail(Fault::stopped, "the inspector is being closed");
+    if (!session_) return fail(Fault::bad_input, "no capture is open");
+    progress.resume();
+    session_->stop_when(progress.token());
+    const std::scoped_lock lock(mutex_);
+    running_ = &progress;
+    yields_ = yields;
+    return session_;
+}
+
+bool Replayer::end(const std::shared_ptr<Session>& session, const Progress& progress, const Error* error) {
+    {
+        const std::scoped_lock lock(mutex_);
+        running_ = nullptr;
+    }
+    session->stop_when({});
+    if (!error || progress.is_cancelled() || closing_.stop_requested()) return false;
+    if (progress.is_interrupted() || session != session_) return true;
+    // A lost device stays lost: the next job or wish gets a new one.
+    if (error->fault == Fault::device_failed) open();
+    return false;
 }
 
 void Replayer::show(const std::string& place, const Request& request) {
@@ -84,9 +115,18 @@ void Replayer::wish(const std::string& place) {
         wishes_[place] = {known.wish, known.wished};
     }
     queue_.add_first([this, place] { serve(place); });
+    const std::scoped_lock lock(mutex_);
+    if (running_ && yields_ == Yields::at_once) running_->interrupt();
 }
 
+/// Between two steps of a job, too, whose token would stop the picture with it.
 void Replayer::serve(const std::string& place) {
+    if (session_) session_->stop_when(closing_.get_token());
+    serve_wish(place);
+    if (session_ && running_) session_->stop_when(running_->token());
+}
+
+void Replayer::serve_wish(const std::string& place) {
     std::pair<std::uint64_t, Request> wish;
     {
         const std::scoped_lock lock(mutex_);
@@ -96,7 +136,7 @@ void Replayer::serve(const std::string& place) {
         wishes_.erase(waiting);
     }
     if (!session_) return;
-    Answer given{place, wish.first, answer(wish.second)};
+    Answer given{place, wish.first, within_memory<std::shared_ptr<const Replay>>([&] { return answer(wish.second); })};
     // A lost device stays lost: the next wish gets a new one.
     if (!given.replay && given.replay.error().fault == Fault::device_failed) open();
     const std::scoped_lock lock(mutex_);

@@ -48,11 +48,19 @@ struct Replay {
     std::shared_ptr<const HostImage> image(const std::shared_ptr<const Replay>& self, const std::string& name) const;
 };
 
+/// How a job makes room for a picture that is wished for meanwhile.
+enum class Yields {
+    at_once,        ///< what it is in is stopped; after the picture it begins anew
+    between_steps,  ///< the picture waits for the next Progress::at(): for what takes minutes and says so often how far it is
+};
+
 class Replayer {
 public:
     using Open = std::function<Result<std::unique_ptr<Session>>()>;
     /// Opens on its thread, too; and again where a device was lost.
     explicit Replayer(Open);
+    /// Stops what is being computed.
+    ~Replayer();
 
     /// Wishes for a picture in a place of that name ("A", "B"). Cheap when it is what was wished last.
     void show(const std::string& place, const Request&);
@@ -69,13 +77,12 @@ public:
     const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
     const Error* open_error() const { return open_error_ ? &*open_error_ : nullptr; }
 
-    /// Anything else a session can do. A picture that is wished for meanwhile goes first at the job's next Progress::at().
+    /// Anything else a session can do. Cancelling stops what the session is in, too.
     template <typename T>
-    JobOf<T> start(std::function<Result<T>(Session&, Progress&)> compute) {
-        return ui::start<T>(queue_, [this, compute = std::move(compute)](Progress& progress) -> Result<T> {
-            if (!session_) return fail(Fault::bad_input, "no capture is open");
-            return compute(*session_, progress);
-        });
+    JobOf<T> start(const std::function<Result<T>(Session&, Progress&)>& compute, Yields yields = Yields::at_once) {
+        auto job = std::make_shared<Job<T>>(queue_);
+        add(job, compute, yields);
+        return job;
     }
 
     /// At the start of a frame: what was finished since becomes what is shown.
@@ -95,22 +102,42 @@ private:
         Result<std::shared_ptr<const Replay>> replay;
     };
 
+    template <typename T>
+    void add(const JobOf<T>& job, const std::function<Result<T>(Session&, Progress&)>& compute, Yields yields) {
+        queue_.add([this, job, compute, yields] {
+            if (job->progress.is_cancelled()) return;
+            const auto session = begin(job->progress, yields);
+            if (!session) return job->finish(session.error());
+            auto result = within_memory<T>([&] { return compute(**session, job->progress); });
+            if (end(*session, job->progress, result ? nullptr : &result.error())) add(job, compute, yields);
+            else job->finish(std::move(result));
+        });
+    }
+    /// The session, held for as long as the job runs: a picture that is made in between may need a new one.
+    Result<std::shared_ptr<Session>> begin(Progress&, Yields);
+    /// Whether the job has to begin anew.
+    bool end(const std::shared_ptr<Session>&, const Progress&, const Error*);
+
     void open();
     void wish(const std::string& place);
     Result<std::shared_ptr<const Replay>> answer(const Request&);
     void serve(const std::string& place);
+    void serve_wish(const std::string& place);
 
     mutable std::mutex mutex_;
     std::map<std::string, std::pair<std::uint64_t, Request>> wishes_;  ///< not begun
     std::vector<Answer> answers_;                                      ///< not taken
     std::optional<Result<CaptureFacts>> opened_;                       ///< not taken
+    Progress* running_ = nullptr;                                      ///< of the job that the session is in
+    Yields yields_ = Yields::at_once;                                  ///< that job
+    std::stop_source closing_;
 
     std::map<std::string, Place> places_;  // the window's
     std::optional<CaptureFacts> facts_;
     std::optional<Error> open_error_;
 
     Open open_;  // the thread's, and what follows
-    std::unique_ptr<Session> session_;
+    std::shared_ptr<Session> session_;
     std::optional<FrameFacts> frame_;
     WorkQueue queue_;  // last: it uses all of the above
 };

@@ -1,8 +1,8 @@
 // Reports in the background: what a job measures, how it is stopped at once, and pictures that go on meanwhile.
 #pragma once
 
+#include <filesystem>
 #include <map>
-#include <stop_token>
 
 #include "ui/modelled_costs.h"
 #include "ui/replayer.h"
@@ -17,9 +17,8 @@ struct Study {
     std::map<std::string, std::vector<std::string>> missing = {};  ///< by a column's label: why a row lacks it
 };
 
-/// A stop that is requested ends it before the next thing that the session would do.
-JobOf<Study> start_report(Replayer&, const ReportRequest&, std::string capture_name, std::stop_source);
-/// The same study with the modelled cost of a GPU.
-JobOf<Study> start_modelling(Replayer&, Study, const GpuModel&, std::stop_source);
+JobOf<Study> start_report(Replayer&, const ReportRequest&, std::string capture_name);
+/// The same study with the modelled cost of a GPU, which `program` (Model::program) compiles for.
+JobOf<Study> start_modelling(Replayer&, Study, const GpuModel&, std::filesystem::path program);
 
 }  // namespace strata::ui

@@ -185,14 +185,15 @@ void ViewReadouts::make_slice(Model& model, Services& services) {
         });
 }
 
-void ViewReadouts::start_waves(const Request& request, Services& services, const Technique& technique) {
+void ViewReadouts::start_waves(const Model& model, Services& services, const Technique& technique) {
+    const Request request = without_outputs(model.request());
     if (waves_job_) waves_job_->progress.cancel();
     waves_.reset();
     waves_error_.clear();
     waves_of_ = request;
-    waves_job_ = services.replayer.start<TileWaves>([request, &technique, gpu = gpu_](Session& session, ui::Progress& progress) {
-        return waves_of_modes(session, progress, request, {technique, *gpu});
-    });
+    const ModesOnGpu of{technique, *gpu_, model.program};
+    waves_job_ = services.replayer.start<TileWaves>(
+        [request, of](Session& session, ui::Progress& progress) { return waves_of_modes(session, progress, request, of); });
 }
 
 void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice& choice) {
@@ -210,14 +211,14 @@ void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice
     const auto chosen = widgets.combo("gpu", items, current);
     widgets.help("what a GPU that need not be there holds of the shader of each tile's mode, by its own compiler");
     if (chosen) gpu_ = *chosen == 0 ? nullptr : gpus[*chosen - 1];
-    if (chosen && gpu_) start_waves(now, services, *choice.technique);
+    if (chosen && gpu_) start_waves(model, services, *choice.technique);
     if (!gpu_) return;
     const bool is_stale = waves_of_ != now;
     if (waves_job_) {
         ImGui::ProgressBar(static_cast<float>(waves_job_->progress.fraction()), {-1, 0}, waves_job_->progress.doing().c_str());
     } else if (is_stale) {
         ImGui::SameLine();
-        if (widgets.button("again", "Again")) start_waves(now, services, *choice.technique);
+        if (widgets.button("again", "Again")) start_waves(model, services, *choice.technique);
         widgets.help("these waves are of other settings");
     }
     ImGui::PushTextWrapPos(0);

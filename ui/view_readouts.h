@@ -31,7 +31,7 @@ private:
     void draw_slice(Model&, Services&, const ViewChoice&);
     void make_slice(Model&, Services&);
     void draw_waves(Model&, Services&, const ViewChoice&);
-    void start_waves(const Request&, Services&, const Technique&);
+    void start_waves(const Model&, Services&, const Technique&);
     void draw_waves_of(Model&, Widgets&, const TileWaves&);
     void draw_tables(Widgets&, const TechniqueViews&) const;
 

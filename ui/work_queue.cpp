@@ -72,8 +72,33 @@ bool Progress::at(double fraction, const std::string& doing) {
         const std::scoped_lock lock(mutex_);
         doing_ = doing;
     }
+    resume();  // those who interrupted it are served now
     queue_->serve_first();
     return !cancelled_ && !queue_->is_stopping();
+}
+
+void Progress::cancel() {
+    cancelled_ = true;
+    interrupt();
+}
+
+void Progress::interrupt() {
+    std::stop_source stop;
+    {
+        const std::scoped_lock lock(mutex_);
+        stop = stop_;
+    }
+    stop.request_stop();
+}
+
+void Progress::resume() {
+    const std::scoped_lock lock(mutex_);
+    if (!cancelled_ && stop_.stop_requested()) stop_ = std::stop_source();
+}
+
+std::stop_token Progress::token() const {
+    const std::scoped_lock lock(mutex_);
+    return stop_.get_token();
 }
 
 std::string Progress::doing() const {

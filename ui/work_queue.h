@@ -8,7 +8,9 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -50,9 +52,16 @@ public:
     /// From the job, between two steps of it: how far it is. Lets pictures that a person waits for go first. False: stop now.
     bool at(double fraction, const std::string& doing);
 
-    /// From anywhere.
-    void cancel() { cancelled_ = true; }
+    /// From anywhere: for good.
+    void cancel();
     bool is_cancelled() const { return cancelled_; }
+    /// From anywhere: until the job begins anew, or comes to at().
+    void interrupt();
+    bool is_interrupted() const { return token().stop_requested(); }
+    void resume();
+    /// Tells what the job is in to end; of the time since it was last resumed.
+    std::stop_token token() const;
+
     double fraction() const { return fraction_; }
     std::string doing() const;
 
@@ -61,8 +70,19 @@ private:
     std::atomic<bool> cancelled_ = false;
     std::atomic<double> fraction_ = 0;
     mutable std::mutex mutex_;
+    std::stop_source stop_;
     std::string doing_;
 };
+
+/// What it computes, or a sentence where the host's memory did not suffice: nothing else knows what to do with that.
+template <typename T>
+Result<T> within_memory(const std::function<Result<T>()>& compute) {
+    try {
+        return compute();
+    } catch (const std::bad_alloc&) {
+        return fail(Fault::device_failed, "there is not enough memory for this; a smaller frame or fewer samples need less");
+    }
+}
 
 /// Something that is being computed elsewhere. Held by shared_ptr, because neither side knows which of them ends first.
 template <typename T>
@@ -90,7 +110,7 @@ template <typename T>
 JobOf<T> start(WorkQueue& queue, std::function<Result<T>(Progress&)> compute) {
     auto job = std::make_shared<Job<T>>(queue);
     queue.add([job, compute = std::move(compute)] {
-        if (!job->progress.is_cancelled()) job->finish(compute(job->progress));
+        if (!job->progress.is_cancelled()) job->finish(within_memory<T>([&] { return compute(job->progress); }));
     });
     return job;
 }

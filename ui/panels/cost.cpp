@@ -27,8 +27,6 @@ struct AxisChoice {
 
 class CostPanel final : public Panel {
 public:
-    ~CostPanel() override { stop_.request_stop(); }
-
     void draw(Model& model, Services& services) override {
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("Accuracy and cost");
@@ -59,20 +57,17 @@ private:
     }
 
     void measure(const Model& model, Services& services) {
-        stop_ = std::stop_source();
         const ReportRequest wanted{.base = report_base(model.request(), stage_), .stage = stage_, .repeats = turns[turns_]};
-        start(start_report(services.replayer, wanted, model.capture.filename().string(), stop_), services);
+        start(start_report(services.replayer, wanted, model.capture.filename().string()), services);
     }
 
-    void model_on(const GpuModel& gpu, const Study& study, Services& services) {
-        stop_ = std::stop_source();
-        start(start_modelling(services.replayer, study, gpu, stop_), services);
+    void model_on(const GpuModel& gpu, const Study& study, const Model& model, Services& services) {
+        start(start_modelling(services.replayer, study, gpu, model.program), services);
     }
 
     /// At once for who looks; the thread ends what it is in.
     void stop() {
         if (job_) job_->progress.cancel();
-        stop_.request_stop();
         job_.reset();
     }
 
@@ -177,7 +172,7 @@ private:
         if (widgets.button("copy", "Copy CSV")) ImGui::SetClipboardText(as_csv(study->second.report).c_str());
         widgets.help("the whole report as comma-separated values");
         if (!chosen || *chosen == 0) return;
-        if (const auto gpu = find_gpu_model(gpus[*chosen])) model_on(**gpu, study->second, services);
+        if (const auto gpu = find_gpu_model(gpus[*chosen])) model_on(**gpu, study->second, model, services);
     }
 
     std::string reason_left_out(const Services& services) const {
@@ -309,7 +304,6 @@ private:
     std::size_t frame_ = 0;
 
     JobOf<Study> job_;
-    std::stop_source stop_;
     Stage running_ = Stage::transparency;
     double began_ = 0;
     std::string failure_;
