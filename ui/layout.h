@@ -11,7 +11,7 @@
 namespace strata::ui {
 
 struct Layout {
-    float left = 310, right = 330, bottom = 150;  ///< pixels
+    float left = 310, right = 330, bottom = 180;  ///< pixels
     int width = 1280, height = 800;               ///< of the window
     std::map<std::string, bool> settings = {};    ///< what people switched on and off, by name
     friend bool operator==(const Layout&, const Layout&) = default;

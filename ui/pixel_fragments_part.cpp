@@ -31,7 +31,7 @@ public:
     void draw(Model& model, Services& services, const Replay& replay) override {
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("fragments");
-        asked_.ask(services.replayer, {without_outputs(replay.request), glm::uvec2(*model.pin)}, fragments_of);
+        asked_.ask(services.replayer, {with_display_alone(replay.request), glm::uvec2(*model.pin)}, fragments_of);
         draw_state_of(widgets, asked_);
         const auto* samples = asked_.answer();
         if (!samples || samples->empty()) return;

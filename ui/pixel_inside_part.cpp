@@ -35,7 +35,7 @@ public:
             return;
         }
         const Technique* technique = choose_of(techniques, widgets);
-        asked_.ask(services.replayer, {without_outputs(replay.request), glm::uvec2(*model.pin), technique}, inside_of);
+        asked_.ask(services.replayer, {with_display_alone(replay.request), glm::uvec2(*model.pin), technique}, inside_of);
         draw_state_of(widgets, asked_);
         const PixelInside* inside = asked_.answer();
         if (!inside || asked_.answered()->technique != technique) return;

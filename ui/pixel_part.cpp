@@ -43,7 +43,7 @@ void draw_swatch(glm::dvec3 light) {
     ImGui::SameLine();
 }
 
-Request without_outputs(const Request& request) {
+Request with_display_alone(const Request& request) {
     Request same = request;
     same.outputs = Request().outputs;
     return same;

@@ -37,6 +37,6 @@ void draw_state_of(Widgets& widgets, Asked<Question, Answer>& asked) {
 /// Light as a square of its color, as bright as the display shows it; the cursor stays on the line.
 void draw_swatch(glm::dvec3 light);
 /// The request without what other panels look at: what does not hang on it is not asked again because of them.
-Request without_outputs(const Request&);
+Request with_display_alone(const Request&);
 
 }  // namespace strata::ui

@@ -51,7 +51,7 @@ public:
 
 private:
     ProbeQuestion question_of(const Model& model, const Replay& replay) const {
-        ProbeQuestion question{without_outputs(replay.request), glm::uvec2(*model.pin)};
+        ProbeQuestion question{with_display_alone(replay.request), glm::uvec2(*model.pin)};
         question.sample = std::min(sample_, replay.run.samples - 1);
         question.axis = logarithmic_ ? DepthAxis::logarithmic : DepthAxis::linear;
         const std::string now = method_of(model.choices().at(Stage::transparency));

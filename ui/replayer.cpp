@@ -90,7 +90,7 @@ bool Replayer::end(const std::shared_ptr<Session>& session, const Progress& prog
     }
     session->stop_when({});
     if (!error || progress.is_cancelled() || closing_.stop_requested()) return false;
-    if (progress.is_interrupted() || session != session_) return true;
+    if (progress.is_interrupted() || error->fault == Fault::stopped || session != session_) return true;
     // A lost device stays lost: the next job or wish gets a new one.
     if (error->fault == Fault::device_failed) open();
     return false;

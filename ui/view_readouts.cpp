@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "replay/counted.h"
-#include "ui/look_bytes.h"
-#include "ui/picture_view.h"
+#include "ui/legend.h"
+#include "ui/param_widget.h"
 #include "ui/theme.h"
 
 namespace strata::ui {
@@ -15,23 +15,15 @@ constexpr float label_width = 116;
 
 /// A bar of the colors, with its ends in the view's unit.
 void draw_legend(const Model& model, Widgets& widgets, const DebugView& view) {
-    constexpr int steps = 48;
     const auto own = model.looks.find(model.image.name);
-    Look look = look_of(view);
-    if (own != model.looks.end()) look = own->second;
+    const Look look = own == model.looks.end() ? look_of(view) : own->second;
+    const LookEnds ends = ends_of(look, view.unit);
     const ImVec2 size(std::max(40.0f, ImGui::GetContentRegionAvail().x), 12);
     widgets.canvas("legend", size, legend_text(view));
-    const ImVec2 from = ImGui::GetItemRectMin();
-    for (int i = 0; i < steps; ++i) {
-        const double value = double{look.black} + (i + .5) / steps * double{look.white - look.black};
-        const float left = from.x + size.x * static_cast<float>(i) / steps,
-                    right = from.x + size.x * static_cast<float>(i + 1) / steps;
-        ImGui::GetWindowDrawList()->AddRectFilled({left, from.y}, {right, from.y + size.y}, shown_color(look, glm::dvec4(value)));
-    }
-    widgets.text("black", fmt::format("{:g} {}", look.black, view.unit), &palette().dim);
-    const std::string white = fmt::format("{:g} {}", look.white, view.unit);
-    ImGui::SameLine(std::max(60.0f, size.x - ImGui::CalcTextSize(white.c_str()).x));
-    widgets.text("white", white, &palette().dim);
+    draw_ramp(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), look);
+    widgets.text("black", ends.black, &palette().dim);
+    ImGui::SameLine(std::max(60.0f, size.x - ImGui::CalcTextSize(ends.white.c_str()).x));
+    widgets.text("white", ends.white, &palette().dim);
 }
 
 void draw_param(Model& model, Widgets& widgets, const Technique& technique, const Param& param) {
@@ -42,19 +34,7 @@ void draw_param(Model& model, Widgets& widgets, const Technique& technique, cons
     widgets.help(param.help);
     ImGui::SameLine(label_width);
     ImGui::SetNextItemWidth(-1);
-    std::optional<double> set;
-    if (!param.choices.empty()) {
-        if (const auto chosen = widgets.combo("value", param.choices, static_cast<std::size_t>(value)))
-            set = static_cast<double>(*chosen);
-    } else {
-        set = widgets.slider("value", value,
-                             {.low = param.low,
-                              .high = param.high,
-                              .logarithmic = param.scale == Scale::logarithmic,
-                              .whole = param.scalar == Scalar::integer,
-                              .format = "%.4g"});
-    }
-    widgets.help(param.help);
+    const auto set = draw_value(widgets, param, value);
     if (set) model.set(technique.stage, param.name, *set);
 }
 

@@ -143,8 +143,9 @@ std::string cell_text(const TableColumn& column, double value) {
 HostImage slice_of(const HostImage& image, double at, double half) {
     HostImage made = image;
     const Extent& extent = image.shape.extent;
-    const std::size_t bytes = image.texels.size() / (std::size_t{extent.width} * extent.height * image.shape.layers);
-    for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer)
+    const std::uint32_t layers = image.shape.layers * extent.depth;
+    const std::size_t bytes = image.texels.size() / (std::size_t{extent.width} * extent.height * layers);
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {
                 if (std::abs(texel(image, x, y, layer).x - at) <= half) continue;

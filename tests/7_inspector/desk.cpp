@@ -1,6 +1,6 @@
 #include "tests/7_inspector/desk.h"
 
-#include <set>
+#include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,9 +26,10 @@ std::size_t frame_of(std::string_view scenario) {
 }
 
 Desk::Desk() : layer(must(ImguiLayer::headless({.validation = true}))) {
+    Model shown("scenarios.strata", {.validation = true}, {});
+    shown.program = STRATA_BINARY_DIR "/strata";  // this program compiles nothing in a process of its own
     inspector = std::make_unique<Inspector>(
-        *layer, Model("scenarios.strata", {.validation = true}, {}),
-        [] { return Session::open(small_scenarios(), {.validation = true}); }, Layout());
+        *layer, std::move(shown), [] { return Session::open(small_scenarios(), {.validation = true}); }, Layout());
     player = std::make_unique<Player>(*inspector, *layer, ImVec2(1280, 800));
 }
 
@@ -45,13 +46,9 @@ Desk& Desk::clean() {
     if (model.is_known()) model.reset_all();
     model.select_frame(0);
     must(desk.player->wait());
-    // The first tab of each region.
-    std::set<Area> fronts;
-    for (const PanelRow& row : panels())
-        if (fronts.insert(row.area).second) must(desk.player->click(fmt::format("tabs/{}", row.name)));
+    desk.bring_first_tabs_to_the_front();
     ImGui::GetIO().MousePos = {-1000, -1000};
     must(desk.player->wait());
-    desk.bring_first_tabs_to_the_front();
     return desk;
 }
 
@@ -61,7 +58,6 @@ void Desk::bring_first_tabs_to_the_front() {
         const std::string tab = fmt::format("tabs/{}", first->name);
         if (widget(tab).value != "selected") must(player->click(tab));
     }
-    must(player->wait());
 }
 
 const WidgetRecord& Desk::widget(std::string_view path) {

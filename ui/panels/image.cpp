@@ -4,6 +4,7 @@
 
 #include "replay/counted.h"
 #include "ui/camera.h"
+#include "ui/legend.h"
 #include "ui/outline.h"
 #include "ui/outputs.h"
 #include "ui/panel.h"
@@ -33,6 +34,7 @@ public:
         if (picture) default_ = model.image.made ? model.image.made->look : default_look(shown_name_, *picture);
         take_saved(services);
         draw_choice(model, services.widgets, picture);
+        if (picture) draw_size(services.widgets, *picture);
         draw_look(model, services.widgets, picture);
         draw_eye(model, services.widgets);
         draw_canvas(model, services, picture);
@@ -278,6 +280,7 @@ private:
             draw_details(placement_, *picture);
             if (model.outline) draw_outline(placement_, *model.outline, model.request());
             if (model.pin && picture->contains(*model.pin)) draw_pin(placement_, *model.pin);
+            if (!model.image.step) draw_legend_over(services.widgets, placement_, look_of(model), model.image.name);
         }
         if (message_.empty()) return;
         const ImVec2 text = ImGui::CalcTextSize(message_.c_str(), nullptr, false, size.x - 20);
@@ -305,23 +308,25 @@ private:
             widgets.text("state", "nothing replayed yet", &palette().dim);
             return;
         }
-        const FormatRow& format = row(picture->image->shape.format);
-        widgets.text("size",
-                     fmt::format("{} x {}  {}  {:.0f} %", picture->texels.width, picture->texels.height, format.name,
-                                 placement_.zoom * 100),
-                     &palette().dim);
-        if (picture->nans + picture->infinities > 0) {
-            ImGui::SameLine(0, 14);
-            widgets.text("not numbers", fmt::format("{} NaN, {} infinite", picture->nans, picture->infinities), &palette().bad);
-        }
-        if (model.pin && picture->contains(*model.pin)) {
-            ImGui::SameLine(0, 14);
+        const bool has_pin = model.pin && picture->contains(*model.pin);
+        if (has_pin)
             widgets.text("pinned", fmt::format("pin {} {}:  {}", model.pin->x, model.pin->y, values_text(*picture, *model.pin)),
                          &palette().accent);
-        }
+        else widgets.text("hint", under_ ? "" : "click pins a pixel, right click lets go; the wheel zooms", &palette().dim);
         if (!under_) return;
-        ImGui::SameLine(0, 14);
+        ImGui::SameLine(0, has_pin ? 14 : 0);
         widgets.text("under", fmt::format("{} {}:  {}", under_->x, under_->y, values_text(*picture, *under_)));
+    }
+
+    void draw_size(Widgets& widgets, const PictureInfo& picture) const {
+        ImGui::SameLine(0, 12);
+        widgets.text("size",
+                     fmt::format("{} x {}  {}  {:.0f} %", picture.texels.width, picture.texels.height,
+                                 row(picture.image->shape.format).name, placement_.zoom * 100),
+                     &palette().dim);
+        if (picture.nans + picture.infinities == 0) return;
+        ImGui::SameLine(0, 12);
+        widgets.text("not numbers", fmt::format("{} NaN, {} infinite", picture.nans, picture.infinities), &palette().bad);
     }
 
     ShownPicture shown_;
