@@ -38,8 +38,8 @@ Result<void> within_this_machine(const std::function<Result<void>()>& verb) {
         return verb();
     } catch (const std::bad_alloc&) {
         return fail(Fault::device_lacks, "this machine has not the memory that is needed");
-    } catch (const std::system_error& unwritten) {
-        return fail(Fault::usage, "cannot write the output: {}", unwritten.code().message());
+    } catch (const std::system_error& refused) {
+        return fail(Fault::usage, "{}", refused.what());
     }
 }
 
