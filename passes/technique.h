@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "capture_format/frame_features.h"
@@ -81,6 +80,7 @@ public:
     Settings() = default;
     /// Every parameter at its fallback.
     explicit Settings(std::span<const Param> params);
+    explicit Settings(std::vector<Param>&&) = delete;  ///< it keeps the rows where they are
 
     /// Fails with the range or the known names. Accepts a choice by name or number.
     Result<void> set(std::string_view name, std::string_view value);
@@ -143,8 +143,7 @@ struct ShaderVariants {
 };
 
 /// The method on whole images: returns the stage's outputs.
-using ImageModel = ImageSet (*)(const StageInput&, const Settings&);
-using Model = std::variant<std::monostate, ImageModel>;
+using Model = ImageSet (*)(const StageInput&, const Settings&);
 
 /// How far the GPU may be from the model, relative to max(|model|, its root mean square). An empty reason fails a test.
 struct Tolerance {
@@ -198,7 +197,7 @@ struct Technique {
     bool is_time_unit = false;
     AddFunction add = nullptr;
     std::vector<Act> also = {};
-    Model model = {};
+    Model model = nullptr;
     Tolerance tolerance = {};
 };
 

@@ -82,9 +82,8 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 
 ImageSet run_model(const JudgedStage& stage) {
     const Technique& technique = *stage.choice.technique;
-    if (const auto* model = std::get_if<ImageModel>(&technique.model))
-        return (*model)({stage.frame, stage.before, stage.fragments}, stage.choice.settings);
-    return {};
+    if (!technique.model) return {};
+    return technique.model({stage.frame, stage.before, stage.fragments}, stage.choice.settings);
 }
 
 Accuracy judge_stage(const JudgedStage& stage) {

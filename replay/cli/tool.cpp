@@ -1,6 +1,7 @@
 #include "replay/cli/tool.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -29,12 +30,15 @@ Result<void> list_gpus() {
     return {};
 }
 
-/// A file may need more memory than there is and still be within every limit: 4 GiB for a frame.
-Result<void> within_memory(const std::function<Result<void>()>& verb) {
+/// A file may need more memory than there is and still be within every limit: 4 GiB for a frame. What is printed may be more than
+/// fits the disk it goes to.
+Result<void> within_this_machine(const std::function<Result<void>()>& verb) {
     try {
         return verb();
     } catch (const std::bad_alloc&) {
         return fail(Fault::device_lacks, "this machine has not the memory that is needed");
+    } catch (const std::system_error& refused) {
+        return fail(Fault::usage, "{}", refused.what());
     }
 }
 
@@ -76,7 +80,7 @@ int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
         fmt::print("{}", app.help());
     } else {
         for (const auto& [sub, verb] : runs)
-            if (sub->parsed()) done = within_memory(verb);
+            if (sub->parsed()) done = within_this_machine(verb);
     }
     return done ? 0 : report_error(done.error());
 }

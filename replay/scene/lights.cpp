@@ -1,6 +1,4 @@
 // The view, the lights and their shadow maps as records.
-#include <utility>
-
 #include "passes/lighting/light_records.h"
 #include "passes/shadows/shadow_views.h"
 #include "replay/scene/scene_records.h"
@@ -55,13 +53,7 @@ ViewRecord view_record(const Frame& frame) {
 }  // namespace
 
 void add_lights(const Frame& frame, SceneRecords& scene) {
-    LightRecords made = light_records(frame);
-    scene.lights = std::move(made.lights);
-    scene.blockers = std::move(made.blockers);
-    scene.light_blockers = std::move(made.light_blockers);
-    scene.blocker_portals = std::move(made.blocker_portals);
-    scene.clip_planes = std::move(made.clip_planes);
-
+    static_cast<LightRecords&>(scene) = light_records(frame);
     std::uint32_t shadowed = 0;
     const std::vector<ShadowView> views = shadow_views(frame);
     for (const ShadowView& view : views) {

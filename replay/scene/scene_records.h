@@ -6,6 +6,7 @@
 
 #include "capture_format/frame.h"
 #include "passes/graph/graph.h"
+#include "passes/lighting/light_records.h"
 #include "passes/shaders/scene.shared.h"
 
 namespace strata {
@@ -22,7 +23,7 @@ struct CommandRange {
     std::uint32_t first = 0, count = 0;
 };
 
-struct SceneRecords {
+struct SceneRecords : LightRecords {
     ViewRecord view{};
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -30,12 +31,7 @@ struct SceneRecords {
     std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter
     std::vector<TextureRecord> textures;
     std::vector<std::uint32_t> texels;
-    std::vector<LightRecord> lights;           ///< the sun first, then Frame::lights
-    std::vector<ClipPlaneRecord> clip_planes;  ///< of the lights, one light's after the other's
     std::vector<ShadowRecord> shadows;
-    std::vector<BlockerRecord> blockers;  ///< as Frame::blockers
-    std::vector<LightBlockerRecord> light_blockers;
-    std::vector<BlockerPortalRecord> blocker_portals;
     std::vector<DrawCommand> commands;
     CommandRange opaque, casters, transparent, back_to_front;
 };

@@ -7,6 +7,7 @@
 #include "passes/registry.h"
 #include "tests/5_techniques/light_scenes.h"
 #include "tests/support/not_finite.h"
+#include "tests/support/print.h"
 
 namespace strata {
 namespace {
@@ -112,11 +113,8 @@ TEST_P(HardLights, TenKilometresFromTheOriginAreLitTheSame) {  // N18: within 1e
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lighting, HardLights, testing::ValuesIn(techniques_of(Stage::lighting)), [](const auto& tested) {
-    std::string label(tested.param->name);
-    std::ranges::replace(label, '/', '_');
-    return label;
-});
+INSTANTIATE_TEST_SUITE_P(Lighting, HardLights, testing::ValuesIn(techniques_of(Stage::lighting)),
+                         [](const auto& tested) { return as_identifier(std::string(tested.param->name)); });
 
 }  // namespace
 }  // namespace strata

@@ -13,6 +13,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/print.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -80,11 +81,7 @@ std::vector<Technique> of_the_stage() {
     return found;
 }
 
-std::string test_name(const testing::TestParamInfo<Technique>& info) {
-    std::string text(info.param.name);
-    std::ranges::replace(text, '/', '_');
-    return text;
-}
+std::string test_name(const testing::TestParamInfo<Technique>& info) { return as_identifier(std::string(info.param.name)); }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, ShuffledLayers, testing::ValuesIn(of_the_stage()), test_name);
 

@@ -1,10 +1,10 @@
 // Normals that lean away from the eye: mapped ones, and those extrapolated beyond an edge at 4 samples. GGX is defined there too.
-#include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/print.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -40,11 +40,8 @@ TEST_P(LeaningNormals, AreLitAsTheModelSays) {
     EXPECT_GT(accuracy.worst.wanted.x, 0) << "and lit";
 }
 
-INSTANTIATE_TEST_SUITE_P(Lighting, LeaningNormals, testing::ValuesIn(techniques_of(Stage::lighting)), [](const auto& tested) {
-    std::string label(tested.param->name);
-    std::ranges::replace(label, '/', '_');
-    return label;
-});
+INSTANTIATE_TEST_SUITE_P(Lighting, LeaningNormals, testing::ValuesIn(techniques_of(Stage::lighting)),
+                         [](const auto& tested) { return as_identifier(std::string(tested.param->name)); });
 
 }  // namespace
 }  // namespace strata

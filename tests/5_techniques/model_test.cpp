@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "tests/support/print.h"
 #include "tests/support/truths.h"
 
 namespace strata {
@@ -27,11 +28,6 @@ std::vector<Case> cases() {
                 for (const Technique* technique : techniques_of(stage.stage))
                     all.push_back({std::string(technique->name), std::string(scenario), samples});
     return all;
-}
-
-std::string as_identifier(std::string name) {
-    std::ranges::replace(name, '/', '_');
-    return name;
 }
 
 std::string test_name(const testing::TestParamInfo<Case>& info) {

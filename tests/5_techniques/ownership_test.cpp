@@ -8,6 +8,7 @@
 
 #include "captures/scenarios.h"
 #include "replay/frame_plan.h"
+#include "tests/support/print.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -92,11 +93,7 @@ TEST_P(Ownership, ATechniqueWritesOnlyWhatItsStageOwns) {
         }
 }
 
-std::string test_name(const testing::TestParamInfo<Technique>& info) {
-    std::string text(info.param.name);
-    std::ranges::replace(text, '/', '_');
-    return text;
-}
+std::string test_name(const testing::TestParamInfo<Technique>& info) { return as_identifier(std::string(info.param.name)); }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, Ownership, testing::ValuesIn(techniques().begin(), techniques().end()), test_name);
 

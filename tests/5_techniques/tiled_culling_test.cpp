@@ -21,13 +21,7 @@ const std::string tiled = "lighting/tiled";
 
 CullScene scene_of(const Frame& frame) {
     const SceneRecords records = scene_records(frame);
-    return {.view = records.view,
-            .lights = records.lights,
-            .blockers = records.blockers,
-            .light_blockers = records.light_blockers,
-            .blocker_portals = records.blocker_portals,
-            .clip_planes = records.clip_planes,
-            .shadow_features = feature_shadows};
+    return {records, records.view, feature_shadows};
 }
 
 struct Tiles {

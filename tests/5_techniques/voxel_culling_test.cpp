@@ -91,10 +91,10 @@ TEST(VoxelCulling, LeavesUnshadedWhatDenseSmokeHides) {
     EXPECT_LT(shaded("culling=quads_16"), shaded("culling=quads_32"));
 }
 
-/// Places of the eye, 16 of a path that 64 were run on once: they take a minute. Culling acts at the 10th, 11th, 14th and 15th.
+/// 64 places of the eye. Culling acts at some of them only.
 std::vector<Request> camera_path() {
     std::vector<Request> places;
-    for (int i = 4; i < 20; ++i) places.push_back({.extent_divisor = 2, .eye = {.dolly = .02 * i, .pan = .004 * i}});
+    for (int i = 0; i < 64; ++i) places.push_back({.extent_divisor = 2, .eye = {.dolly = .02 * i, .pan = .004 * i}});
     return places;
 }
 

@@ -92,7 +92,7 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
     std::string stating, silent;
     for (const Technique& technique : techniques()) (technique.ratios.empty() ? silent : stating) = short_name(technique);
     const std::string misspelled = stating.substr(0, stating.size() - 1);
-    const std::tuple<std::string, int, std::string> wrongs[] = {
+    const Refusal wrongs[] = {
         {misspelled, 2, "did you mean " + stating},
         {silent, 2, silent + " states no ratios of times; these do: "},
         {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name: "},
@@ -104,12 +104,7 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
         {stating + " opaque.strata --frame 1", 2, "frame 1"},
         {stating + " opaque.strata", 2, "the frame does not need transparency: "},
     };
-    for (const auto& [wrong, code, sentence] : wrongs) {
-        const Finished failed = strata("bench " + wrong);
-        EXPECT_EQ(failed.code, code) << wrong;
-        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
-        EXPECT_EQ(failed.out, "") << wrong;
-    }
+    expect_refusals("bench", wrongs);
 }
 
 TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {

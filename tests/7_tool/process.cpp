@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace strata {
@@ -40,6 +41,15 @@ Finished strata_after(const std::string& line, const std::string& arguments) {
     const int status = std::system(
         ("cd " + in + " && " + line + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
     return {WEXITSTATUS(status), contents(folder() / "stdout.txt"), contents(folder() / "stderr.txt")};
+}
+
+void expect_refusals(const std::string& verb, std::span<const Refusal> refusals) {
+    for (const auto& [arguments, code, sentence] : refusals) {
+        const Finished refused = strata(verb + " " + arguments);
+        EXPECT_EQ(refused.code, code) << arguments;
+        EXPECT_THAT(refused.err, testing::HasSubstr(sentence)) << arguments;
+        EXPECT_EQ(refused.out, "") << arguments;
+    }
 }
 
 }  // namespace strata

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace strata {
@@ -16,6 +17,13 @@ Finished strata(const std::string& arguments);
 
 /// The same after a line of the shell's own in the same process: "ulimit -f 1", "export NAME=value".
 Finished strata_after(const std::string& line, const std::string& arguments);
+
+struct Refusal {
+    std::string arguments;
+    int code = 0;
+    std::string sentence;  ///< on the error output, which is all that is printed
+};
+void expect_refusals(const std::string& verb, std::span<const Refusal>);
 
 /// The folder; made for the running test.
 std::filesystem::path folder();

@@ -90,7 +90,7 @@ TEST(SpectraVerb, WrongRequestsEndWithASentence) {
     std::string other;
     for (const Technique* candidate : techniques_of(must(technique_of_spectra({}))->stage))
         if (candidate->name != technique() && candidate->tables.empty()) other = candidate->name;
-    const std::tuple<std::string, int, std::string> wrongs[] = {
+    const Refusal wrongs[] = {
         {"", 2, "captures"},
         {"nowhere.strata", 3, "nowhere.strata"},
         {"room.strata --modes 0", 2, "--modes"},
@@ -104,12 +104,7 @@ TEST(SpectraVerb, WrongRequestsEndWithASentence) {
         {"room.strata --set colour=1", 2, "has a parameter"},
         {"pane.strata", 2, "no frame has a feature spectrum: "},
     };
-    for (const auto& [wrong, code, sentence] : wrongs) {
-        const Finished failed = strata("spectra " + wrong);
-        EXPECT_EQ(failed.code, code) << wrong;
-        EXPECT_THAT(failed.err, HasSubstr(sentence)) << wrong;
-        EXPECT_EQ(failed.out, "") << wrong;
-    }
+    expect_refusals("spectra", wrongs);
 }
 
 }  // namespace

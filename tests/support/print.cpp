@@ -1,6 +1,7 @@
 // PrintTo for our values: without it GoogleTest prints bytes, and names of parametrized tests change between builds.
 #include "tests/support/print.h"
 
+#include <algorithm>
 #include <ostream>
 
 namespace strata {
@@ -10,5 +11,10 @@ void PrintTo(const Error& error, std::ostream* out) {
 }
 
 void PrintTo(const Technique& technique, std::ostream* out) { *out << technique.name; }
+
+std::string as_identifier(std::string text) {
+    std::ranges::replace(text, '/', '_');
+    return text;
+}
 
 }  // namespace strata

@@ -34,7 +34,7 @@ void add_sphere(Frame& frame, glm::dvec3 center, double radius, std::uint32_t ma
 std::vector<bool> drawn(const Frame& frame) {
     const Technique technique = frustum();
     const ImageSet before;
-    const ImageSet result = std::get<ImageModel>(technique.model)({frame, before}, Settings(technique.params));
+    const ImageSet result = technique.model({frame, before}, Settings(technique.params));
     std::vector<bool> drawn;
     for (std::size_t i = 0; i < 8; ++i) drawn.push_back(result.at("visible").texels[i].x == 1);
     return drawn;

@@ -47,7 +47,7 @@ TEST(every_sample, misses_no_edge_and_needlessly_shades_all_other_pixels) {
     const Input input = four_pixels();
     const Technique technique = all_samples();
     const StageInput stage{input.frame, input.before};
-    const ImageSet result = std::get<ImageModel>(technique.model)(stage, Settings(technique.params));
+    const ImageSet result = technique.model(stage, Settings(technique.params));
     const auto figures = edges_judge(result, edges_truth(stage), stage);
     EXPECT_EQ(figures[0].name, "missed");
     EXPECT_EQ(figures[0].value, 0);

@@ -7,19 +7,15 @@
 #include <span>
 #include <vector>
 
+#include "passes/lighting/light_records.h"
 #include "passes/lighting/tile_cell.h"
 #include "passes/lighting/tiled/tiled.shared.h"
 
 namespace strata::lighting {
 
 /// What culling reads of a scene, as on the device.
-struct CullScene {
+struct CullScene : LightRecords {
     ViewRecord view{};
-    std::vector<LightRecord> lights;
-    std::vector<BlockerRecord> blockers;
-    std::vector<LightBlockerRecord> light_blockers;
-    std::vector<BlockerPortalRecord> blocker_portals;
-    std::vector<ClipPlaneRecord> clip_planes;
     std::uint32_t shadow_features = 0;  ///< of shadows that shading looks up or filters
 };
 

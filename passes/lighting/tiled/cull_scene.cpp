@@ -1,7 +1,5 @@
 #include "passes/lighting/tiled/cull_scene.h"
 
-#include <utility>
-
 #include "passes/lighting/light_records.h"
 
 namespace strata::lighting {
@@ -15,14 +13,6 @@ ViewRecord view_record(const View& v) {
 
 }  // namespace
 
-CullScene cull_scene(const Frame& frame) {
-    LightRecords made = light_records(frame);
-    return {.view = view_record(frame.view),
-            .lights = std::move(made.lights),
-            .blockers = std::move(made.blockers),
-            .light_blockers = std::move(made.light_blockers),
-            .blocker_portals = std::move(made.blocker_portals),
-            .clip_planes = std::move(made.clip_planes)};
-}
+CullScene cull_scene(const Frame& frame) { return {light_records(frame), view_record(frame.view)}; }
 
 }  // namespace strata::lighting

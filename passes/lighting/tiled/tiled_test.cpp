@@ -16,7 +16,7 @@ namespace {
 
 // One tile whose surfaces are at z = 10 and z = 20, unless said otherwise.
 struct OneTile {
-    CullScene scene{.view = view_of({16, 16})};
+    CullScene scene{{}, view_of({16, 16})};
     TiledParams params{.half_z = 1, .classify = 1};
     TileSurfaces surfaces{.depths = {10, 20}};
 

@@ -74,7 +74,7 @@ std::vector<Figure> error(std::uint32_t map_size, double kernel) {
     const Technique technique = pcf();
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set("kernel", kernel));
-    return shadows_judge(std::get<ImageModel>(technique.model)(input, settings), shadows_truth(input), input);
+    return shadows_judge(technique.model(input, settings), shadows_truth(input), input);
 }
 
 }  // namespace

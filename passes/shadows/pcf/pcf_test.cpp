@@ -84,7 +84,7 @@ ReferenceImage visibility(const Frame& frame, const ImageSet& input, double kern
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set("kernel", kernel));
     EXPECT_TRUE(settings.set("slope_limit", slope_limit));
-    return std::get<ImageModel>(technique.model)({frame, input}, settings).at("visibility");
+    return technique.model({frame, input}, settings).at("visibility");
 }
 
 double world_x(double pixel) { return (pixel - width / 2.0) * 8 / width; }

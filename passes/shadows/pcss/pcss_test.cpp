@@ -82,8 +82,7 @@ Pictures pictures(const Frame& frame, std::string_view name = "noise", double va
     const Technique technique = pcss();
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set(name, value));
-    return {std::get<ImageModel>(technique.model)({frame, images}, settings).at("visibility"),
-            shadows_truth({frame, images}).at("visibility")};
+    return {technique.model({frame, images}, settings).at("visibility"), shadows_truth({frame, images}).at("visibility")};
 }
 
 /// Where row 2 first rises above a level, metres on the ground, by the picture's width.
@@ -259,7 +258,8 @@ TEST(pcss, filters_a_light_that_is_not_soft_with_the_fixed_kernel) {
     frame.lights = {soft_light(LightType::round_spot, 0.3)};
     frame.lights[0].shadow.soft = false;
     const ImageSet images = before(frame, traced_maps(frame));
-    const Settings settings(pcss().params);
+    const Technique technique = pcss();
+    const Settings settings(technique.params);
     const ReferenceImage fixed = visibility_model({frame, images}, settings, fixed_lookup).at("visibility");
     EXPECT_EQ(pictures(frame).soft.texels, fixed.texels);
     EXPECT_FALSE(all(fixed, 1));
