@@ -45,6 +45,14 @@ void GoToPixel::draw(Model& model, Widgets& widgets, glm::uvec2 extent) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
     ImGui::Begin("go to", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    ask(model, widgets, extent);
+    if (ImGui::IsKeyPressed(chord_of("escape")->key)) is_open_ = false;
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+
+void GoToPixel::ask(Model& model, Widgets& widgets, glm::uvec2 extent) {
     const auto scope = widgets.in("go to");
     widgets.text("what", "Go to pixel", &palette().dim);
     ImGui::SameLine();
@@ -63,10 +71,6 @@ void GoToPixel::draw(Model& model, Widgets& widgets, glm::uvec2 extent) {
         model.view = {std::max(model.view.zoom, least_zoom), pixel->x + .5, pixel->y + .5};
         is_open_ = false;
     }
-    if (ImGui::IsKeyPressed(chord_of("escape")->key)) is_open_ = false;
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
 }
 
 }  // namespace strata::ui

@@ -16,6 +16,8 @@ public:
     void draw(Model&, Widgets&, glm::uvec2 extent);
 
 private:
+    void ask(Model&, Widgets&, glm::uvec2 extent);
+
     bool is_open_ = false, takes_focus_ = false;
     std::string text_;
 };

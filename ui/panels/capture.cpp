@@ -109,7 +109,6 @@ private:
 
     /// What is known of the selected draw's pixels.
     void draw_cover_line(Model& model, Widgets& widgets) const {
-        ImGui::SameLine(0, 14);
         const Outline* outline = model.outline && model.outline->draw == model.draw ? model.outline.get() : nullptr;
         if (!outline) return widgets.text("cover", "looking for its pixels\xe2\x80\xa6", &palette().dim);
         if (outline->shown + outline->hidden == 0) return widgets.text("cover", "not in the picture", &palette().warning);
