@@ -44,7 +44,7 @@ void Camera::begin(Model& model, const Services& services, const Placement& plac
     const auto replay = services.replayer.shown("A");
     const auto depth = replay ? replay->image(replay, depth_image) : nullptr;
     if (!depth) return;
-    if (const auto distance = distance_at(*depth, replay->frame.bare.view, placement.texel_at(io.MousePos)))
+    if (const auto distance = distance_at(*depth, replay->frame.bare.view, placement.texel_at(mouse_point())))
         distance_ = *distance;
 }
 

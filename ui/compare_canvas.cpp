@@ -110,7 +110,7 @@ bool CompareCanvas::pull_divider(ImVec2 from, float width) {
 }
 
 void CompareCanvas::take_mouse(Model& model, const PictureInfo& picture) {
-    const glm::ivec2 texel = placement_.texel_at(ImGui::GetIO().MousePos);
+    const glm::ivec2 texel = placement_.texel_at(mouse_point());
     if (ImGui::IsItemHovered() && picture.contains(texel)) under_ = texel;
     const bool was_click = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                            ImGui::GetIO().MouseDragMaxDistanceSqr[0] < 9;

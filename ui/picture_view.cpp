@@ -60,6 +60,11 @@ glm::ivec2 Placement::texel_at(ImVec2 point) const {
             static_cast<int>(std::floor(double{point.y - corner.y} / zoom))};
 }
 
+ImVec2 mouse_point() {
+    const ImVec2 corner = ImGui::GetIO().MousePos;
+    return {corner.x + .5f, corner.y + .5f};
+}
+
 Placement place(const PictureView& view, ImVec2 from, ImVec2 size, const Texels& texels) {
     Placement placement{.from = from, .to = {from.x + size.x, from.y + size.y}, .width = texels.width, .height = texels.height};
     const bool fits = view.zoom == 0;
@@ -96,13 +101,15 @@ PictureView zoomed(const Placement& placement, ImVec2 point, double factor) {
 void move_by_mouse(PictureView& view, const Placement& placement) {
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemHovered() && io.MouseWheel != 0)
-        view = zoomed(placement, io.MousePos, std::pow(1.25, double{io.MouseWheel}));
-    const bool drags = ImGui::IsItemActive() &&
-                       (ImGui::IsMouseDragging(ImGuiMouseButton_Left) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle));
-    if (drags && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+        view = zoomed(placement, mouse_point(), std::pow(1.25, double{io.MouseWheel}));
+    for (const ImGuiMouseButton button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
+        if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button)) continue;
+        const ImVec2 by = ImGui::GetMouseDragDelta(button);  // with what it took to become a drag
+        ImGui::ResetMouseDragDelta(button);
+        if (by.x == 0 && by.y == 0) continue;
         view = view_of(placement);
-        view.center_x -= double{io.MouseDelta.x} / placement.zoom;
-        view.center_y -= double{io.MouseDelta.y} / placement.zoom;
+        view.center_x -= double{by.x} / placement.zoom;
+        view.center_y -= double{by.y} / placement.zoom;
     }
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) view = {};
 }

@@ -24,6 +24,8 @@ struct Placement {
 };
 
 Placement place(const PictureView&, ImVec2 from, ImVec2 size, const Texels&);
+/// The middle of the pixel that the mouse is on: Dear ImGui gives its corner, where two texels may meet.
+ImVec2 mouse_point();
 /// Wheel, drag and double click on the last widget.
 void move_by_mouse(PictureView&, const Placement&);
 /// Around the middle of the view.

@@ -1,6 +1,7 @@
 // The hands of a script: see script.h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -119,7 +120,8 @@ Result<void> Player::drag(const std::string& path, double value) {
         return fail(Fault::usage, "'{}' goes from {:g} to {:g}, not to {:g}", path, widget->low, widget->high, value);
     ImGuiIO& io = ImGui::GetIO();
     const float y = (widget->from.y + widget->to.y) / 2;
-    float low = widget->from.x, high = widget->to.x;
+    float low = widget->from.x, high = widget->to.x, nearest = low;
+    double off = std::numeric_limits<double>::infinity();
     io.MousePos = {(low + high) / 2, y};
     if (const auto done = frames(2); !done) return done;
     io.MouseDown[0] = true;
@@ -129,9 +131,15 @@ Result<void> Player::drag(const std::string& path, double value) {
         if (const auto done = frames(2); !done) return done;
         const auto now = std::ranges::find(inspector_->widgets().records(), path, &WidgetRecord::path);
         if (now == inspector_->widgets().records().end()) return fail(Fault::usage, "'{}' went away", path);
-        if (now->number == value) break;
+        if (std::abs(now->number - value) < off) {
+            off = std::abs(now->number - value);
+            nearest = io.MousePos.x;
+        }
+        if (off == 0) break;
         (now->number < value ? low : high) = io.MousePos.x;
     }
+    io.MousePos.x = nearest;
+    if (const auto done = frames(2); !done) return done;
     io.MouseDown[0] = false;
     return frames(2);
 }

@@ -115,7 +115,7 @@ TEST(ReloadedShaders, WhoseInterfaceNoLongerFitsAreRefusedInTheGraphsWords) {
     const Request shown;
     const auto refused = session->reload_shaders(folder.path(), std::span(&shown, 1));
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().sentence, HasSubstr(film + " declares 'colour', and the step binds nothing to it"));
+    EXPECT_THAT(refused.error().sentence, HasSubstr(film + " uses no 'color'; did you mean colour?"));
     EXPECT_EQ(picture(*session), before);
     // Who shows nothing is told when running.
     must(session->reload_shaders(folder.path()));

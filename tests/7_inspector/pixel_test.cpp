@@ -169,12 +169,12 @@ TEST(PixelPanel, ProbesTheChosenMethodAndOneMoreOverTheSameSteps) {
 TEST(ProbeSeries, TheExactStepsEndWithWhatIsLetThrough) {
     Probe probe{.from = 1, .to = 10, .depths = {1, 5, 9}, .exact = {glm::dvec3(1), glm::dvec3(.5), glm::dvec3(.1)}};
     probe.fragments = {{.depth = 2, .transmittance = glm::dvec3(.5), .alpha = .5},
-                       {.depth = 6, .transmittance = glm::dvec3(.2), .alpha = .8}};
+                       {.depth = 6, .transmittance = glm::dvec3(.25), .alpha = .75}};
     probe.curves = {{.method = "stage/a x=1", .through = {glm::dvec3(1), glm::dvec3(.6), glm::dvec3(.1)}},
                     {.method = "stage/b", .not_supported = "it cannot"}};
     const auto shown = series_of(probe, ProbeQuantity::transmittance, ProbeChannel::mean);
     ASSERT_EQ(shown.size(), 2u);
-    EXPECT_EQ(shown[0].points, (std::vector<glm::dvec2>{{1, 1}, {2, .5}, {6, .5 * .2}}));
+    EXPECT_EQ(shown[0].points, (std::vector<glm::dvec2>{{1, 1}, {2, .5}, {6, .125}}));
     EXPECT_EQ(shown[1].label, "a x=1");
     const auto errors = series_of(probe, ProbeQuantity::error, ProbeChannel::green);
     ASSERT_EQ(errors.size(), 1u);

@@ -291,7 +291,7 @@ private:
 
     void take_mouse(Model& model, const Services& services, const PictureInfo& picture) {
         camera_.move(model, services, placement_);
-        const glm::ivec2 texel = placement_.texel_at(ImGui::GetIO().MousePos);
+        const glm::ivec2 texel = placement_.texel_at(mouse_point());
         if (ImGui::IsItemHovered() && picture.contains(texel)) under_ = texel;
         const bool was_click = !camera_.is_held() && ImGui::IsItemDeactivated() &&
                                ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseDragMaxDistanceSqr[0] < 9;
