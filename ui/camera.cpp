@@ -10,6 +10,10 @@ namespace {
 
 // A pull across 1000 pixels turns once around, nearly.
 constexpr double radians_per_pixel = 0.006;
+// Nobody looks over their own head: the picture would turn upside down.
+constexpr double steepest = 1.55;
+// A frame that waited for something to happen is no time flown.
+constexpr double longest_frame = 0.1;
 constexpr double faster = 4, least_speed = .05, most_speed = 200;
 // One sample's depth is as good as another's here; a frame always has this one where it has depth.
 constexpr const char* depth_image = "depth_layers";
@@ -21,8 +25,10 @@ double along(std::string_view forth, std::string_view back) { return is_down(for
 }  // namespace
 
 View flown(const View& view, const Flight& flight) {
+    const double pitch = std::asin(std::clamp(view.to_view[1][2], -1.0, 1.0)), most = std::max(steepest, std::abs(pitch));
+    const double turn_up = std::clamp(pitch + flight.turn_up, -most, most) - pitch;
     // Around a point at no distance the eye turns where it is: it goes left around it to look right.
-    const View turned = orbited(view, {.distance = 0, .right = -flight.turn_right, .over = -flight.turn_up});
+    const View turned = orbited(view, {.distance = 0, .right = -flight.turn_right, .over = -turn_up});
     return moved(turned, {.dolly = flight.ahead, .truck = flight.right, .pedestal = flight.up});
 }
 
@@ -50,7 +56,7 @@ void Camera::begin(Model& model, const Services& services, const Placement& plac
 
 Flight Camera::flight() const {
     const ImGuiIO& io = ImGui::GetIO();
-    const double step = speed_ * (io.KeyShift ? faster : 1) * double{io.DeltaTime};
+    const double step = speed_ * (io.KeyShift ? faster : 1) * std::min(double{io.DeltaTime}, longest_frame);
     return {.ahead = along("w", "s") * step,
             .right = along("d", "a") * step,
             .up = along("e", "q") * step,
@@ -61,7 +67,8 @@ Flight Camera::flight() const {
 void Camera::move(Model& model, const Services& services, const Placement& placement) {
     if (!model.is_known()) return;
     begin(model, services, placement);
-    if (hold_ == Hold::none) return;
+    // What the mouse moved before the press is no pull.
+    if (hold_ == Hold::none || ImGui::IsItemActivated()) return;
     if (!ImGui::IsItemActive()) {
         hold_ = Hold::none;
         return;

@@ -12,7 +12,7 @@ struct Flight {
     double turn_right = 0, turn_up = 0;
     friend bool operator==(const Flight&, const Flight&) = default;
 };
-/// Looks around with the horizon level, then moves.
+/// Looks around with the horizon level, up to straight up or down, then moves.
 View flown(const View&, const Flight&);
 
 /// The distance ahead of the eye of what a pixel shows, from the frame's depth (reversed, infinite); nothing where nothing is.

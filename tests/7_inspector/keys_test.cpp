@@ -145,6 +145,24 @@ TEST(Camera, LooksAroundWithTheHorizonLevel) {
     EXPECT_NEAR(std::atan2(ahead.x, ahead.z), 1, 1e-9) << "to the right";
     const View up = flown(view, {.turn_up = .2});
     EXPECT_GT(glm::transpose(up.to_view)[2].y, glm::transpose(view.to_view)[2].y);
+    for (const double by : {-9.0, 9.0}) {
+        const View steep = flown(view, {.turn_up = by});
+        EXPECT_GT(std::abs(glm::transpose(steep.to_view)[2].y), .999);
+        EXPECT_GT(glm::transpose(steep.to_view)[1].y, 0) << "its top stays up";
+    }
+}
+
+TEST(Camera, WhatTheMouseMovedBeforeThePressIsNoPull) {
+    Desk& desk = Desk::clean();
+    must(desk.player->move("tabs/Image", .5f, .5f));
+    ImGuiIO& io = ImGui::GetIO();
+    const WidgetRecord picture = desk.widget("Image/picture");
+    io.MousePos = {(picture.from.x + picture.to.x) / 2, (picture.from.y + picture.to.y) / 2};
+    io.MouseDown[ImGuiMouseButton_Right] = true;
+    must(desk.player->frames(3));
+    EXPECT_EQ(desk.model().edits().eye, EyeMove{});
+    io.MouseDown[ImGuiMouseButton_Right] = false;
+    must(desk.player->wait());
 }
 
 TEST(LookBytes, MarkWhatIsNoNumberAndGoFromBlackToWhite) {
