@@ -1,0 +1,30 @@
+#include "ui/widget_tree.h"
+
+#include <nlohmann/json.hpp>
+
+namespace strata::ui {
+
+std::string widget_tree(const Inspector& inspector) {
+    using Json = nlohmann::ordered_json;
+    Json widgets = Json::array();
+    for (const WidgetRecord& record : inspector.widgets().records())
+        widgets.push_back({{"path", record.path},
+                           {"kind", name(record.kind)},
+                           {"value", record.value},
+                           {"from", {record.from.x, record.from.y}},
+                           {"to", {record.to.x, record.to.y}},
+                           {"enabled", record.enabled},
+                           {"visible", record.visible}});
+    const FrameRate& rate = inspector.frame_rate();
+    const Json json{{"schema", "strata.widgets"},
+                    {"schema_version", 1},
+                    {"title", inspector.title()},
+                    {"command", inspector.model().command_line()},
+                    {"settled", inspector.is_settled()},
+                    {"frames_per_second", rate.per_second()},
+                    {"slowest_frame_ms", rate.slowest_ms()},
+                    {"widgets", std::move(widgets)}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace strata::ui
