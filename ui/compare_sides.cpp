@@ -176,8 +176,9 @@ void CompareSides::draw_layer(Model& model, Widgets& widgets) const {
     if (layers < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    const auto layer = widgets.slider("layer", model.image.layer, {.high = layers - 1.0, .whole = true});
-    if (layer) model.image.layer = static_cast<std::uint32_t>(*layer);
+    const SliderRange range{.high = layers - 1.0, .whole = true};
+    if (const auto layer = widgets.slider("layer", model.image.layer, range))
+        model.image.layer = static_cast<std::uint32_t>(*layer);
     widgets.help("sample, slice or map: pictures show one layer, the numbers are of all");
 }
 

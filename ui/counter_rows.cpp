@@ -54,7 +54,7 @@ std::vector<CounterRow> counter_rows(std::span<const CounterRecord> now, std::sp
 
 std::string grouped(std::uint64_t number) {
     std::string text = fmt::format("{}", number);
-    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, " ");
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ' ');
     return text;
 }
 

@@ -147,10 +147,8 @@ private:
         // Half of what is left: the figures stand below.
         const float height = std::clamp(ImGui::GetContentRegionAvail().y * .5f, least_plot, most_plot);
         const AxisScale scale = probe.axis == DepthAxis::logarithmic ? AxisScale::logarithmic : AxisScale::linear;
-        draw_plot(
-            widgets,
-            {"plot", {"m of view depth", scale}, {is_error ? "T less exact T" : "T"}, {ImGui::GetContentRegionAvail().x, height}},
-            series_, view_);
+        const PlotAxis depth{"m of view depth", scale}, transmittance{is_error ? "T less exact T" : "T"};
+        draw_plot(widgets, {"plot", depth, transmittance, {ImGui::GetContentRegionAvail().x, height}}, series_, view_);
     }
 
     static void draw_figures(Widgets& widgets, const Probe& probe) {
