@@ -1,5 +1,7 @@
 #include "ui/widget_tree.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace strata::ui {
@@ -16,13 +18,14 @@ std::string widget_tree(const Inspector& inspector) {
                            {"enabled", record.enabled},
                            {"visible", record.visible}});
     const FrameRate& rate = inspector.frame_rate();
+    const auto tenths = [](double number) { return std::round(number * 10) / 10; };
     const Json json{{"schema", "strata.widgets"},
                     {"schema_version", 1},
                     {"title", inspector.title()},
                     {"command", inspector.model().command_line()},
                     {"settled", inspector.is_settled()},
-                    {"frames_per_second", rate.per_second()},
-                    {"slowest_frame_ms", rate.slowest_ms()},
+                    {"frames_per_second", tenths(rate.per_second())},
+                    {"slowest_frame_ms", tenths(rate.slowest_ms())},
                     {"widgets", std::move(widgets)}};
     return json.dump(2) + "\n";
 }

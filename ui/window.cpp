@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <set>
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
@@ -47,6 +49,10 @@ public:
             if (count > 0) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->dropped_ = paths[0];
         });
         ImGui_ImplGlfw_InitForVulkan(window, /*install_callbacks=*/true);
+        glfwSetKeyCallback(window, [](GLFWwindow* on, int key, int scancode, int action, int mods) {
+            if (action != GLFW_REPEAT)
+                static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->keys_.push_back({key, scancode, action, mods});
+        });
     }
     ~GlfwWindow() override {
         swapchain_.reset();
@@ -88,6 +94,7 @@ public:
             glfwWaitEventsTimeout(pace == Pace::busy ? busy_seconds : resting_seconds);
         }
         while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
+        press_keys();
         ImGui_ImplGlfw_NewFrame();
         after_event_ = something_happened() ? frames_after_event : std::max(0, after_event_ - 1);
         return !glfwWindowShouldClose(window_.get());
@@ -106,6 +113,10 @@ public:
     }
 
 private:
+    struct KeyEvent {
+        int key, scancode, action, mods;
+    };
+
     vk::SurfaceKHR surface(vk::Instance instance) const {
         VkSurfaceKHR made = VK_NULL_HANDLE;
         const VkResult result = glfwCreateWindowSurface(instance, window_.get(), nullptr, &made);
@@ -116,6 +127,14 @@ private:
         std::pair<int, int> extent;
         glfwGetFramebufferSize(window_.get(), &extent.first, &extent.second);
         return extent.first == 0 || extent.second == 0;
+    }
+    /// Dear ImGui 1.86 sees which keys are down when a frame begins, and would never know of one that was let go before: a key
+    /// changes once a frame, what it does afterwards waits for the next.
+    void press_keys() {
+        for (std::set<int> changed; !keys_.empty() && changed.insert(keys_.front().key).second; keys_.pop_front()) {
+            const KeyEvent& event = keys_.front();
+            ImGui_ImplGlfw_KeyCallback(window_.get(), event.key, event.scancode, event.action, event.mods);
+        }
     }
     /// What Dear ImGui was told since the last frame.
     bool something_happened() {
@@ -130,6 +149,7 @@ private:
     std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)> window_;
     std::unique_ptr<ImguiLayer> layer_;
     std::unique_ptr<Swapchain> swapchain_;
+    std::deque<KeyEvent> keys_;  ///< that Dear ImGui was not told of yet
     std::filesystem::path dropped_;
     std::string title_;
     ImVec2 mouse_;
