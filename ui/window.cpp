@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
-#include <set>
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
@@ -11,6 +9,7 @@
 
 #include "ui/imgui_layer_device.h"
 #include "ui/imgui_layer_target.h"
+#include "ui/input_queue.h"
 #include "ui/window_swapchain.h"
 
 namespace strata::ui {
@@ -49,10 +48,7 @@ public:
             if (count > 0) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->dropped_ = paths[0];
         });
         ImGui_ImplGlfw_InitForVulkan(window, /*install_callbacks=*/true);
-        glfwSetKeyCallback(window, [](GLFWwindow* on, int key, int scancode, int action, int mods) {
-            if (action != GLFW_REPEAT)
-                static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->keys_.push_back({key, scancode, action, mods});
-        });
+        take_input();
     }
     ~GlfwWindow() override {
         swapchain_.reset();
@@ -94,8 +90,8 @@ public:
             glfwWaitEventsTimeout(pace == Pace::busy ? busy_seconds : resting_seconds);
         }
         while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
-        press_keys();
         ImGui_ImplGlfw_NewFrame();
+        input_.begin_frame(ImGui::GetIO());
         after_event_ = something_happened() ? frames_after_event : std::max(0, after_event_ - 1);
         return !glfwWindowShouldClose(window_.get());
     }
@@ -113,10 +109,23 @@ public:
     }
 
 private:
-    struct KeyEvent {
-        int key, scancode, action, mods;
-    };
-
+    static InputQueue& input_of(GLFWwindow* window) { return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->input_; }
+    /// In place of the backend's own callbacks, except those for focus.
+    void take_input() {
+        glfwSetKeyCallback(window_.get(), [](GLFWwindow* on, int key, int, int action, int) {
+            if (key != GLFW_KEY_UNKNOWN && action != GLFW_REPEAT) input_of(on).key(key, action == GLFW_PRESS);
+        });
+        glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* on, int button, int action, int) {
+            if (button < IM_ARRAYSIZE(ImGuiIO::MouseDown)) input_of(on).button(button, action == GLFW_PRESS);
+        });
+        glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* on, double x, double y) {
+            input_of(on).move({static_cast<float>(x), static_cast<float>(y)});
+        });
+        glfwSetScrollCallback(window_.get(), [](GLFWwindow* on, double x, double y) {
+            input_of(on).wheel({static_cast<float>(x), static_cast<float>(y)});
+        });
+        glfwSetCharCallback(window_.get(), [](GLFWwindow* on, unsigned character) { input_of(on).text(character); });
+    }
     vk::SurfaceKHR surface(vk::Instance instance) const {
         VkSurfaceKHR made = VK_NULL_HANDLE;
         const VkResult result = glfwCreateWindowSurface(instance, window_.get(), nullptr, &made);
@@ -127,14 +136,6 @@ private:
         std::pair<int, int> extent;
         glfwGetFramebufferSize(window_.get(), &extent.first, &extent.second);
         return extent.first == 0 || extent.second == 0;
-    }
-    /// Dear ImGui 1.86 sees which keys are down when a frame begins, and would never know of one that was let go before: a key
-    /// changes once a frame, what it does afterwards waits for the next.
-    void press_keys() {
-        for (std::set<int> changed; !keys_.empty() && changed.insert(keys_.front().key).second; keys_.pop_front()) {
-            const KeyEvent& event = keys_.front();
-            ImGui_ImplGlfw_KeyCallback(window_.get(), event.key, event.scancode, event.action, event.mods);
-        }
     }
     /// What Dear ImGui was told since the last frame.
     bool something_happened() {
@@ -149,7 +150,7 @@ private:
     std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)> window_;
     std::unique_ptr<ImguiLayer> layer_;
     std::unique_ptr<Swapchain> swapchain_;
-    std::deque<KeyEvent> keys_;  ///< that Dear ImGui was not told of yet
+    InputQueue input_;
     std::filesystem::path dropped_;
     std::string title_;
     ImVec2 mouse_;
