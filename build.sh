@@ -15,7 +15,7 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip)
 fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 say() { printf '== %s\n' "$*" >&2; }

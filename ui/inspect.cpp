@@ -68,6 +68,7 @@ Result<void> show_window(const InspectOptions& options) {
         inspector->frame();
         if (const auto drawn = inspector->render(); !drawn) return drawn;
         if (const auto shown = (*window)->present(); !shown) return shown;
+        if (inspector->is_closing()) break;
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;
         layout = inspector->layout();

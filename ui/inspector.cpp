@@ -4,6 +4,7 @@
 
 #include "replay/counted.h"
 #include "ui/keys.h"
+#include "ui/widget_tree.h"
 
 namespace strata::ui {
 namespace {
@@ -23,6 +24,8 @@ constexpr OwnKey own_keys[] = {
     {"ctrl+g", "go to a pixel"},
     {"r", "compile changed shaders and use them"},
     {"home", "back to the recorded eye"},
+    {"shift+f12", "save the whole window as PNG and its widgets as JSON"},
+    {"ctrl+q", "close the window"},
 };
 
 bool is_down(std::string_view chord) { return is_pressed(*chord_of(chord)); }
@@ -59,6 +62,7 @@ void Inspector::take_results() {
     last_error_ = sentence;
     Services all = services();
     shader_reload_.take_result(model_, all);
+    save_window_.take_results(all);
     const auto replay = replayer_->shown("A");
     if (!replay || replay == last_replay_) return;
     last_replay_ = replay;
@@ -70,7 +74,9 @@ void Inspector::take_results() {
 }
 
 void Inspector::frame() {
-    seconds_ += static_cast<double>(ImGui::GetIO().DeltaTime);
+    const auto passed = static_cast<double>(ImGui::GetIO().DeltaTime);
+    seconds_ += passed;
+    if (was_busy_) frame_rate_.add(passed);
     take_results();
     model_.begin_frame();
     widgets_.begin_frame();
@@ -81,6 +87,13 @@ void Inspector::frame() {
     if (!ImGui::IsAnyItemActive()) model_.settle();
     ImGui::Render();
     replayer_->show("A", model_.request());
+    was_busy_ = !is_settled();
+    if (std::exchange(saves_window_, false)) save_window();
+}
+
+void Inspector::save_window() {
+    if (const auto drawn = render(); drawn) save_window_.start(*host_, layer_->read_back(), widget_tree(*this));
+    else say(LogLine::Kind::failed, drawn.error().sentence);
 }
 
 bool Inspector::is_settled() const {
@@ -105,6 +118,8 @@ void Inspector::press_keys() {
     if (is_down("pageup") && frame > 0) model_.select_frame(frame - 1);
     if (is_down("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
     if (is_down("ctrl+g")) go_to_pixel_.open();
+    if (is_down("shift+f12")) saves_window_ = true;
+    if (is_down("ctrl+q")) is_closing_ = true;
     // With the right button held they fly (ui/camera.h).
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Right)) press_panel_keys();
 }
@@ -200,6 +215,7 @@ void Inspector::draw_activity() {
     } else {
         widgets_.text("activity", "", &palette().dim);
     }
+    widgets_.help(text(frame_rate_));
 }
 
 void Inspector::draw_regions(ImVec2 size) {

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "ui/frame_rate.h"
 #include "ui/go_to_pixel.h"
 #include "ui/layout.h"
 #include "ui/panel.h"
+#include "ui/save_window.h"
 #include "ui/shader_reload.h"
 #include "ui/theme.h"
 
@@ -30,13 +32,18 @@ public:
     Result<void> render() { return layer_->draw(*ImGui::GetDrawData()); }
     /// Nothing is being computed that would change what is shown.
     bool is_settled() const;
+    /// Somebody asked to close the window.
+    bool is_closing() const { return is_closing_; }
     /// "smoke.strata, frame 0 - Strata on llvmpipe".
     std::string title() const;
 
     Model& model() { return model_; }
+    const Model& model() const { return model_; }
     Widgets& widgets() { return widgets_; }
+    const Widgets& widgets() const { return widgets_; }
     Replayer& replayer() { return *replayer_; }
     const Layout& layout() const { return layout_; }
+    const FrameRate& frame_rate() const { return frame_rate_; }
     const std::vector<LogLine>& log() const { return log_; }
 
 private:
@@ -59,6 +66,7 @@ private:
     float splitter(std::string_view name, ImVec2 size, ImGuiMouseCursor);
     void draw_status();
     void draw_keys();
+    void save_window();
     void say(LogLine::Kind, std::string);
 
     ImguiLayer* layer_;
@@ -69,7 +77,10 @@ private:
     double seconds_ = 0;
     std::string last_error_;  ///< that the log has
     std::shared_ptr<const Replay> last_replay_;
-    bool keys_are_shown_ = false;
+    bool keys_are_shown_ = false, is_closing_ = false, saves_window_ = false;
+    bool was_busy_ = false;  ///< as the frame before left it
+    FrameRate frame_rate_;
+    SaveWindow save_window_;
     GoToPixel go_to_pixel_;
     std::unique_ptr<Replayer> replayer_;
     std::unique_ptr<WorkQueue> host_;

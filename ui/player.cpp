@@ -4,13 +4,12 @@
 #include <limits>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
 #include "capture_format/nearest_name.h"
 #include "capture_format/whole_file.h"
 #include "replay/image_io.h"
 #include "ui/keys.h"
 #include "ui/script.h"
+#include "ui/widget_tree.h"
 
 namespace strata::ui {
 namespace {
@@ -220,17 +219,7 @@ Result<void> Player::shot(const std::filesystem::path& path) {
 }
 
 Result<void> Player::tree(const std::filesystem::path& path) const {
-    nlohmann::ordered_json widgets = nlohmann::ordered_json::array();
-    for (const WidgetRecord& record : inspector_->widgets().records())
-        widgets.push_back({{"path", record.path},
-                           {"kind", name(record.kind)},
-                           {"value", record.value},
-                           {"from", {record.from.x, record.from.y}},
-                           {"to", {record.to.x, record.to.y}},
-                           {"enabled", record.enabled},
-                           {"visible", record.visible}});
-    const nlohmann::ordered_json json{{"schema", "strata.widgets"}, {"schema_version", 1}, {"widgets", std::move(widgets)}};
-    return write_whole_file(path, json.dump(2) + "\n");
+    return write_whole_file(path, widget_tree(*inspector_));
 }
 
 }  // namespace strata::ui

@@ -131,6 +131,15 @@ void draw_spreads(const PlotSeries& series, const Field& field) {
     }
 }
 
+/// What can be hovered and clicked, for scripts.
+void record_points(Widgets& widgets, const PlotSeries& series, const Field& field) {
+    const auto points = widgets.in("points");
+    const auto scope = widgets.in(series.label);
+    for (std::size_t i = 0; i < series.points.size(); ++i)
+        if (field.has(series.points[i]) && field.contains(field.at(series.points[i])))
+            widgets.point(fmt::format("{}", i), field.at(series.points[i]), i < series.notes.size() ? series.notes[i] : "");
+}
+
 void draw_ring(const PlotSeries& series, std::size_t point, const Field& field) {
     if (!field.has(series.points[point])) return;
     ImGui::GetWindowDrawList()->AddCircle(field.at(series.points[point]), point_radius + 3, packed(palette().text), 0, 1.5f);
@@ -258,6 +267,7 @@ PlotEvent draw_plot(Widgets& widgets, const Plot& plot, std::span<const PlotSeri
         if (view.hidden.contains(series.label)) continue;
         draw_spreads(series, field);
         draw_series(series, field);
+        if (series.kind == SeriesKind::scatter) record_points(widgets, series, field);
     }
     if (plot.marked) draw_ring(all[plot.marked->series], plot.marked->point, field);
     list.PopClipRect();

@@ -10,18 +10,6 @@
 namespace strata::ui {
 namespace {
 
-/// The first of STEM, STEM_2, STEM_3, ... of which there is no file.
-std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& stem) {
-    const auto is_taken = [](const std::filesystem::path& path) {
-        for (const char* extension : {".exr", ".png", ".json"})
-            if (std::filesystem::exists(path.string() + extension)) return true;
-        return false;
-    };
-    std::filesystem::path path = folder / stem;
-    for (int number = 2; is_taken(path); ++number) path = folder / fmt::format("{}_{}", stem, number);
-    return path;
-}
-
 std::vector<std::byte> bytes_of(const ShownImage& shown) {
     const Extent& extent = shown.image->shape.extent;
     std::vector<std::byte> rgb;
@@ -35,6 +23,17 @@ std::vector<std::byte> bytes_of(const ShownImage& shown) {
 }
 
 }  // namespace
+
+std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& stem) {
+    const auto is_taken = [](const std::filesystem::path& path) {
+        for (const char* extension : {".exr", ".png", ".json"})
+            if (std::filesystem::exists(path.string() + extension)) return true;
+        return false;
+    };
+    std::filesystem::path path = folder / stem;
+    for (int number = 2; is_taken(path); ++number) path = folder / fmt::format("{}_{}", stem, number);
+    return path;
+}
 
 std::string text(const Look& look) {
     constexpr const char* channels[] = {"RGB", "R", "G", "B", "A", "luminance", "false color"};

@@ -29,8 +29,8 @@ std::string as_text(double value, const SliderRange& range) {
 }  // namespace
 
 std::string_view name(WidgetKind kind) {
-    constexpr std::array<std::string_view, 11> names = {"button",     "checkbox", "combo", "choice", "slider", "input",
-                                                        "selectable", "tree",     "tab",   "text",   "canvas"};
+    constexpr std::array<std::string_view, 12> names = {"button",     "checkbox", "combo", "choice", "slider", "input",
+                                                        "selectable", "tree",     "tab",   "text",   "canvas", "point"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -175,6 +175,11 @@ void Widgets::canvas(std::string_view label, ImVec2 size, std::string_view shown
         std::string(label).c_str(), size,
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
     record(label, WidgetKind::canvas, std::string(shown));
+}
+
+void Widgets::point(std::string_view label, ImVec2 at, std::string_view shown) {
+    record(label, WidgetKind::point, std::string(shown));
+    records_.back().from = records_.back().to = at;
 }
 
 void Widgets::tab(std::string_view label, bool selected) { record(label, WidgetKind::tab, selected ? "selected" : ""); }

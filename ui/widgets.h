@@ -13,7 +13,7 @@
 
 namespace strata::ui {
 
-enum class WidgetKind { button, checkbox, combo, choice, slider, input, selectable, tree, tab, text, canvas };
+enum class WidgetKind { button, checkbox, combo, choice, slider, input, selectable, tree, tab, text, canvas, point };
 std::string_view name(WidgetKind);
 
 struct WidgetRecord {
@@ -78,6 +78,8 @@ public:
     void text(std::string_view label, std::string_view text, const ImVec4* color = nullptr);
     /// An area that the panel draws itself and takes the mouse in.
     void canvas(std::string_view label, ImVec2 size, std::string_view text = {});
+    /// A place of the canvas just made that means something under the mouse.
+    void point(std::string_view label, ImVec2 at, std::string_view text = {});
     void tab(std::string_view label, bool selected);
 
     /// Shown over the last widget when the mouse rests there.

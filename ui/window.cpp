@@ -9,6 +9,7 @@
 
 #include "ui/imgui_layer_device.h"
 #include "ui/imgui_layer_target.h"
+#include "ui/input_queue.h"
 #include "ui/window_swapchain.h"
 
 namespace strata::ui {
@@ -47,6 +48,7 @@ public:
             if (count > 0) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->dropped_ = paths[0];
         });
         ImGui_ImplGlfw_InitForVulkan(window, /*install_callbacks=*/true);
+        take_input();
     }
     ~GlfwWindow() override {
         swapchain_.reset();
@@ -89,6 +91,7 @@ public:
         }
         while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
         ImGui_ImplGlfw_NewFrame();
+        input_.begin_frame(ImGui::GetIO());
         after_event_ = something_happened() ? frames_after_event : std::max(0, after_event_ - 1);
         return !glfwWindowShouldClose(window_.get());
     }
@@ -106,6 +109,23 @@ public:
     }
 
 private:
+    static InputQueue& input_of(GLFWwindow* window) { return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->input_; }
+    /// In place of the backend's own callbacks, except those for focus.
+    void take_input() {
+        glfwSetKeyCallback(window_.get(), [](GLFWwindow* on, int key, int, int action, int) {
+            if (key != GLFW_KEY_UNKNOWN && action != GLFW_REPEAT) input_of(on).key(key, action == GLFW_PRESS);
+        });
+        glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* on, int button, int action, int) {
+            if (button < IM_ARRAYSIZE(ImGuiIO::MouseDown)) input_of(on).button(button, action == GLFW_PRESS);
+        });
+        glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* on, double x, double y) {
+            input_of(on).move({static_cast<float>(x), static_cast<float>(y)});
+        });
+        glfwSetScrollCallback(window_.get(), [](GLFWwindow* on, double x, double y) {
+            input_of(on).wheel({static_cast<float>(x), static_cast<float>(y)});
+        });
+        glfwSetCharCallback(window_.get(), [](GLFWwindow* on, unsigned character) { input_of(on).text(character); });
+    }
     vk::SurfaceKHR surface(vk::Instance instance) const {
         VkSurfaceKHR made = VK_NULL_HANDLE;
         const VkResult result = glfwCreateWindowSurface(instance, window_.get(), nullptr, &made);
@@ -130,6 +150,7 @@ private:
     std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)> window_;
     std::unique_ptr<ImguiLayer> layer_;
     std::unique_ptr<Swapchain> swapchain_;
+    InputQueue input_;
     std::filesystem::path dropped_;
     std::string title_;
     ImVec2 mouse_;

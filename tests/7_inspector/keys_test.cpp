@@ -36,6 +36,11 @@ private:
 
 std::string shown_hash(Desk& desk) { return hash_of(desk.replay()->run.images.at("display")); }
 
+nlohmann::json json_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+}
+
 TEST(Keys, F12SavesWhatIsShownWithWhereItComesFrom) {
     Desk& desk = Desk::clean();
     const InFolder here;
@@ -48,13 +53,63 @@ TEST(Keys, F12SavesWhatIsShownWithWhereItComesFrom) {
     EXPECT_EQ(must(read_exr(stem + ".exr")).begin()->second.texels, shown.texels);
     must(write_png("expected.png", shown));
     EXPECT_EQ(must(read_png(stem + ".png")).texels, must(read_png("expected.png")).texels) << "as strata replay writes it";
-    std::ifstream file(stem + ".json");
-    const auto json = nlohmann::json::parse(file);
+    const auto json = json_of(stem + ".json");
     EXPECT_EQ(json["strata.command"], desk.model().command_line());
     EXPECT_EQ(json["strata.hash.display"], hash_of(shown));
     EXPECT_EQ(json["strata.device"], desk.inspector->replayer().facts()->device.name);
     EXPECT_TRUE(std::filesystem::exists(stem + "_2.exr")) << "nothing is written over";
     EXPECT_THAT(desk.inspector->log().back().text, HasSubstr(stem + "_2.exr"));
+}
+
+TEST(Keys, ShiftF12SavesTheWholeWindowAndItsWidgets) {
+    Desk& desk = Desk::clean();
+    const InFolder here;
+    for (int i = 0; i < 2; ++i) {
+        must(desk.player->key("shift+f12"));
+        must(desk.player->wait());
+    }
+    must(desk.player->shot("shot.png"));
+    must(desk.player->tree("tree.json"));
+    EXPECT_EQ(must(read_png("strata_window.png")).texels, must(read_png("shot.png")).texels);
+    const auto json = json_of("strata_window.json");
+    EXPECT_EQ(json["widgets"], json_of("tree.json")["widgets"]);
+    EXPECT_EQ(json["settled"], true);
+    EXPECT_EQ(json["command"], desk.model().command_line());
+    EXPECT_EQ(json["title"], desk.inspector->title());
+    EXPECT_TRUE(std::filesystem::exists("strata_window_2.json")) << "nothing is written over";
+    EXPECT_FALSE(std::filesystem::exists(stem_of("scenarios.strata", 0, "display") + ".exr")) << "F12 is another key";
+    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("strata_window_2.png and .json"));
+}
+
+TEST(Keys, ShiftF12IntoAFolderThatIsGoneSaysSo) {
+    Desk& desk = Desk::clean();
+    const InFolder here;
+    std::filesystem::create_directory("gone");
+    std::filesystem::current_path("gone");
+    std::filesystem::remove(folder() / "gone");
+    must(desk.player->key("shift+f12"));
+    must(desk.player->wait());
+    EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("cannot write strata_window.png"));
+}
+
+TEST(Keys, CtrlQAsksToCloseTheWindow) {
+    Desk& desk = Desk::clean();
+    EXPECT_FALSE(desk.inspector->is_closing());
+    must(desk.player->key("q"));
+    EXPECT_FALSE(desk.inspector->is_closing());
+    must(desk.player->key("ctrl+q"));
+    EXPECT_TRUE(desk.inspector->is_closing());
+}
+
+TEST(FrameRate, IsThatOfTheLastTwoSecondsInWhichSomethingWasComputed) {
+    FrameRate rate;
+    EXPECT_EQ(text(rate), "");
+    for (int i = 0; i < 10; ++i) rate.add(.5);
+    EXPECT_EQ(text(rate), "2 frames a second while something is computed, the slowest took 500 ms");
+    for (int i = 0; i < 110; ++i) rate.add(.02);
+    rate.add(.04);
+    EXPECT_NEAR(rate.per_second(), 50, 1);
+    EXPECT_NEAR(rate.slowest_ms(), 40, 1e-9);
 }
 
 TEST(Keys, F12IntoAFolderThatIsGoneSaysSo) {

@@ -75,15 +75,11 @@ public:
         must(desk_->layer->draw(*ImGui::GetDrawData()));
         return event;
     }
-    /// Where a point lies: the plot's own margins around its field.
-    ImVec2 on_screen(glm::dvec2 point) {
+    /// Where it says that a point lies: "fast/1".
+    ImVec2 on_screen(std::string_view point) {
         frame();
-        const WidgetRecord& field = widgets.records().back();
-        const float line = ImGui::GetTextLineHeight();
-        const ImVec2 from(field.from.x + 58, field.from.y + line + 6), to(field.to.x - 8, field.to.y - 2 * line - 6);
-        const double x = place_in(range_of(all, view, 0, AxisScale::logarithmic), AxisScale::logarithmic, point.x);
-        const double y = place_in(range_of(all, view, 1, AxisScale::linear), AxisScale::linear, point.y);
-        return {from.x + static_cast<float>(x) * (to.x - from.x), to.y - static_cast<float>(y) * (to.y - from.y)};
+        widgets.begin_frame();
+        return widgets.find(fmt::format("plot/points/{}", point))->from;
     }
 
     Widgets widgets;
@@ -99,7 +95,7 @@ private:
 TEST(Plot, TheMouseFindsThePointItIsOnAndAClickTakesIt) {
     PlotWindow window;
     ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = window.on_screen({10, .1});
+    io.MousePos = window.on_screen("fast/1");
     window.frame();
     EXPECT_EQ(window.frame().under, (PlotPoint{0, 1}));
     io.MouseDown[0] = true;
@@ -114,7 +110,7 @@ TEST(Plot, TheMouseFindsThePointItIsOnAndAClickTakesIt) {
 TEST(Plot, TheWheelZoomsAndADoubleClickShowsEverythingAgain) {
     PlotWindow window;
     ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = window.on_screen({10, .1});
+    io.MousePos = window.on_screen("fast/1");
     window.frame();
     const AxisRange before = range_of(window.all, window.view, 0, AxisScale::logarithmic);
     io.MouseWheel = 3;

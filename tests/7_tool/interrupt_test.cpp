@@ -1,13 +1,8 @@
 // Ctrl-C at any moment: what is there afterwards is whole, and no temporary is.
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -23,31 +18,7 @@
 namespace strata {
 namespace {
 
-/// Starts the program without a shell (whose children in the background ignore SIGINT), and gives its number.
-pid_t start(const std::string& arguments) {
-    std::vector<std::string> words = {STRATA_BINARY_DIR "/strata"};
-    std::istringstream stream(arguments);
-    for (std::string word; stream >> word;) words.push_back(word);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder().c_str());
-    for (const int stream_number : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream_number, "/dev/null", O_WRONLY, 0);
-    pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, pointers[0], &actions, nullptr, pointers.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
-    return process;
-}
-
-/// What became of it; a process that main() had not begun in yet dies of the signal itself.
-int code_of(pid_t process) {
-    int status = 0;
-    waitpid(process, &status, 0);
-    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
+pid_t start_strata(const std::string& arguments) { return start(STRATA_BINARY_DIR "/strata", arguments); }
 
 bool is_whole(const std::filesystem::path& file) {
     const auto kind = file.extension();
@@ -68,14 +39,14 @@ class Interrupted : public testing::TestWithParam<const char*> {};
 
 TEST_P(Interrupted, AtAnyMomentLeavesWholeFilesAndNoTemporary) {
     write_file(folder() / "sound.strata", sound_capture());
-    ASSERT_EQ(code_of(start(GetParam())), 0);  // compiles what later runs find in the driver's cache
+    ASSERT_EQ(code_of(start_strata(GetParam())), 0);  // compiles what later runs find in the driver's cache
     const auto began = std::chrono::steady_clock::now();
-    ASSERT_EQ(code_of(start(GetParam())), 0);
+    ASSERT_EQ(code_of(start_strata(GetParam())), 0);
     const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - began;
     std::mt19937 random(3);
     int interrupted = 0;
     for (int i = 0; i < 12; ++i) {
-        const pid_t process = start(GetParam());
+        const pid_t process = start_strata(GetParam());
         std::this_thread::sleep_for(std::uniform_real_distribution<>(0, 1)(random) * whole);
         kill(process, i % 3 == 2 ? SIGTERM : SIGINT);
         const int code = code_of(process);
@@ -94,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Verbs, Interrupted,
 TEST(Interrupt, OfARecordingLeavesTheOldCapture) {
     const auto old = sound_capture();
     write_file(folder() / "made.strata", old);
-    const pid_t process = start("record three_panes --frames 100000 -o made.strata");
+    const pid_t process = start_strata("record three_panes --frames 100000 -o made.strata");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     kill(process, SIGINT);
     EXPECT_EQ(code_of(process), 130);

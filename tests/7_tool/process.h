@@ -1,6 +1,8 @@
 // Runs the built program and keeps what it said.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,6 +19,12 @@ Finished strata(const std::string& arguments);
 
 /// The same after a line of the shell's own in the same process: "ulimit -f 1", "export NAME=value".
 Finished strata_after(const std::string& line, const std::string& arguments);
+
+/// A program in the background, without a shell (whose children there ignore SIGINT); arguments are parted by spaces. What it
+/// prints goes to the file of the folder.
+pid_t start(const std::string& program, const std::string& arguments, const std::string& output = "/dev/null");
+/// What became of it, once it ended; 128 + signal where one ended it before main().
+int code_of(pid_t);
 
 struct Refusal {
     std::string arguments;
