@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "passes/graph/describe.h"
+#include "ui/step_work.h"
 
 namespace strata::ui {
 namespace {
@@ -12,33 +13,6 @@ namespace {
 /// An image or a buffer of a plan.
 using Key = std::pair<bool, std::uint32_t>;
 Key key_of(Image image, Buffer buffer) { return {bool(image), image ? image.id : buffer.id}; }
-
-std::string fixed_text(const PlannedStep& planned) {
-    std::string text;
-    for (const Fixed& fixed : planned.step.fixed)
-        text += fmt::format("{}{} = {}", text.empty() ? ", " : " and ", fixed.name,
-                            std::visit([](auto value) { return fmt::format("{}", value); }, fixed.value));
-    return text;
-}
-
-std::string work_text(const PlannedStep& planned) {
-    struct Say {
-        const PlannedStep& planned;
-        std::string operator()(const ComputeWork& work) const {
-            if (work.arguments) return "compute, groups counted on the device";
-            const Extent& groups = planned.groups;
-            return fmt::format("compute, {} x {} x {} groups", groups.width, groups.height, groups.depth);
-        }
-        std::string operator()(const DrawWork& work) const {
-            const std::string layers = planned.layers > 1 ? fmt::format(" into {} layers at once", planned.layers) : "";
-            return fmt::format("draws {}{}{}", work.count ? "at most " : "", work.list.count, layers);
-        }
-        std::string operator()(const FullscreenWork&) const { return "every pixel"; }
-        std::string operator()(const CopyWork&) const { return "copy"; }
-        std::string operator()(const ClearWork&) const { return "clear"; }
-    };
-    return std::visit(Say{planned}, planned.step.work) + fixed_text(planned);
-}
 
 class Collector {
 public:

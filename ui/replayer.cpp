@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "replay/measure/lap.h"
+#include "ui/step_work.h"
 
 namespace strata::ui {
 namespace {
@@ -18,13 +19,29 @@ Result<FrameFacts> facts_of(Session& session, std::size_t index) {
 
 PlanRow row_of(const Plan& plan, const PlannedStep& planned) {
     const Scope& scope = plan.scopes[planned.step.scope];
-    PlanRow row{static_cast<Stage>(scope.stage), scope.name, planned.step.name, {}, planned.barriers.size()};
+    PlanRow row{.stage = static_cast<Stage>(scope.stage),
+                .scope = scope.name,
+                .name = planned.step.name,
+                .images = {},
+                .barriers = planned.barriers.size(),
+                .work = work_text(planned),
+                .short_work = short_work(planned),
+                .draws = draws_of(planned)};
     for (const Use& use : uses(planned)) {
         if (!use.image || !writes(use.access)) continue;
         const std::string& image = plan.images[use.image.id].name;
         if (std::ranges::find(row.images, image) == row.images.end()) row.images.push_back(image);
     }
     return row;
+}
+
+std::vector<PlanRow> rows_of(const Plan& plan) {
+    std::vector<PlanRow> rows;
+    for (const PlannedStep& step : plan.steps) rows.push_back(row_of(plan, step));
+    for (const Life& life : lives_of(plan)) rows[life.first].made_bytes += life.bytes;
+    const MemoryOverTime memory = memory_over_time(plan);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].alive_bytes = memory.alive[i];
+    return rows;
 }
 
 Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
@@ -37,7 +54,7 @@ Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& re
     made->request = request;
     made->frame = frame;
     made->run = *std::move(run);
-    for (const PlannedStep& step : planned->plan.steps) made->steps.push_back(row_of(planned->plan, step));
+    made->steps = rows_of(planned->plan);
     made->skipped = std::move(planned->skipped);
     made->culled = std::move(planned->plan.culled);
     made->ms = lap();

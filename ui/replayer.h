@@ -33,6 +33,10 @@ struct PlanRow {
     std::string scope, name;          ///< as in StepRecord
     std::vector<std::string> images;  ///< that it writes, by their names in the graph
     std::size_t barriers = 0;
+    std::string work = {}, short_work = {};  ///< see step_work.h
+    std::size_t draws = 0;
+    std::uint64_t made_bytes = 0;   ///< of the plan's own images and buffers that it is the first to use
+    std::uint64_t alive_bytes = 0;  ///< of all that are alive when it runs
 };
 
 /// What a request gave.

@@ -1,10 +1,13 @@
-// The frame as a tree: stages in order, their acts and steps, what each took, what was left out and why.
+// The frame: a timeline of what was measured; stages in order, their acts and steps, what each took, holds and does; what was
+// left out and why.
 #include <algorithm>
 
 #include "replay/counted.h"
 #include "ui/find_text.h"
+#include "ui/frame_columns.h"
 #include "ui/panel.h"
 #include "ui/theme.h"
+#include "ui/timeline.h"
 
 namespace strata::ui {
 namespace {
@@ -12,105 +15,114 @@ namespace {
 // Repeats of a timing: enough for a median that one interrupted repeat does not move.
 constexpr std::size_t repeats = 3;
 
-struct Times {
-    Request request;
-    Run run;
-};
-
-std::string milliseconds(const Spread& spread) {
-    return spread.mad > 0 ? fmt::format("{:.2f} \xc2\xb1 {:.2f}", spread.median, spread.mad)
-                          : fmt::format("{:.2f}", spread.median);
-}
-
-/// A row of a plan in the open: the steps from first to end of one act.
-struct Act {
-    std::string_view scope;
-    Stage stage;
-    std::size_t first = 0, end = 0;
-};
-
-std::vector<Act> acts_of(const std::vector<PlanRow>& steps) {
-    std::vector<Act> acts;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        if (acts.empty() || acts.back().scope != steps[i].scope) acts.push_back({steps[i].scope, steps[i].stage, i, i});
-        acts.back().end = i + 1;
-    }
-    return acts;
-}
-
-/// "shadows/pcf", and where it acts when that is not at its own stage: "shadows/pcf at occlusion".
-std::string face_of(const Act& act) {
-    const std::size_t colon = act.scope.find(": ");
-    if (colon == std::string_view::npos) return std::string(act.scope);
-    const std::string_view at = act.scope.substr(0, colon), technique = act.scope.substr(colon + 2);
-    return at == name(act.stage) ? std::string(technique) : fmt::format("{} at {}", technique, at);
-}
-
-bool was_executed(const Run& run, std::string_view scope) {
-    return std::ranges::find(run.steps, scope, &StepRecord::scope) != run.steps.end();
-}
+constexpr const char* executed_sign = "\xe2\x97\x8f";
+constexpr const char* kept_sign = "\xe2\x97\x8b";
 
 class FramePanel final : public Panel {
 public:
     void draw(Model& model, Services& services) override {
-        const auto scope = services.widgets.in("Frame");
+        Widgets& widgets = services.widgets;
+        const auto scope = widgets.in("Frame");
         const auto replay = services.replayer.shown("A");
         take_times(services);
         measure_after_change(model, services, replay.get());
-        draw_head(model, services, replay.get());
+        draw_controls(model, services, replay.get());
         if (!replay) return;
+        // Those of another frame of the capture say nothing here.
+        const FrameTimes* times = times_ && times_->request.frame == replay->request.frame ? &*times_ : nullptr;
+        const ShownFrame frame{*replay, times, is_stale(*replay), frame_rows(*replay, times)};
+        draw_head(widgets, frame);
+        if (times && timeline_.ms > 0) draw_measured(model, widgets, frame);
         ImGui::BeginChild("tree");
-        constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
-        if (ImGui::BeginTable("steps", 2, flags)) {
-            ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch);
-            ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, time_width);
-            draw_tree(model, services.widgets, *replay);
-            ImGui::EndTable();
-        }
-        draw_left_out(services.widgets, *replay);
+        // While something is looked for every act is open; afterwards they are again as they were.
+        ImGui::PushID(find_.empty() ? "all" : "found");
+        draw_table(model, widgets, frame);
+        ImGui::PopID();
+        draw_left_out(widgets, *replay);
         ImGui::EndChild();
+        step_seen_ = model.step;
+        open_all_.reset();
+        open_selected_.reset();
     }
 
     bool is_busy() const override { return timing_ && !timing_->result(); }
 
     std::span<const PanelKey> keys() const override {
         static constexpr PanelKey table[] = {
-            {"ctrl+f", "find a step", [](Panel& self, Model&, Services&) { static_cast<FramePanel&>(self).focus_find_ = true; }},
+            {"ctrl+f", "find a step; Enter goes to the next one that is found",
+             [](Panel& self, Model&, Services&) { static_cast<FramePanel&>(self).focus_find_ = true; }},
             {"t", "measure times",
              [](Panel& self, Model& model, Services& services) { static_cast<FramePanel&>(self).measure(model, services); }},
+            {"ctrl+up", "the step before", go<-1>},
+            {"ctrl+down", "the next step, of those that are found", go<1>},
+            {"ctrl+left", "collapse what the step is in", open<false>},
+            {"ctrl+right", "expand it", open<true>},
         };
         return table;
     }
 
 private:
+    template <int direction>
+    static void go(Panel& self, Model& model, Services& services) {
+        if (const auto replay = services.replayer.shown("A")) static_cast<FramePanel&>(self).go_to(model, *replay, direction);
+    }
+
+    template <bool is_open>
+    static void open(Panel& self, Model&, Services&) {
+        static_cast<FramePanel&>(self).open_selected_ = is_open;
+    }
+
+    void go_to(Model& model, const Replay& replay, int direction) const {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < replay.steps.size(); ++i)
+            if (matches(replay.steps[i])) found.push_back(i);
+        if (const auto step = step_beside(found, model.step, direction)) select(model, replay, *step);
+    }
+
     void measure(const Model& model, Services& services) {
         if (is_busy()) return;
         const Request request = model.request();
-        tried_ = request;
-        timing_ = services.replayer.start<Times>([request](Session& session, Progress& progress) -> Result<Times> {
+        tried_ = without_outputs(request);
+        timing_ = services.replayer.start<FrameTimes>([request](Session& session, Progress& progress) -> Result<FrameTimes> {
             if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
+            const auto planned = session.plan(request);
+            if (!planned) return planned.error();
             auto runs = session.time(std::span(&request, 1), repeats);
             if (!runs) return runs.error();
-            return Times{request, std::move(runs->front())};
+            FrameTimes times{request, std::move(runs->front()), {}};
+            const Plan& plan = planned->plan;
+            for (const PlannedStep& step : plan.steps)
+                times.stages.push_back(static_cast<Stage>(plan.scopes[step.step.scope].stage));
+            return times;
         });
     }
 
     void measure_after_change(const Model& model, Services& services, const Replay* replay) {
         const auto wanted = services.settings.find(always);
         if (wanted == services.settings.end() || !wanted->second || !replay || !services.replayer.is_current("A")) return;
-        if (services.replayer.error("A") || (tried_ && *tried_ == replay->request)) return;
+        if (services.replayer.error("A") || (tried_ && *tried_ == without_outputs(replay->request))) return;
         measure(model, services);
     }
 
     void take_times(Services& services) {
         if (!timing_ || !timing_->result()) return;
-        const Result<Times>& result = *timing_->result();
-        if (result) times_ = *result;
-        else services.log.push_back({LogLine::Kind::failed, services.seconds, result.error().sentence});
+        const Result<FrameTimes>& result = *timing_->result();
+        if (result) {
+            times_ = *result;
+            timeline_ = timeline_of(*times_);
+            seen_.reset();
+        } else {
+            services.log.push_back({LogLine::Kind::failed, services.seconds, result.error().sentence});
+        }
         timing_.reset();
     }
 
-    void draw_head(const Model& model, Services& services, const Replay* replay) {
+    /// Whether what was measured is not what is shown any more; which of its images are brought back does not matter.
+    bool is_stale(const Replay& replay) const {
+        return times_ && without_outputs(times_->request) != without_outputs(replay.request);
+    }
+
+    void draw_controls(Model& model, Services& services, const Replay* replay) {
         Widgets& widgets = services.widgets;
         ImGui::BeginDisabled(is_busy() || !replay);
         if (widgets.button("measure", is_busy() ? "Measuring\xe2\x80\xa6" : "Measure")) measure(model, services);
@@ -119,48 +131,50 @@ private:
         ImGui::SameLine();
         if (const auto set = widgets.checkbox("always", services.settings[always])) services.settings[always] = *set;
         widgets.help("measures after every change");
-        ImGui::SetNextItemWidth(-1);
+        columns_.draw_choice(widgets);
+        draw_find(model, widgets, replay);
+    }
+
+    static void draw_head(Widgets& widgets, const ShownFrame& frame) {
+        widgets.text("executed", executed_text(frame.rows), &palette().dim);
+        widgets.help(
+            fmt::format("{} executed by the latest replay\n{} kept from an earlier one: nothing that it depends on has "
+                        "changed since",
+                        executed_sign, kept_sign));
+        if (!frame.times || !frame.times->run.frame_ms) return;
+        widgets.value("frame", fmt::format("{} ms{}", time_text(*frame.times->run.frame_ms),
+                                           frame.is_stale ? " (before the last change)" : ""));
+        widgets.help("the sum of all steps: median and deviation of three runs");
+    }
+
+    void draw_find(Model& model, Widgets& widgets, const Replay* replay) {
+        const float buttons = 2 * (ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
+        ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
         if (std::exchange(focus_find_, false)) ImGui::SetKeyboardFocusHere();
-        if (auto text = widgets.input("find", find_, "find a step")) find_ = *std::move(text);
-        if (times_ && times_->run.frame_ms) {
-            const bool stale = !replay || times_->request != replay->request;
-            widgets.value("frame",
-                          fmt::format("{} ms{}", milliseconds(*times_->run.frame_ms), stale ? " (before the last change)" : ""));
+        if (auto text = widgets.input("find", find_, "find a step")) {
+            find_ = *std::move(text);
+            step_seen_.reset();
         }
-        ImGui::Dummy({0, 1});
+        const bool is_entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+        if (is_entered && replay && !find_.empty()) go_to(model, *replay, 1);
+        ImGui::SameLine();
+        if (widgets.button("collapse all", "\xe2\x8a\x9f")) open_all_ = false;
+        widgets.help("collapse all");
+        ImGui::SameLine();
+        if (widgets.button("expand all", "\xe2\x8a\x9e")) open_all_ = true;
+        widgets.help("expand all");
     }
 
-    /// A step's time, where the timed plan has the same step in its place.
-    const Spread* time_of(const PlanRow& row, std::size_t index) const {
-        if (!times_ || index >= times_->run.steps.size()) return nullptr;
-        const StepRecord& step = times_->run.steps[index];
-        return step.scope == row.scope && step.name == row.name && step.ms ? &*step.ms : nullptr;
-    }
-
-    /// What an act takes, over a bar of its share; before any timing, whether it was made or kept.
-    void draw_act_time(Widgets& widgets, const Replay& replay, const Act& act) const {
-        ImGui::TableNextColumn();
-        double ms = 0;
-        for (std::size_t i = act.first; i < act.end; ++i)
-            if (const Spread* spread = time_of(replay.steps[i], i)) ms += spread->median;
-        if (!times_ || ms <= 0) {
-            widgets.text(fmt::format("{} made", act.scope), was_executed(replay.run, act.scope) ? "made" : "kept",
-                         &palette().dim);
-            widgets.help("made in the latest replay, or kept from an earlier one");
-            return;
-        }
-        const float share = static_cast<float>(std::min(1.0, ms / std::max(ms, times_->run.frame_ms->median)));
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const ImVec4 color = color_of_stage(static_cast<std::size_t>(act.stage));
-        ImGui::GetWindowDrawList()->AddRectFilled(
-            {at.x, at.y}, {at.x + std::max(1.0f, time_width * share), at.y + ImGui::GetTextLineHeight()}, packed(color, .35f), 2);
-        widgets.text(fmt::format("{} ms", act.scope), fmt::format("{:.2f} ms", ms));
-        widgets.help(fmt::format("{:.1f} % of the frame", 100.0 * static_cast<double>(share)));
-    }
-
-    static void draw_step_time(Widgets& widgets, std::string_view label, const Spread* spread) {
-        ImGui::TableNextColumn();
-        if (spread) widgets.text(fmt::format("{} ms", label), milliseconds(*spread), &palette().dim);
+    void draw_measured(Model& model, Widgets& widgets, const ShownFrame& frame) {
+        TimelineMarks marks{.selected = {}, .is_stale = frame.is_stale};
+        if (model.step && *model.step < frame.rows.timed.size()) marks.selected = frame.rows.timed[*model.step];
+        const auto is_selected = [&](const TimelineBar& bar) { return marks.selected == bar.first; };
+        const auto bar = std::ranges::find_if(timeline_.steps, is_selected);
+        if (model.step != step_seen_ && seen_ && bar != timeline_.steps.end())
+            seen_ = brought_into_sight(*seen_, timeline_.ms, *bar);
+        const auto clicked = draw_timeline(widgets, timeline_, marks, seen_);
+        if (!clicked) return;
+        if (const auto step = frame.rows.step_timed_as(*clicked)) select(model, frame.replay, *step);
     }
 
     bool matches(const PlanRow& row) const {
@@ -168,44 +182,80 @@ private:
                std::ranges::any_of(row.images, [&](const std::string& image) { return is_found_in(image, find_); });
     }
 
-    void draw_tree(Model& model, Widgets& widgets, const Replay& replay) {
-        for (const Act& act : acts_of(replay.steps)) {
-            const auto in_act = std::span(replay.steps).subspan(act.first, act.end - act.first);
-            if (std::ranges::none_of(in_act, [&](const PlanRow& row) { return matches(row); })) continue;
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
-            if (!find_.empty()) ImGui::SetNextItemOpen(true);
-            const ImVec4 color = color_of_stage(static_cast<std::size_t>(act.stage));
-            ImGui::PushStyleColor(ImGuiCol_Text, color);
-            const Widgets::TreeRow row = widgets.tree(act.scope, false, 0, face_of(act));
-            ImGui::PopStyleColor();
-            widgets.help(fmt::format("{}\n{}", act.scope, counted(act.end - act.first, "step")));
-            if (row.clicked) select(model, replay, act.end - 1);
-            draw_act_time(widgets, replay, act);
-            if (!row.open) continue;
-            for (std::size_t i = act.first; i < act.end; ++i)
-                if (matches(replay.steps[i])) draw_step(model, widgets, replay, i);
-            widgets.tree_end();
-        }
+    void draw_table(Model& model, Widgets& widgets, const ShownFrame& frame) {
+        constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
+        if (!ImGui::BeginTable("steps", first_beside + FrameColumns::count, flags)) return;
+        ImGui::TableSetupColumn("##executed", ImGuiTableColumnFlags_WidthFixed, mark_width);
+        ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch);
+        columns_.set_up();
+        ImGui::TableHeadersRow();
+        for (const FrameAct& act : frame.rows.acts) draw_act(model, widgets, frame, act);
+        ImGui::EndTable();
     }
 
-    void draw_step(Model& model, Widgets& widgets, const Replay& replay, std::size_t index) {
-        const PlanRow& row = replay.steps[index];
+    void draw_act(Model& model, Widgets& widgets, const ShownFrame& frame, const FrameAct& act) {
+        const auto in_act = std::span(frame.replay.steps).subspan(act.first, act.end - act.first);
+        if (std::ranges::none_of(in_act, [&](const PlanRow& row) { return matches(row); })) return;
         ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        const std::string label = fmt::format("{} {}", index, row.name.substr(row.name.rfind('/') + 1));
-        if (widgets.selectable(label, model.step == index)) select(model, replay, index);
-        std::string help = row.name;
+        draw_mark(widgets, act);
+        ImGui::TableSetColumnIndex(1);
+        const bool has_selected = model.step && act.first <= *model.step && *model.step < act.end;
+        const bool comes_into_sight = has_selected && model.step != step_seen_;
+        if (open_all_) ImGui::SetNextItemOpen(*open_all_);
+        else if (has_selected && open_selected_) ImGui::SetNextItemOpen(*open_selected_);
+        else if (comes_into_sight || !find_.empty()) ImGui::SetNextItemOpen(true);
+        ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(act.stage)));
+        const Widgets::TreeRow row = widgets.tree(act.scope, false, 0, act.face);
+        ImGui::PopStyleColor();
+        widgets.help(fmt::format("{}\n{}, {}, {}", act.scope, counted(act.end - act.first, "step"), counted(act.draws, "draw"),
+                                 counted(act.barriers, "barrier")));
+        columns_.draw_act(widgets, frame, act, first_beside);
+        if (row.open) {
+            for (std::size_t i = act.first; i < act.end; ++i)
+                if (matches(frame.replay.steps[i])) draw_step(model, widgets, frame, i);
+            widgets.tree_end();
+        }
+        if (row.clicked) select_here(model, frame.replay, act.end - 1);
+    }
+
+    static void draw_mark(Widgets& widgets, const FrameAct& act) {
+        ImGui::TableSetColumnIndex(0);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float height = ImGui::GetTextLineHeight();
+        widgets.canvas(fmt::format("{} is", act.scope), {mark_width, height}, act.is_executed ? "executed" : "kept");
+        widgets.help(act.is_executed ? "executed in the latest replay" : "kept from an earlier replay");
+        const ImVec2 middle(at.x + mark_width / 2, at.y + height / 2);
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        if (act.is_executed) list.AddCircleFilled(middle, 3.5f, packed(palette().good));
+        else list.AddCircle(middle, 3.2f, packed(palette().dim), 0, 1.2f);
+    }
+
+    void draw_step(Model& model, Widgets& widgets, const ShownFrame& frame, std::size_t index) {
+        const PlanRow& row = frame.replay.steps[index];
+        ImGui::TableNextRow();
+        ImGui::TableSetColumnIndex(1);
+        const std::string label = fmt::format("{} {}", index, short_name(row.name));
+        const bool is_selected = model.step == index;
+        const bool is_clicked = widgets.selectable(label, is_selected);
+        if (is_selected && model.step != step_seen_ && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+        std::string help = fmt::format("{}\n{}", row.name, row.work);
         for (const std::string& image : row.images) help += fmt::format("\nwrites {}", image);
         help += fmt::format("\n{} before it", counted(row.barriers, "barrier"));
         widgets.help(help);
-        draw_step_time(widgets, label, time_of(row, index));
+        columns_.draw_step(widgets, frame, label, index, first_beside);
+        if (is_clicked) select_here(model, frame.replay, index);
     }
 
     /// Selecting a step selects what it writes everywhere.
     static void select(Model& model, const Replay& replay, std::size_t index) {
         model.step = index;
         if (!replay.steps[index].images.empty()) model.image = {.name = replay.steps[index].images.front(), .step = index};
+    }
+
+    /// A click in the tree itself: nothing there opens or scrolls.
+    void select_here(Model& model, const Replay& replay, std::size_t index) {
+        select(model, replay, index);
+        step_seen_ = model.step;
     }
 
     static void draw_left_out(Widgets& widgets, const Replay& replay) {
@@ -228,14 +278,20 @@ private:
         widgets.tree_end();
     }
 
-    static constexpr float time_width = 84;  // "12.34 ± 0.12"
+    static constexpr float mark_width = 9;
+    static constexpr int first_beside = 2;  ///< columns before it: mark, step
     static constexpr const char* always = "measure after every change";
 
-    JobOf<Times> timing_;
-    std::optional<Times> times_;
-    std::optional<Request> tried_;  ///< what was measured last, with success or without
+    JobOf<FrameTimes> timing_;
+    std::optional<FrameTimes> times_;
+    Timeline timeline_;              ///< of them
+    std::optional<AxisRange> seen_;  ///< of the timeline; none: all of it
+    std::optional<Request> tried_;   ///< what was measured last, with success or without
+    FrameColumns columns_;
     std::string find_;
     bool focus_find_ = false;
+    std::optional<std::size_t> step_seen_;          ///< the selection as of the frame before: a new one is brought into sight
+    std::optional<bool> open_all_, open_selected_;  ///< what is done to the tree in the next frame
 };
 
 }  // namespace
