@@ -307,7 +307,7 @@ private:
         if (!at || !a || !b || !a->contains(*at) || !b->contains(*at)) return;
         const bool is_pin = !canvas_.under();
         widgets.text("values",
-                     fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8c\x96" : " ", at->x, at->y, values_text(*a, *at),
+                     fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8a\x95" : " ", at->x, at->y, values_text(*a, *at),
                                  values_text(*b, *at)),
                      is_pin ? &palette().accent : nullptr);
     }
