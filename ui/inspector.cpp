@@ -4,6 +4,7 @@
 
 #include "replay/counted.h"
 #include "ui/keys.h"
+#include "ui/keys_list.h"
 #include "ui/widget_tree.h"
 
 namespace strata::ui {
@@ -298,31 +299,13 @@ void Inspector::draw_status() {
 }
 
 void Inspector::draw_keys() {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {.5f, .5f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18, 14});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyle().Colors[ImGuiCol_PopupBg]);
-    ImGui::Begin("keys", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    {
-        const auto scope = widgets_.in("keys");
-        const auto row = [&](std::string_view chord, std::string_view help) {
-            ImGui::TextColored(palette().accent, "%s", for_people(chord).c_str());
-            ImGui::SameLine(130);
-            widgets_.text(chord, help);
-        };
-        for (const OwnKey& key : own_keys) row(key.chord, key.help);
-        for (const Shown& shown : panels_) {
-            if (shown.panel->keys().empty()) continue;
-            ImGui::Dummy({0, 4});
-            ImGui::TextDisabled("%s", std::string(shown.row->name).c_str());
-            for (const PanelKey& key : shown.panel->keys()) row(key.chord, key.help);
-        }
+    std::vector<KeySection> sections = {{"Everywhere", {}}, mouse_gestures()};
+    for (const OwnKey& key : own_keys) sections.front().rows.push_back({key.chord, key.help});
+    for (const Shown& shown : panels_) {
+        KeySection& section = sections.emplace_back(KeySection{shown.row->name, {}});
+        for (const PanelKey& key : shown.panel->keys()) section.rows.push_back({key.chord, key.help});
     }
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
+    draw_keys_list(widgets_, sections);
 }
 
 }  // namespace strata::ui

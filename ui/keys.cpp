@@ -79,6 +79,8 @@ bool is_pressed(const Chord& chord) {
 }
 
 std::string for_people(std::string_view chord) {
+    if (chord == "pageup") return "Page Up";
+    if (chord == "pagedown") return "Page Down";
     std::string text(chord);
     bool first = true;
     for (char& c : text) {

@@ -8,13 +8,15 @@ namespace {
 
 // Narrower columns are hard to click; wider ones than these show no more at first sight.
 constexpr float least_column = 12, widest_fit = 30, most_zoom = 12;
-// Names lean over the column after the last.
-constexpr float lean = 52;
+// Names lean over the columns after theirs, by 60 degrees.
+constexpr float lean = .58f;
 
 // Whole pixels, so that all columns are of one width.
 float column_of(float fit, float zoom) { return std::floor(fit * zoom); }
 
-float visible_width(const PlanChart& chart) { return std::max(1.0f, chart.to.x - chart.cells.x - lean); }
+float visible_width(const PlanChart& chart) {
+    return std::max(1.0f, chart.to.x - chart.cells.x - lean * (chart.foot - chart.from.y));
+}
 
 /// Neither further than the ends of the cells, nor away from where they all fit.
 ChartView clamped(ChartView view, const PlanChart& chart) {
@@ -29,7 +31,8 @@ ChartView clamped(ChartView view, const PlanChart& chart) {
 
 PlanChart place(const ChartView& view, ImVec2 from, ImVec2 size, const ChartSize& cells) {
     PlanChart chart{.from = from, .to = {from.x + size.x, from.y + size.y}, .columns = cells.columns, .rows = cells.rows};
-    chart.cells = {from.x + PlanChart::names, from.y + cells.header};
+    chart.foot = from.y + cells.names;
+    chart.cells = {from.x + PlanChart::names, chart.foot + cells.alive};
     const float fit = visible_width(chart) / static_cast<float>(std::max<std::size_t>(cells.columns, 1));
     chart.fit = std::clamp(fit, least_column, widest_fit);
     chart.column = column_of(chart.fit, view.zoom);

@@ -18,7 +18,8 @@ struct ChartView {
 
 struct ChartSize {
     std::size_t columns = 0, rows = 0;
-    float header = 0;  ///< pixels above the cells
+    float names = 0;  ///< pixels of the steps' names above the cells
+    float alive = 0;  ///< and between both
 };
 
 /// A chart in a rectangle of the window.
@@ -26,6 +27,7 @@ struct PlanChart {
     ImVec2 from, to;   ///< all of it
     ImVec2 cells;      ///< upper left corner of what is seen of the cells
     ImVec2 origin;     ///< of the first cell: left of and above `cells` where the view was pulled
+    float foot = 0;    ///< of the steps' names
     float column = 0;  ///< pixels
     float fit = 0;     ///< of a column at zoom 1
     std::size_t columns = 0, rows = 0;
@@ -60,6 +62,8 @@ void draw_steps(const PlanChart&, const PlanPicture&, const PlanMarks&);
 void draw_resources(const PlanChart&, const PlanPicture&, const std::vector<std::size_t>& rows, const PlanMarks&);
 /// Rows are pieces of memory: who has them, and above them, between `top` and the cells, how much is alive.
 void draw_memory(const PlanChart&, const PlanPicture&, const PlanMarks&);
-inline constexpr float names_height = 104, alive_height = 58;  ///< of the headers
+/// As much as the longest name needs, up to a limit. Needs a Dear ImGui context.
+float names_height(const std::vector<PlanStep>&);
+inline constexpr float alive_height = 58;  ///< of the header below the names
 
 }  // namespace strata::ui

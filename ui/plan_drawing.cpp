@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <imgui_internal.h>
+
 #include "passes/graph/describe.h"
 #include "ui/plan_chart.h"
 #include "ui/theme.h"
@@ -23,14 +25,18 @@ private:
     ImDrawList& list_;
 };
 
+constexpr float cosine = .5f, sine = .8660254f;  // 60 degrees
+constexpr float below_names = 8, least_names = 60, most_names = 132;
+
 /// Text that rises to the right, glyph by glyph: a draw list's own text lies flat. `at` is where its baseline begins.
 void add_slanted(ImDrawList& list, ImVec2 at, std::string_view text, ImU32 color) {
-    constexpr float cosine = .5f, sine = .8660254f;  // 60 degrees
     const ImFont& font = *ImGui::GetFont();
     const float scale = ImGui::GetFontSize() / font.FontSize;
     float pen = 0;
-    for (const char c : text) {
-        const ImFontGlyph* glyph = font.FindGlyph(static_cast<ImWchar>(static_cast<unsigned char>(c)));
+    for (const char* next = text.data(); next < text.data() + text.size();) {
+        unsigned code = 0;
+        next += ImTextCharFromUtf8(&code, next, text.data() + text.size());
+        const ImFontGlyph* glyph = font.FindGlyph(static_cast<ImWchar>(code));
         if (!glyph) continue;
         const auto corner = [&](float x, float y) {
             const float along = pen + x * scale, down = (y - font.Ascent) * scale;
@@ -147,12 +153,22 @@ void draw_owner(ImDrawList& list, const PlanChart& chart, const PlanPicture& pic
                  shortened(resource.name, to.x - begin - 8).c_str());
 }
 
+/// Of a name, flat, in a header of that height.
+float room_for_name(float height) { return (height - below_names - ImGui::GetFontSize() * cosine) / sine; }
+
 }  // namespace
+
+float names_height(const std::vector<PlanStep>& steps) {
+    float longest = 0;
+    for (const PlanStep& step : steps) longest = std::max(longest, ImGui::CalcTextSize(step.short_name().c_str()).x);
+    const float height = std::ceil(longest * sine + ImGui::GetFontSize() * cosine + below_names) + 1;
+    return std::clamp(height, least_names, most_names);
+}
 
 void draw_steps(const PlanChart& chart, const PlanPicture& picture, const PlanMarks& marks) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const Inside inside(list, {chart.cells.x - 8, chart.from.y}, {chart.to.x, chart.cells.y});
-    const float strip = chart.cells.y - 5, foot = chart.from.y + names_height - 8;
+    const float strip = chart.cells.y - 5, foot = chart.foot - below_names, room = room_for_name(chart.foot - chart.from.y);
     for (std::size_t i = 0; i < picture.steps.size(); ++i) {
         const float x = chart.x_of(double(i));
         const ImVec4 color = color_of(picture.steps[i]);
@@ -160,7 +176,7 @@ void draw_steps(const PlanChart& chart, const PlanPicture& picture, const PlanMa
                            packed(color));
         if (x + chart.column / 2 < chart.cells.x || x > chart.to.x) continue;
         const bool marked = marks.step == i || marks.step_under == i;
-        add_slanted(list, {x + chart.column / 2 + 4, foot}, picture.steps[i].short_name(),
+        add_slanted(list, {x + chart.column / 2 + 4, foot}, shortened(picture.steps[i].short_name(), room),
                     packed(marked ? palette().text : color, marked ? 1 : .85f));
     }
 }

@@ -199,13 +199,17 @@ void take_mouse(PlotView& view, const Field& field) {
 
 void draw_legend(Widgets& widgets, std::span<const PlotSeries> all, PlotView& view) {
     const auto scope = widgets.in("legend");
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+    float ends = 0;  // the button before
     for (const PlotSeries& series : all) {
         const bool hidden = view.hidden.contains(series.label);
         ImGui::PushStyleColor(ImGuiCol_Text, hidden ? palette().dim : series.color);
-        const float width = ImGui::CalcTextSize(series.label.c_str()).x + 36;
-        if (&series != &all.front() && ImGui::GetContentRegionAvail().x > width) ImGui::SameLine();
-        const bool pressed =
-            widgets.button(series.label, fmt::format("{} {}", hidden ? "\xe2\x97\x8b" : "\xe2\x97\x8f", series.label));
+        const std::string face = fmt::format("{} {}", hidden ? "\xe2\x97\x8b" : "\xe2\x97\x8f", series.label);
+        const float width = ImGui::CalcTextSize(face.c_str()).x + 2 * style.FramePadding.x;
+        if (ends > 0 && ends + style.ItemSpacing.x + width <= right) ImGui::SameLine();
+        const bool pressed = widgets.button(series.label, face);
+        ends = ImGui::GetItemRectMax().x;
         ImGui::PopStyleColor();
         if (!pressed) continue;
         if (hidden) view.hidden.erase(series.label);

@@ -12,6 +12,10 @@
 namespace strata::ui {
 namespace {
 
+constexpr float seconds_to_help = .4f;
+// A hand that presses moves so many pixels.
+constexpr float hand = 4;
+
 std::string id_of(std::string_view label, std::string_view face) {
     return face.empty() ? std::string(label) : fmt::format("{}###{}", face, label);
 }
@@ -37,6 +41,11 @@ std::string_view name(WidgetKind kind) {
 void Widgets::begin_frame() {
     last_ = std::exchange(records_, {});
     path_.clear();
+    if (!rest_.seen) rest_ = {};
+    rest_.seen = false;
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    if (ImGui::IsAnyMouseDown()) pressed_at_ = at;
+    else if (pressed_at_ && std::hypot(at.x - pressed_at_->x, at.y - pressed_at_->y) > hand) pressed_at_.reset();
 }
 
 const WidgetRecord* Widgets::find(std::string_view path) const {
@@ -184,13 +193,31 @@ void Widgets::point(std::string_view label, ImVec2 at, std::string_view shown) {
 
 void Widgets::tab(std::string_view label, bool selected) { record(label, WidgetKind::tab, selected ? "selected" : ""); }
 
-void Widgets::help(std::string_view text) const {
-    if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+/// What comes under a mouse that is where it was pressed, as below a list that closes, counts as pressed. The parts of a canvas
+/// have help of their own: it follows at once where another's is shown.
+bool Widgets::is_rested_on(std::string_view help) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const ImVec2 from = ImGui::GetItemRectMin();
+    const bool is_same = rest_.from.x == from.x && rest_.from.y == from.y;
+    if (!is_same || rest_.help != help)
+        rest_ = {from, std::string(help), is_same ? rest_.seconds : 0, pressed_at_.has_value(), true};
+    rest_.seen = true;
+    rest_.pressed |= ImGui::IsAnyMouseDown();
+    const bool moves = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    if (rest_.seconds < seconds_to_help) rest_.seconds = moves ? 0 : rest_.seconds + io.DeltaTime;
+    return !rest_.pressed && rest_.seconds >= seconds_to_help;
+}
+
+void Widgets::help(std::string_view text) {
+    if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || !is_rested_on(text)) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {9, 7});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
     ImGui::PopTextWrapPos();
+    records_.push_back({.path = "help", .kind = WidgetKind::text, .value = std::string(text)});
+    records_.back().from = ImGui::GetItemRectMin();
+    records_.back().to = ImGui::GetItemRectMax();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
 }

@@ -82,15 +82,27 @@ public:
     void point(std::string_view label, ImVec2 at, std::string_view text = {});
     void tab(std::string_view label, bool selected);
 
-    /// Shown over the last widget when the mouse rests there.
-    void help(std::string_view text) const;
+    /// Shown over the last widget once the mouse has rested there, and no more once it was pressed, until it left. Who shows it
+    /// is the widget "help".
+    void help(std::string_view text);
 
 private:
+    /// What has help and lies under the mouse.
+    struct Rest {
+        ImVec2 from;
+        std::string help;
+        float seconds = 0;  ///< that the mouse rested; what is shown stays
+        bool pressed = false, seen = false;
+    };
+
     void record(std::string_view label, WidgetKind, std::string value);
+    bool is_rested_on(std::string_view help);
 
     std::string path_, revealed_;
     std::vector<std::size_t> tree_lengths_;  ///< of path_ before each open row
     std::vector<WidgetRecord> records_, last_;
+    Rest rest_;
+    std::optional<ImVec2> pressed_at_;  ///< while the mouse is still there
 };
 
 }  // namespace strata::ui

@@ -12,6 +12,7 @@
 #include "tests/support/session.h"
 #include "ui/compare_numbers.h"
 #include "ui/compare_side.h"
+#include "ui/flip_colors.h"
 #include "ui/picture_view.h"
 
 namespace strata::ui {
@@ -136,7 +137,33 @@ TEST(Compare, EveryWayToLookDrawsAndItsLegendHasNumbers) {
         EXPECT_THAT(desk.said("Compare/legend"), HasSubstr(" to "));
         desk.expect_no_conflicts();
     }
+}
+
+TEST(Compare, TheMapOfFlipShowsClosePicturesByAGainThatItsLegendSays) {
+    Desk& desk = comparing();
+    change_technique(desk);
+    must(desk.player->click("Compare/FLIP"));
+    must(desk.player->click("Compare/auto"));
+    must(desk.player->wait());
+    const std::string mean = desk.said("Compare/flip mean");
+    const double end = std::stod(desk.said("Compare/high"));
+    EXPECT_LT(end, 1) << "the pictures are close";
+    EXPECT_EQ(desk.said("Compare/legend"), fmt::format("0 to {:.3g}", end));
+    EXPECT_THAT(desk.said("Compare/caption"), HasSubstr(fmt::format("FLIP times {:.4g},", 1 / end)));
+    must(desk.player->type("Compare/flip gain", "1"));
+    must(desk.player->wait());
     EXPECT_EQ(desk.said("Compare/legend"), "0 to 1");
+    EXPECT_EQ(desk.said("Compare/flip mean"), mean);
+    EXPECT_THAT(desk.said("Compare/caption"), testing::StartsWith("FLIP, 0"));
+    must(desk.player->click("Compare/auto"));
+}
+
+TEST(FlipColors, AreBlackAtZeroAndBrightestAtTheEndOfTheScale) {
+    const Texels colors = flip_colors(*picture(3, {0, .05f, .5f}).image, .05);
+    const std::vector<float> brightest(colors.rgba.begin() + 4, colors.rgba.begin() + 8);
+    EXPECT_LT(colors.rgba[0] + colors.rgba[1] + colors.rgba[2], .05f);
+    EXPECT_GT(brightest[0] + brightest[1] + brightest[2], 2);
+    EXPECT_TRUE(std::equal(brightest.begin(), brightest.end(), colors.rgba.begin() + 8)) << "what lies above is not told apart";
 }
 
 TEST(Compare, TheDividerHasAOnItsLeftAndBOnItsRight) {

@@ -66,6 +66,7 @@ TEST(CountersPanel, SaysWhatTheReplayCountedAndWhatItCountedBeforeAChange) {
     desk.model().use(**other);
     must(desk.player->wait());
     EXPECT_THAT(desk.said("Counters/before"), testing::HasSubstr(first->run.choices.at("transparency")));
+    EXPECT_LE(desk.widget("Counters/before").to.x, desk.widget("Image/picture").to.x) << "nothing of it is cut off";
     must(desk.player->choose("Counters/against", "as recorded"));
     must(desk.player->wait());
     for (const CounterRecord& record : desk.replay()->run.counters) {

@@ -7,6 +7,7 @@
 #include "captures/scenarios.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
+#include "ui/keys_list.h"
 
 namespace strata::ui {
 namespace {
@@ -98,8 +99,26 @@ TEST(Panels, F1ListsTheKeysOfEveryPanel) {
     must(desk.player->key("f1"));
     EXPECT_EQ(desk.said("keys/ctrl+z"), "undo");
     EXPECT_EQ(desk.said("keys/f"), "the whole picture");
+    for (const char* gesture : {"click", "wheel", "drag", "right drag", "alt+drag"})
+        EXPECT_NO_THROW(desk.said(fmt::format("keys/{}", gesture)));
+    for (const WidgetRecord& record : desk.inspector->widgets().records()) {
+        const bool fits = record.visible && record.to.y < 800 && record.to.x < 1280;
+        EXPECT_TRUE(fits || !record.path.starts_with("keys/")) << record.path;
+    }
     desk.expect_no_conflicts();
-    must(desk.player->key("f1"));
+    must(desk.player->key("escape"));
+    EXPECT_THROW(desk.said("keys/f"), std::runtime_error);
+}
+
+TEST(Panels, KeysOfOneMeaningAreOneRowOfTheList) {
+    const KeyRow rows[] = {{"left", "move"}, {"right", "move"}, {"f", "fit"},  {"1", "view"},
+                           {"2", "view"},    {"3", "view"},     {"4", "view"}, {"5", "view"}};
+    const auto made = joined(rows);
+    ASSERT_EQ(made.size(), 3u);
+    EXPECT_EQ(made[0].keys, "Left  Right");
+    EXPECT_EQ(made[1].keys, "F");
+    EXPECT_EQ(made[2].keys, "1 \xe2\x80\xa6 5");
+    EXPECT_EQ(made[2].first, "1");
 }
 
 TEST(Panels, AFrameThatIsNotThereShowsASentenceAndKeepsThePicture) {

@@ -68,7 +68,7 @@ TEST(PlanPicture, WhatIsAliveAtAStepIsTheSumOfWhatLivesThen) {
 }
 
 TEST(PlanChart, AColumnIsFoundWhereItIsDrawnAndStaysUnderThePointerThatZooms) {
-    const ChartSize size{.columns = 40, .rows = 60, .header = names_height};
+    const ChartSize size{.columns = 40, .rows = 60, .names = 104};
     const ImVec2 from(100, 50), extent(700, 400);
     ChartView view;
     PlanChart chart = place(view, from, extent, size);
@@ -113,12 +113,34 @@ TEST(PlanPanel, AClickOnAColumnSelectsTheStepAndWhatItWrites) {
     ASSERT_NE(wanted, steps.end());
     const WidgetRecord canvas = desk.widget("Plan/chart");
     const ImVec2 size(canvas.to.x - canvas.from.x, canvas.to.y - canvas.from.y);
-    const PlanChart chart = place({}, canvas.from, size, {.columns = steps.size(), .rows = 1, .header = names_height});
+    std::vector<PlanStep> named;
+    for (const PlanRow& row : steps) named.push_back({.name = row.name});
+    const ChartSize cells{.columns = steps.size(), .rows = 1, .names = names_height(named)};
+    const PlanChart chart = place({}, canvas.from, size, cells);
     const double column = double(wanted - steps.begin()) + .5;
     must(desk.player->move("Plan/chart", (chart.x_of(column) - canvas.from.x) / size.x, .05f));
     must(desk.player->pull(0, 0));
     EXPECT_EQ(desk.model().step, static_cast<std::size_t>(wanted - steps.begin()));
     EXPECT_THAT(wanted->images, testing::Contains(desk.model().image.name));
+}
+
+TEST(PlanPanel, TheHeaderIsAsHighAsTheLongestNameAndNoHigherThanALimit) {
+    Desk::clean();
+    const float one = names_height({{.name = "lighting/z_binned/shade.comp"}});
+    const float two = names_height({{.name = "shade.comp"}, {.name = "clear shadow_maps"}});
+    EXPECT_LT(one, two) << "a step is named by the end of its name";
+    const float most = names_height({{.name = std::string(60, 'm')}});
+    EXPECT_LT(two, most);
+    EXPECT_EQ(most, names_height({{.name = std::string(90, 'm')}}));
+}
+
+TEST(PlanPanel, ItsSummaryIsNotCutOff) {
+    Desk& desk = Desk::clean();
+    must(desk.player->click("tabs/Plan"));
+    must(desk.player->wait());
+    const float edge = desk.widget("Plan/chart").to.x;
+    EXPECT_LE(desk.widget("Plan/bytes").to.x, edge);
+    EXPECT_LE(desk.widget("Plan/counts").to.x, edge);
 }
 
 TEST(PlanPanel, SaysWhyStagesWereLeftOutAndHowMuchEachHolds) {

@@ -152,7 +152,7 @@ private:
     }
 
     /// As TableHeadersRow() does, with help on each.
-    static void draw_titles(const Widgets& widgets, const CaptureTable& table) {
+    static void draw_titles(Widgets& widgets, const CaptureTable& table) {
         ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
         for (const CaptureColumn& column : table.columns) {
             ImGui::TableNextColumn();

@@ -3,37 +3,20 @@
 #include <array>
 #include <cmath>
 
-#include "replay/difference/canvas.h"
 #include "ui/compare_canvas.h"
 #include "ui/compare_numbers.h"
 #include "ui/compare_sides.h"
+#include "ui/flip_colors.h"
 #include "ui/theme.h"
 
 namespace strata::ui {
 namespace {
 
-void add_magma(Texels& texels, double share) {
-    const Rgb color = magma(share);
-    for (const std::uint8_t byte : {color.x, color.y, color.z}) texels.rgba.push_back(static_cast<float>(byte) / 255);
-    texels.rgba.push_back(1);
-}
-
-struct Compared {
-    ComparedPictures pictures;
-    Texels flip;  ///< in FLIP's own colors, those of its papers and of `strata diff`
-};
-
 /// Takes seconds for a large picture.
-Result<std::shared_ptr<const Compared>> compared(const PicturePair& pair) {
+Result<std::shared_ptr<const ComparedPictures>> compared(const PicturePair& pair) {
     auto pictures = compare(pair);
     if (!pictures) return pictures.error();
-    auto made = std::make_shared<Compared>(Compared{*std::move(pictures), {}});
-    if (const auto& map = made->pictures.flip) {
-        made->flip = {map->shape.extent.width, map->shape.extent.height, {}};
-        for (std::uint32_t y = 0; y < made->flip.height; ++y)
-            for (std::uint32_t x = 0; x < made->flip.width; ++x) add_magma(made->flip, texel(*map, x, y).x);
-    }
-    return std::shared_ptr<const Compared>(std::move(made));
+    return std::make_shared<const ComparedPictures>(*std::move(pictures));
 }
 
 class ComparePanel final : public Panel {
@@ -55,7 +38,8 @@ public:
     std::span<const PanelKey> keys() const override;
     /// What nobody looks at is not brought up to date.
     bool is_busy() const override {
-        return is_in_front() && (sides_.is_busy() || job_ || (map_index() && maps_[*map_index()].is_busy()));
+        const bool colors = mode_ == CompareMode::flip_map && flip_colors_.is_busy();
+        return is_in_front() && (sides_.is_busy() || job_ || colors || (map_index() && maps_[*map_index()].is_busy()));
     }
 
     void flip(bool to_b) {
@@ -72,9 +56,7 @@ private:
         sides_.update(model, services);
         compare_both(services);
         if (const auto map = map_index()) maps_[*map].show(map_image(), model.image.layer, services.host, services.layer);
-        if (!compared_ || compared_ == colored_ || mode_ != CompareMode::flip_map) return;
-        if (compared_->pictures.flip) flip_texture_ = services.layer.upload(flip_texture_, compared_->flip);
-        colored_ = compared_;
+        if (mode_ == CompareMode::flip_map) flip_colors_.show(map_image(), scale_end(), services.host, services.layer);
     }
 
     void compare_both(Services& services) {
@@ -97,7 +79,7 @@ private:
         if (images == compared_images_) return;
         compared_images_ = images;
         if (job_) job_->progress.cancel();
-        job_ = start<std::shared_ptr<const Compared>>(services.host, [pair](Progress&) { return compared(pair); });
+        job_ = start<std::shared_ptr<const ComparedPictures>>(services.host, [pair](Progress&) { return compared(pair); });
     }
 
     /// Which of maps_ is looked at; nothing where pictures are.
@@ -109,8 +91,8 @@ private:
 
     std::shared_ptr<const HostImage> map_image() const {
         if (!compared_) return nullptr;
-        if (mode_ == CompareMode::relative) return compared_->pictures.relative;
-        return mode_ == CompareMode::flip_map ? compared_->pictures.flip : compared_->pictures.difference;
+        if (mode_ == CompareMode::relative) return compared_->relative;
+        return mode_ == CompareMode::flip_map ? compared_->flip : compared_->difference;
     }
 
     bool shows_pictures() const { return mode_ <= CompareMode::flip; }
@@ -129,7 +111,6 @@ private:
         ImGui::SameLine(0, 3);
         ImGui::SetNextItemWidth(-1);
         if (shows_pictures()) draw_exposure(model, widgets);
-        else if (mode_ == CompareMode::flip_map) widgets.text("scale", "0 to 1", &palette().dim);
         else draw_range(widgets);
     }
 
@@ -153,13 +134,15 @@ private:
 
     /// Where the scale of a map ends. 999 of 1000 texels lie below what it is by itself.
     double scale_end() const {
-        if (mode_ == CompareMode::flip_map) return 1;
         const PictureInfo* map = map_picture();
+        const bool is_flip = mode_ == CompareMode::flip_map;
+        if (is_flip && flip_gain_) return 1 / *flip_gain_;
         if (mode_ == CompareMode::difference && gain_) return 1 / *gain_;
         if (mode_ == CompareMode::relative && up_to_) return *up_to_;
         if (!map) return 1;
         const double bulk = std::max(std::abs(map->bulk.low), std::abs(map->bulk.high));
-        return round_up(bulk > 0 ? bulk : std::max(std::abs(map->range.low), std::abs(map->range.high)));
+        const double end = round_up(bulk > 0 ? bulk : std::max(std::abs(map->range.low), std::abs(map->range.high)));
+        return is_flip ? std::min(end, 1.0) : end;
     }
 
     void draw_range(Widgets& widgets) {
@@ -167,12 +150,17 @@ private:
         widgets.help("999 of 1000 texels lie within the scale");
         if (is_asked || ranged_image_ != sides_.image()) {
             gain_.reset();
+            flip_gain_.reset();
             up_to_.reset();
             ranged_image_ = sides_.image();
         }
         ImGui::SameLine(0, 3);
         ImGui::SetNextItemWidth(-1);
-        if (mode_ == CompareMode::difference) {
+        if (mode_ == CompareMode::flip_map) {
+            const SliderRange range{.low = 1, .high = 1e4, .logarithmic = true, .format = "gain %.4g"};
+            if (const auto gain = widgets.slider("flip gain", 1 / scale_end(), range)) flip_gain_ = *gain;
+            widgets.help("what FLIP is multiplied by to be seen; its numbers stay as they are");
+        } else if (mode_ == CompareMode::difference) {
             const SliderRange range{.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "gain %.4g"};
             if (const auto gain = widgets.slider("gain", 1 / scale_end(), range)) gain_ = *gain;
             widgets.help("what a difference is multiplied by to be seen");
@@ -183,7 +171,7 @@ private:
         }
     }
 
-    bool is_signed() const { return compared_ && row(compared_->pictures.difference->shape.format).channels == 1; }
+    bool is_signed() const { return compared_ && row(compared_->difference->shape.format).channels == 1; }
 
     Look map_look() const {
         const auto end = static_cast<float>(scale_end());
@@ -208,8 +196,8 @@ private:
             .mode = mode_, .a = canvas_picture(sides_.a(), model), .b = canvas_picture(sides_.b(), model), .size = size};
         const bool is_flip = mode_ == CompareMode::flip_map;
         if (const PictureInfo* map = map_picture(); map && map_image())
-            view.map = {map, is_flip ? flip_texture_ : maps_[*map_index()].texture(), map_look(), map_caption()};
-        else view.map.label = is_flip && compared_ ? flip_help(compared_->pictures) : trouble();
+            view.map = {map, is_flip ? flip_colors_.texture() : maps_[*map_index()].texture(), map_look(), map_caption()};
+        else view.map.label = is_flip && compared_ ? flip_help(*compared_) : trouble();
         canvas_.draw(view, model, services);
     }
 
@@ -220,20 +208,22 @@ private:
     }
 
     std::string map_caption() const {
-        if (mode_ == CompareMode::flip_map) return "FLIP, 0: the same, 1: as different as can be";
+        if (mode_ == CompareMode::flip_map)
+            return fmt::format("FLIP{}, 0: the same, 1: as different as can be",
+                               scale_end() < 1 ? fmt::format(" times {:.4g}", 1 / scale_end()) : "");
         if (mode_ == CompareMode::relative)
             return fmt::format("|B \xe2\x88\x92 A| / max(|A|, RMS of A = {:.3g}), largest channel",
-                               compared_->pictures.measured.error.reference);
-        return fmt::format("{}, {}", is_signed() ? "B \xe2\x88\x92 A" : "|B \xe2\x88\x92 A| per channel",
-                           compared_->pictures.unit);
+                               compared_->measured.error.reference);
+        return fmt::format("{}, {}", is_signed() ? "B \xe2\x88\x92 A" : "|B \xe2\x88\x92 A| per channel", compared_->unit);
     }
 
     void draw_legend(const Model& model, Services& services) {
         Widgets& widgets = services.widgets;
-        if (legend_ == 0) make_legends(services.layer);
+        if (legend_ == 0) make_legend(services.layer);
         Look look = shows_pictures() ? look_of(model) : map_look();
         const double stops = std::exp2(-double{look.exposure});
-        const double low = double{look.black} * stops, high = double{look.white} * stops;
+        const bool is_flip = mode_ == CompareMode::flip_map;
+        const double low = double{look.black} * stops, high = is_flip ? scale_end() : double{look.white} * stops;
         const bool is_relative = mode_ == CompareMode::relative;
         const auto number = [&](double value) {
             return is_relative ? fmt::format("{:.3g} %", value * 100) : fmt::format("{:.3g}", value);
@@ -244,57 +234,53 @@ private:
         look.exposure = 0;
         look.black = 0;
         look.white = 1;
-        const TextureId ramp = mode_ == CompareMode::flip_map ? magma_legend_ : legend_;
+        const TextureId ramp = is_flip ? flip_colors_.legend(services.layer) : legend_;
         ImGui::GetWindowDrawList()->AddImage(services.layer.shown(ramp, look), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
         ImGui::SameLine();
         widgets.text("high", number(high), &palette().dim);
         ImGui::SameLine(0, 12);
-        const std::string caption =
-            shows_pictures() ? (compared_ ? compared_->pictures.unit : "") : (compared_ ? map_caption() : "");
+        const std::string caption = shows_pictures() ? (compared_ ? compared_->unit : "") : (compared_ ? map_caption() : "");
         widgets.text("caption", caption, &palette().dim);
         widgets.help("magenta: NaN, orange: infinite");
     }
 
-    void make_legends(ImguiLayer& layer) {
+    void make_legend(ImguiLayer& layer) {
         constexpr std::uint32_t steps = 256;
-        Texels plain{steps, 1, {}}, magma_colors{steps, 1, {}};
+        Texels plain{steps, 1, {}};
         for (std::uint32_t i = 0; i < steps; ++i) {
             const auto share = static_cast<float>(i) / (steps - 1);
             plain.rgba.insert(plain.rgba.end(), {share, share, share, 1});
-            add_magma(magma_colors, double{share});
         }
         legend_ = layer.upload(0, plain);
-        magma_legend_ = layer.upload(0, magma_colors);
     }
 
     void draw_numbers(Model& model, Widgets& widgets) {
         const std::string why = trouble();
         if (!compared_)
             return widgets.text("state", why.empty() ? "being compared" : why, why.empty() ? &palette().dim : &palette().bad);
-        if (compared_->pictures.measured.error.identical) {
+        if (compared_->measured.error.identical) {
             widgets.text("state", "bit for bit the same", &palette().good);
         } else {
-            widgets.text("flip mean", flip_text(compared_->pictures));
-            widgets.help(flip_help(compared_->pictures));
+            widgets.text("flip mean", flip_text(*compared_));
+            widgets.help(flip_help(*compared_));
             ImGui::SameLine(0, 14);
-            widgets.text("rmse", rmse_text(compared_->pictures));
-            widgets.help(fmt::format("root mean square over all values of all layers, {}; A's own is {:.4g}",
-                                     compared_->pictures.unit, compared_->pictures.measured.error.reference));
+            widgets.text("rmse", rmse_text(*compared_));
+            widgets.help(fmt::format("root mean square over all values of all layers, {}; A's own is {:.4g}", compared_->unit,
+                                     compared_->measured.error.reference));
             ImGui::SameLine(0, 14);
-            if (widgets.button("worst", worst_text(compared_->pictures))) go_to_worst(model);
-            widgets.help(fmt::format("{:.9g} in A, {:.9g} in B; a click goes there",
-                                     compared_->pictures.measured.error.worst_pixel.a,
-                                     compared_->pictures.measured.error.worst_pixel.b));
+            if (widgets.button("worst", worst_text(*compared_))) go_to_worst(model);
+            widgets.help(fmt::format("{:.9g} in A, {:.9g} in B; a click goes there", compared_->measured.error.worst_pixel.a,
+                                     compared_->measured.error.worst_pixel.b));
         }
-        const std::string odd = oddities_text(compared_->pictures);
-        widgets.text("differing", differing_text(compared_->pictures), &palette().dim);
+        const std::string odd = oddities_text(*compared_);
+        widgets.text("differing", differing_text(*compared_), &palette().dim);
         if (odd.empty()) return;
         ImGui::SameLine(0, 14);
         widgets.text("oddities", odd, &palette().warning);
     }
 
     void go_to_worst(Model& model) {
-        const WorstPixel& worst = compared_->pictures.measured.error.worst_pixel;
+        const WorstPixel& worst = compared_->measured.error.worst_pixel;
         model.pin = glm::ivec2(static_cast<int>(worst.x), static_cast<int>(worst.y));
         model.image.layer = worst.layer;
         canvas_.go_to(model.view, *model.pin);
@@ -307,7 +293,7 @@ private:
         if (!at || !a || !b || !a->contains(*at) || !b->contains(*at)) return;
         const bool is_pin = !canvas_.under();
         widgets.text("values",
-                     fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8c\x96" : " ", at->x, at->y, values_text(*a, *at),
+                     fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8a\x95" : " ", at->x, at->y, values_text(*a, *at),
                                  values_text(*b, *at)),
                      is_pin ? &palette().accent : nullptr);
     }
@@ -323,12 +309,13 @@ private:
 
     CompareSides sides_;
     std::string message_, ranged_image_;
-    JobOf<std::shared_ptr<const Compared>> job_;
+    JobOf<std::shared_ptr<const ComparedPictures>> job_;
     std::pair<std::shared_ptr<const HostImage>, std::shared_ptr<const HostImage>> compared_images_;
-    std::shared_ptr<const Compared> compared_, colored_;  ///< colored_: whose FLIP the texture has
-    std::array<ShownPicture, 3> maps_;                    ///< difference, relative, FLIP
-    std::optional<double> gain_, up_to_;
-    TextureId flip_texture_ = 0, legend_ = 0, magma_legend_ = 0;
+    std::shared_ptr<const ComparedPictures> compared_;
+    std::array<ShownPicture, 3> maps_;  ///< difference, relative, FLIP
+    FlipColors flip_colors_;
+    std::optional<double> gain_, flip_gain_, up_to_;
+    TextureId legend_ = 0;
     CompareMode mode_ = CompareMode::wipe;
     CompareCanvas canvas_;
     int drawn_in_ = -2;

@@ -75,10 +75,17 @@ private:
         if (error) return widgets.text("before", error->sentence, &palette().bad);
         const std::string_view none =
             against_ == Against::last_change ? "nothing was changed yet" : "replaying as recorded\xe2\x80\xa6";
-        if (!before) return widgets.text("before", none, &palette().dim);
+        if (!before) return draw_note(widgets, std::string(none));
         const std::string text = otherwise(*before, *now_);
-        widgets.text("before", text.empty() ? "the same settings" : fmt::format("then: {}", text), &palette().dim);
-        widgets.help(text);
+        draw_note(widgets, text.empty() ? "the same settings" : fmt::format("then: {}", text));
+    }
+
+    /// Beside what is chosen where there is room, else below.
+    static void draw_note(Widgets& widgets, const std::string& text) {
+        if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
+        ImGui::PushTextWrapPos(0);
+        widgets.text("before", text, &palette().dim);
+        ImGui::PopTextWrapPos();
     }
 
     bool matches(const CounterRow& row) const {

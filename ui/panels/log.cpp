@@ -1,4 +1,6 @@
 // The log: what the replay said, newest at the bottom.
+#include <algorithm>
+
 #include "ui/panel.h"
 #include "ui/theme.h"
 
@@ -23,8 +25,7 @@ public:
         const auto scope = widgets.in("Log");
         for (std::size_t i = 0; i < services.log.size(); ++i) {
             const LogLine& line = services.log[i];
-            ImGui::TextDisabled("%7.2f s", line.seconds);
-            ImGui::SameLine();
+            draw_time(fmt::format("{:.2f} s", line.seconds));
             ImGui::PushTextWrapPos(0);
             widgets.text(fmt::format("{}", i), line.text, &color_of(line.kind));
             ImGui::PopTextWrapPos();
@@ -34,6 +35,14 @@ public:
     }
 
 private:
+    /// Times end where others do.
+    static void draw_time(const std::string& time) {
+        const float left = ImGui::GetCursorPosX(), wide = ImGui::CalcTextSize("10000.00 s").x;
+        ImGui::SetCursorPosX(left + std::max(0.0f, wide - ImGui::CalcTextSize(time.c_str()).x));
+        ImGui::TextDisabled("%s", time.c_str());
+        ImGui::SameLine(left + wide + ImGui::GetStyle().ItemSpacing.x);
+    }
+
     std::size_t seen_ = 0;
 };
 

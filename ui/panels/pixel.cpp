@@ -49,7 +49,7 @@ public:
 private:
     static void draw_head(Model& model, Widgets& widgets, const Replay& replay) {
         const glm::ivec2 pin = *model.pin;
-        widgets.text("pixel", fmt::format("\xe2\x8c\x96 {} {}", pin.x, pin.y), &palette().accent);
+        widgets.text("pixel", fmt::format("\xe2\x8a\x95 {} {}", pin.x, pin.y), &palette().accent);
         widgets.help("column and row of the pixel from the left top; the arrow keys move it");
         ImGui::SameLine();
         widgets.text("frame", fmt::format("of {} x {}", replay.run.width, replay.run.height), &palette().dim);

@@ -26,7 +26,7 @@ public:
         if (!picture_) return;
         if (mode_ == PlanMode::left_out) return draw_left_out(widgets);
         const float height = ImGui::GetContentRegionAvail().y;
-        draw_chart(model, widgets, std::max(160.0f, height * .62f));
+        draw_chart(model, widgets, std::max(160.0f, height * .7f));
         ImGui::BeginChild("details");
         if (model.step && *model.step < picture_->steps.size()) draw_step(model, widgets, *model.step);
         else if (mode_ == PlanMode::memory) draw_stages(widgets);
@@ -86,11 +86,13 @@ private:
                                  counted(picture_->barriers(), "barrier"), picture_->skipped.size() + picture_->culled.size()),
                      &palette().dim);
         const std::uint64_t saved = picture_->unshared_bytes - std::min(picture_->unshared_bytes, picture_->image_bytes);
+        ImGui::PushTextWrapPos(0);
         widgets.text("bytes",
                      fmt::format("images {} ({} saved by sharing), buffers {}; {} alive at most, at {}",
                                  size_text(picture_->image_bytes), size_text(saved), size_text(picture_->buffer_bytes),
                                  size_text(picture_->over_time.peak), picture_->over_time.fullest_step),
                      &palette().dim);
+        ImGui::PopTextWrapPos();
     }
 
     /// The resources that have a row.
@@ -110,7 +112,7 @@ private:
         widgets.canvas("chart", size, fmt::format("{} rows", is_memory ? picture_->memory.size() : resources.size()));
         const ImVec2 from = ImGui::GetItemRectMin();
         const ChartSize cells{picture_->steps.size(), is_memory ? picture_->memory.size() : resources.size(),
-                              names_height + (is_memory ? alive_height : 0)};
+                              names_height(picture_->steps), is_memory ? alive_height : 0};
         PlanChart chart = place(view_, from, size, cells);
         if (model.step != step_seen_ && model.step) view_ = shown(view_, chart, *model.step);
         step_seen_ = model.step;

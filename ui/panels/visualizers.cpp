@@ -217,16 +217,11 @@ void show_view(Panel& panel, Model& model, Services&) {
 }
 
 std::span<const PanelKey> VisualizersPanel::keys() const {
+    static constexpr std::string_view view_help = "that view of the technique that is looked at";
     static constexpr PanelKey table[] = {
-        {"1", "the first view of the technique that is looked at", show_view<1>},
-        {"2", "the second", show_view<2>},
-        {"3", "the third", show_view<3>},
-        {"4", "the fourth", show_view<4>},
-        {"5", "the fifth", show_view<5>},
-        {"6", "the sixth", show_view<6>},
-        {"7", "the seventh", show_view<7>},
-        {"8", "the eighth", show_view<8>},
-        {"9", "the ninth", show_view<9>},
+        {"1", view_help, show_view<1>}, {"2", view_help, show_view<2>}, {"3", view_help, show_view<3>},
+        {"4", view_help, show_view<4>}, {"5", view_help, show_view<5>}, {"6", view_help, show_view<6>},
+        {"7", view_help, show_view<7>}, {"8", view_help, show_view<8>}, {"9", view_help, show_view<9>},
     };
     return table;
 }

@@ -1,0 +1,112 @@
+// The pictures of the README are what the scripts beside them make. A script's head has the commands.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "capture_format/whole_file.h"
+#include "replay/image_io.h"
+#include "tests/7_tool/process.h"
+#include "tests/support/accept.h"
+#include "tests/support/session.h"
+
+namespace strata::ui {
+namespace {
+
+const std::filesystem::path kept = STRATA_SOURCE_DIR "/ui/pictures";
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Runs the commands that a script's head tells people. Without what it measures, which takes minutes, unless all is asked for.
+void make(const std::string& name, bool measures = true) {
+    std::istringstream script(text_of(kept / (name + ".script")));
+    std::ofstream played(folder() / (name + ".script"));
+    std::vector<std::string> commands;
+    for (std::string line; std::getline(script, line);) {
+        if (line.starts_with("# strata ")) commands.push_back(line.substr(std::string_view("# strata ").size()));
+        if (measures || line.find("/measure") == std::string::npos) played << line << '\n';
+    }
+    played.close();
+    ASSERT_EQ(commands.size(), 2u) << name;
+    for (std::string& command : commands) {
+        const std::string_view where = "ui/pictures/";
+        if (const auto at = command.find(where); at != std::string::npos) command.erase(at, where.size());
+        const Finished made = strata(command);
+        ASSERT_EQ(made.code, 0) << command << "\n" << made.err;
+    }
+}
+
+/// One driver's texels differ from another's in their last bits, and its name stands in the picture.
+class ReadmePictures : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string here = strata("--list-gpus").out, there = text_of(kept / "made_on.txt");
+        if (accepting()) must(write_whole_file(kept / "made_on.txt", here));
+        else if (here != there) GTEST_SKIP() << "they were made on " << there << "and this is " << here;
+    }
+
+    /// Keeps what was made, where that was asked for.
+    static void accept(const std::string& name) {
+        if (!accepting()) return;
+        std::filesystem::copy_file(folder() / (name + ".png"), kept / (name + ".png"),
+                                   std::filesystem::copy_options::overwrite_existing);
+        ADD_FAILURE() << name << " is kept from now on";
+    }
+};
+
+void expect_same(const std::string& name) {
+    const HostImage made = must(read_png(folder() / (name + ".png"))), expected = must(read_png(kept / (name + ".png")));
+    EXPECT_TRUE(made.shape == expected.shape && made.texels == expected.texels)
+        << name << ".png is another; what was made lies in " << folder() << "; keep it by " << command_that_accepts();
+}
+
+TEST_F(ReadmePictures, AProbeIsWhatItsScriptMakes) {
+    make("probe");
+    accept("probe");
+    expect_same("probe");
+}
+
+TEST_F(ReadmePictures, AComparisonIsWhatItsScriptMakes) {
+    make("compare");
+    accept("compare");
+    expect_same("compare");
+}
+
+/// Whether two pictures are the same in a widget's rectangle.
+bool is_same_in(const nlohmann::json& widget, const HostImage& a, const HostImage& b) {
+    const auto edge = [&](const char* corner, int axis, std::uint32_t most) {
+        return static_cast<std::uint32_t>(std::clamp(widget[corner][axis].get<double>(), 0.0, static_cast<double>(most)));
+    };
+    const Extent& extent = a.shape.extent;
+    for (std::uint32_t y = edge("from", 1, extent.height); y < edge("to", 1, extent.height); ++y)
+        for (std::uint32_t x = edge("from", 0, extent.width); x < edge("to", 0, extent.width); ++x)
+            if (texel(a, x, y) != texel(b, x, y)) return false;
+    return true;
+}
+
+TEST_F(ReadmePictures, AroundAReportIsWhatItsScriptMakes) {
+    make("cost", accepting());
+    accept("cost");
+    const HostImage made = must(read_png(folder() / "cost.png")), expected = must(read_png(kept / "cost.png"));
+    ASSERT_EQ(made.shape, expected.shape);
+    const auto tree = nlohmann::json::parse(text_of(folder() / "cost.json"));
+    std::size_t regions = 0;
+    for (const auto& widget : tree["widgets"]) {
+        const std::string path = widget["path"];
+        if (path.starts_with("Accuracy and cost/") || !widget["visible"].get<bool>()) continue;
+        EXPECT_TRUE(is_same_in(widget, made, expected)) << path << "; keep it by " << command_that_accepts();
+        ++regions;
+    }
+    EXPECT_GT(regions, 40u);
+}
+
+}  // namespace
+}  // namespace strata::ui
