@@ -48,22 +48,25 @@ void set_look(LayerPush& push, const Look& look) {
     const float range = look.white == look.black ? 1e-30f : look.white - look.black;
     push.scale = std::exp2(look.exposure) / range;
     push.offset = -look.black / range;
-    push.curve = look.curve == Curve::srgb ? curve_srgb : curve_raw;
     push.channel = look.channels <= Channels::alpha && look.channels != Channels::color
                        ? static_cast<std::uint32_t>(look.channels) - static_cast<std::uint32_t>(Channels::red)
                        : 0;
+}
+
+/// A pipeline per kind of look and curve.
+std::size_t pipeline_index(std::uint32_t kind, std::uint32_t curve) { return kind * curve_kinds + curve; }
+
+std::size_t pipeline_index(const Look& look) {
+    const std::uint32_t curve = look.curve == Curve::srgb ? curve_srgb : curve_raw;
     switch (look.channels) {
         case Channels::color:
-            push.kind = look_color;
-            break;
+            return pipeline_index(look_color, curve);
         case Channels::luminance:
-            push.kind = look_luminance;
-            break;
+            return pipeline_index(look_luminance, curve);
         case Channels::false_color:
-            push.kind = look_false_color;
-            break;
+            return pipeline_index(look_false_color, curve);
         default:
-            push.kind = look_channel;
+            return pipeline_index(look_channel, curve);
     }
 }
 
@@ -96,7 +99,7 @@ private:
     vk::raii::Sampler sampler_;
     vk::raii::DescriptorSetLayout set_layout_;
     vk::raii::PipelineLayout layout_;
-    vk::raii::Pipeline pipeline_;
+    std::vector<vk::raii::Pipeline> pipelines_;  // by pipeline_index()
     vk::raii::DescriptorPool pool_;
     LayerBuffer ends_, vertices_, indices_;
     std::map<TextureId, Texture> textures_;  // 0: the fonts
@@ -122,11 +125,15 @@ vk::raii::DescriptorPool make_pool(const vk::raii::Device& device) {
     return {device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, most_textures, sizes)};
 }
 
-vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, vk::PipelineLayout layout) {
+vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, vk::PipelineLayout layout,
+                                 const std::array<std::uint32_t, 2>& kind_and_curve) {
     const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, sizeof imgui_layer_vert, imgui_layer_vert));
     const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, sizeof imgui_layer_frag, imgui_layer_frag));
-    const std::array stages = {vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
-                               vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main")};
+    constexpr std::array entries = {vk::SpecializationMapEntry(0, 0, 4), vk::SpecializationMapEntry(1, 4, 4)};
+    const vk::SpecializationInfo constants(entries.size(), entries.data(), sizeof kind_and_curve, kind_and_curve.data());
+    const std::array stages = {
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
+        vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &constants)};
     const vk::VertexInputBindingDescription binding(0, sizeof(ImDrawVert), vk::VertexInputRate::eVertex);
     const std::array attributes = {
         vk::VertexInputAttributeDescription(0, 0, vk::Format::eR32G32Sfloat, IM_OFFSETOF(ImDrawVert, pos)),
@@ -152,6 +159,14 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, vk::PipelineLay
     return {device, nullptr, info};
 }
 
+std::vector<vk::raii::Pipeline> make_pipelines(const vk::raii::Device& device, vk::PipelineLayout layout) {
+    std::vector<vk::raii::Pipeline> pipelines;
+    for (std::uint32_t kind = 0; kind < look_kinds; ++kind)
+        for (std::uint32_t curve = 0; curve < curve_kinds; ++curve)
+            pipelines.push_back(make_pipeline(device, layout, {kind, curve}));
+    return pipelines;
+}
+
 Layer::Layer(std::unique_ptr<LayerDevice> device)
     : device_(std::move(device)),
       target_(*device_),
@@ -161,7 +176,7 @@ Layer::Layer(std::unique_ptr<LayerDevice> device)
                                      vk::SamplerAddressMode::eClampToEdge, vk::SamplerAddressMode::eClampToEdge)),
       set_layout_(make_set_layout(device_->handle())),
       layout_(make_layout(device_->handle(), *set_layout_)),
-      pipeline_(make_pipeline(device_->handle(), *layout_)),
+      pipelines_(make_pipelines(device_->handle(), *layout_)),
       pool_(make_pool(device_->handle())),
       ends_(device_->buffer(sizeof(float) * 255, vk::BufferUsageFlagBits::eStorageBuffer)) {
     const auto ends = byte_ends();
@@ -236,8 +251,12 @@ bool Layer::bind_shown(const vk::raii::CommandBuffer& commands, ImTextureID id, 
     const auto place = reinterpret_cast<std::size_t>(id);
     const auto texture = textures_.find(place == 0 ? 0 : shown_[place - 1].texture);
     if (texture == textures_.end()) return false;
-    push.kind = look_widgets;
-    if (place > 0) set_look(push, shown_[place - 1].look);
+    std::size_t pipeline = pipeline_index(look_widgets, curve_raw);
+    if (place > 0) {
+        set_look(push, shown_[place - 1].look);
+        pipeline = pipeline_index(shown_[place - 1].look);
+    }
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[pipeline]);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *texture->second.set, {});
     commands.pushConstants<LayerPush>(*layout_, vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment, 0, push);
     return true;
@@ -261,7 +280,6 @@ void Layer::record_list(const vk::raii::CommandBuffer& commands, const ImDrawDat
 }
 
 void Layer::record(const vk::raii::CommandBuffer& commands, const ImDrawData& data) {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
     commands.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
     commands.bindIndexBuffer(*indices_.buffer, 0, sizeof(ImDrawIdx) == 2 ? vk::IndexType::eUint16 : vk::IndexType::eUint32);
     commands.setViewport(0, vk::Viewport(0, 0, data.DisplaySize.x, data.DisplaySize.y, 0, 1));

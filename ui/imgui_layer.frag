@@ -14,6 +14,10 @@ layout(location = 1) in vec4 color;
 
 layout(location = 0) out vec4 out_color;
 
+// Of the pipeline: llvmpipe (Mesa 22.3) runs both sides of every branch, and a widget's pixels would take as long as an image's.
+layout(constant_id = 0) const uint kind = look_widgets;
+layout(constant_id = 1) const uint curve = curve_raw;
+
 const int widest = 4;  // texels averaged across, where an image is shown smaller than it is
 
 float byte_of(float light) {
@@ -24,7 +28,7 @@ float byte_of(float light) {
     return float(guess) / 255.0;
 }
 
-float encoded(float value) { return push.curve == curve_srgb ? byte_of(value) : clamp(value, 0.0, 1.0); }
+float encoded(float value) { return curve == curve_srgb ? byte_of(value) : clamp(value, 0.0, 1.0); }
 
 // A polynomial fit of the Turbo map (A. Mikhailov, "Turbo, an improved rainbow colormap", 2019).
 vec3 turbo(float x) {
@@ -46,15 +50,15 @@ vec4 averaged(vec2 at, ivec2 across) {
 }
 
 vec3 shown(vec4 texel) {
-    if (push.kind == look_luminance) return vec3(encoded(dot(texel.rgb, vec3(0.2126, 0.7152, 0.0722)) * push.scale + push.offset));
-    if (push.kind == look_channel) return vec3(encoded(texel[push.channel] * push.scale + push.offset));
-    if (push.kind == look_false_color) return clamp(turbo(clamp(texel[push.channel] * push.scale + push.offset, 0.0, 1.0)), 0.0, 1.0);
+    if (kind == look_luminance) return vec3(encoded(dot(texel.rgb, vec3(0.2126, 0.7152, 0.0722)) * push.scale + push.offset));
+    if (kind == look_channel) return vec3(encoded(texel[push.channel] * push.scale + push.offset));
+    if (kind == look_false_color) return clamp(turbo(clamp(texel[push.channel] * push.scale + push.offset, 0.0, 1.0)), 0.0, 1.0);
     vec3 value = texel.rgb * push.scale + push.offset;
     return vec3(encoded(value.r), encoded(value.g), encoded(value.b));
 }
 
 void main() {
-    if (push.kind == look_widgets) {
+    if (kind == look_widgets) {
         out_color = color * texture(image, uv);
         return;
     }

@@ -12,17 +12,17 @@ const uint look_color = 1u;        // red, green and blue
 const uint look_channel = 2u;      // one channel as grey
 const uint look_luminance = 3u;    // Rec. 709
 const uint look_false_color = 4u;  // one channel from dark blue to dark red
-const uint curve_raw = 0u;         // 0..1 to 0..255
+const uint look_kinds = 5u;
+const uint curve_raw = 0u;  // 0..1 to 0..255
 const uint curve_srgb = 1u;
+const uint curve_kinds = 2u;
 
 struct LayerPush {
     vec2 to_clip;
     vec2 clip_offset;
     float scale;  // a shown value is texel * scale + offset, black at 0 and white at 1
     float offset;
-    uint kind;     // look_widgets to look_false_color
     uint channel;  // of look_channel and look_false_color
-    uint curve;    // curve_raw or curve_srgb
 };
 
 #ifdef __cplusplus
