@@ -71,7 +71,7 @@ std::optional<Spread> spread_of_sum(const std::vector<StepRecord>& steps, std::s
 
 std::string time_text(const Spread& spread) {
     // Three digits of what counts: a column holds no more.
-    const int digits = spread.median >= 100 ? 1 : spread.median >= .1 ? 2 : 3;
+    const int digits = spread.median >= 1000 ? 0 : spread.median >= 100 ? 1 : spread.median >= .1 ? 2 : 3;
     return spread.mad > 0 ? fmt::format("{:.{}f} \xc2\xb1{:.{}f}", spread.median, digits, spread.mad, digits)
                           : fmt::format("{:.{}f}", spread.median, digits);
 }

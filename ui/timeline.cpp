@@ -52,13 +52,15 @@ void draw_bar(const Lane& lane, const TimelineBar& bar, float top, float bottom,
 void draw_axis(const Lane& lane) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float top = lane.to.y - axis_height;
-    for (const Tick& tick : ticks(lane.seen, AxisScale::linear, 5)) {
+    float free = lane.from.x;
+    for (const Tick& tick : ticks(lane.seen, AxisScale::linear, 4)) {
         const float x = lane.x_of(tick.value);
         list.AddLine({x, top}, {x, top + 3}, packed(palette().dim));
         const std::string text = tick.label.empty() ? "" : fmt::format("{} ms", tick.label);
-        const float wide = ImGui::CalcTextSize(text.c_str()).x;
-        // At the end there is no room beside the line.
-        list.AddText({std::clamp(x + 2, lane.from.x, lane.to.x - wide), top + 1}, packed(palette().dim), text.c_str());
+        const float end = x + 2 + ImGui::CalcTextSize(text.c_str()).x;
+        if (text.empty() || x < free || end > lane.to.x) continue;
+        list.AddText({x + 2, top + 1}, packed(palette().dim), text.c_str());
+        free = end + 8;
     }
 }
 

@@ -143,12 +143,15 @@ private:
                         executed_sign, kept_sign));
         if (!frame.times || !frame.times->run.frame_ms) return;
         widgets.value("frame", fmt::format("{} ms{}", time_text(*frame.times->run.frame_ms),
-                                           frame.is_stale ? " (before the last change)" : ""));
+                                           frame.is_stale ? ", before the last change" : ""));
         widgets.help("the sum of all steps: median and deviation of three runs");
     }
 
     void draw_find(Model& model, Widgets& widgets, const Replay* replay) {
-        const float buttons = 2 * (ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x);
+        constexpr const char *minus = "\xe2\x8a\x9f", *plus = "\xe2\x8a\x9e";
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float buttons =
+            ImGui::CalcTextSize(minus).x + ImGui::CalcTextSize(plus).x + 2 * (2 * style.FramePadding.x + style.ItemSpacing.x);
         ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
         if (std::exchange(focus_find_, false)) ImGui::SetKeyboardFocusHere();
         if (auto text = widgets.input("find", find_, "find a step")) {
@@ -158,10 +161,10 @@ private:
         const bool is_entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
         if (is_entered && replay && !find_.empty()) go_to(model, *replay, 1);
         ImGui::SameLine();
-        if (widgets.button("collapse all", "\xe2\x8a\x9f")) open_all_ = false;
+        if (widgets.button("collapse all", minus)) open_all_ = false;
         widgets.help("collapse all");
         ImGui::SameLine();
-        if (widgets.button("expand all", "\xe2\x8a\x9e")) open_all_ = true;
+        if (widgets.button("expand all", plus)) open_all_ = true;
         widgets.help("expand all");
     }
 
@@ -185,8 +188,8 @@ private:
     void draw_table(Model& model, Widgets& widgets, const ShownFrame& frame) {
         constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoPadOuterX;
         if (!ImGui::BeginTable("steps", first_beside + FrameColumns::count, flags)) return;
-        ImGui::TableSetupColumn("##executed", ImGuiTableColumnFlags_WidthFixed, mark_width);
-        ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("##executed", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_IndentDisable, mark_width);
+        ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch | ImGuiTableColumnFlags_IndentEnable);
         columns_.set_up();
         ImGui::TableHeadersRow();
         for (const FrameAct& act : frame.rows.acts) draw_act(model, widgets, frame, act);
@@ -198,6 +201,7 @@ private:
         if (std::ranges::none_of(in_act, [&](const PlanRow& row) { return matches(row); })) return;
         ImGui::TableNextRow();
         draw_mark(widgets, act);
+        columns_.draw_act(widgets, frame, act, first_beside);
         ImGui::TableSetColumnIndex(1);
         const bool has_selected = model.step && act.first <= *model.step && *model.step < act.end;
         const bool comes_into_sight = has_selected && model.step != step_seen_;
@@ -209,7 +213,6 @@ private:
         ImGui::PopStyleColor();
         widgets.help(fmt::format("{}\n{}, {}, {}", act.scope, counted(act.end - act.first, "step"), counted(act.draws, "draw"),
                                  counted(act.barriers, "barrier")));
-        columns_.draw_act(widgets, frame, act, first_beside);
         if (row.open) {
             for (std::size_t i = act.first; i < act.end; ++i)
                 if (matches(frame.replay.steps[i])) draw_step(model, widgets, frame, i);
