@@ -20,14 +20,14 @@ struct InputQueue::Frame {
     std::set<int> buttons;
     bool has_key = false, moved = false, wheeled = false;
 
-    /// A key changes together with the modifiers that went down for it; a button changes once; the mouse stays where a button
-    /// changed or the wheel turned; and a button is let go where the mouse was seen to be.
+    /// A key changes together with the modifiers that went down for it. A button changes once, where a frame saw the mouse before
+    /// (what lies over others is only then under it); and the mouse stays where a button changed or the wheel turned.
     bool takes(const Event& event) {
         switch (event.kind) {
             case Kind::key:
                 return !std::exchange(has_key, has_key || !event.is_down || !is_modifier(event.number));
             case Kind::button:
-                return (event.is_down || !moved) && buttons.insert(event.number).second;
+                return !moved && buttons.insert(event.number).second;
             case Kind::move:
                 moved = true;
                 return buttons.empty() && !wheeled;

@@ -50,6 +50,8 @@ TEST(InputQueue, AClickIsWhereTheMouseWasAndNotWhereItWentAfterwards) {
     input.queue.button(0, true);
     input.queue.button(0, false);
     input.queue.move({300, 400});
+    EXPECT_FALSE(input.frame().MouseDown[0]) << "what is under it is known in the next";
+    EXPECT_EQ(input.io.MousePos.x, 10);
     EXPECT_TRUE(input.frame().MouseDown[0]);
     EXPECT_EQ(input.io.MousePos.x, 10);
     EXPECT_FALSE(input.frame().MouseDown[0]);
