@@ -2,25 +2,32 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace strata::ui {
 
+namespace {
+
+bool is_modifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
+
+}  // namespace
+
 /// What happened in one already.
 struct InputQueue::Frame {
-    std::set<int> keys, buttons;
-    bool moved = false, wheeled = false;
+    std::set<int> buttons;
+    bool has_key = false, moved = false, wheeled = false;
 
-    /// A key or button changes once; the mouse stays where a button changed or the wheel turned; and a button is let go where the
-    /// mouse was seen to be.
+    /// A key changes together with the modifiers that went down for it. A button changes once, where a frame saw the mouse before
+    /// (what lies over others is only then under it); and the mouse stays where a button changed or the wheel turned.
     bool takes(const Event& event) {
         switch (event.kind) {
             case Kind::key:
-                return keys.insert(event.number).second;
+                return !std::exchange(has_key, has_key || !event.is_down || !is_modifier(event.number));
             case Kind::button:
-                return (event.is_down || !moved) && buttons.insert(event.number).second;
+                return !moved && buttons.insert(event.number).second;
             case Kind::move:
                 moved = true;
                 return buttons.empty() && !wheeled;

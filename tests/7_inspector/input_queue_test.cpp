@@ -1,6 +1,8 @@
 // What is shorter than a frame of the window happens all the same, where and in the order in which it did.
 #include <cfloat>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include "ui/input_queue.h"
@@ -28,12 +30,28 @@ TEST(InputQueue, AKeyThatIsLetGoWithinAFrameWasDownInIt) {
     for (const bool is_down : {true, false, true, false}) EXPECT_EQ(input.frame().KeysDown[r], is_down);
 }
 
+TEST(InputQueue, AKeyIsDownWithTheModifiersThatWereDownWhenItWas) {
+    Input input;
+    const int f12 = chord_of("f12")->key;
+    input.queue.key(GLFW_KEY_LEFT_SHIFT, true);
+    input.queue.key(f12, true);
+    input.queue.key(GLFW_KEY_LEFT_SHIFT, false);
+    input.queue.key(f12, false);
+    EXPECT_TRUE(input.frame().KeysDown[f12]);
+    EXPECT_TRUE(input.io.KeyShift);
+    EXPECT_TRUE(input.frame().KeysDown[f12]);
+    EXPECT_FALSE(input.io.KeyShift);
+    EXPECT_FALSE(input.frame().KeysDown[f12]);
+}
+
 TEST(InputQueue, AClickIsWhereTheMouseWasAndNotWhereItWentAfterwards) {
     Input input;
     input.queue.move({10, 20});
     input.queue.button(0, true);
     input.queue.button(0, false);
     input.queue.move({300, 400});
+    EXPECT_FALSE(input.frame().MouseDown[0]) << "what is under it is known in the next";
+    EXPECT_EQ(input.io.MousePos.x, 10);
     EXPECT_TRUE(input.frame().MouseDown[0]);
     EXPECT_EQ(input.io.MousePos.x, 10);
     EXPECT_FALSE(input.frame().MouseDown[0]);

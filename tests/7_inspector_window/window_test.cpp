@@ -115,8 +115,8 @@ void Sitting::expect_image() {
     const bool is_pinned = window->seen().has("Image/pinned") &&
                            std::sscanf(window->seen().said("Image/pinned").c_str(), "pin %d %d:", &pin_x, &pin_y) == 2;
     const auto [x, y] = on_screen("Image/picture", pin_x, pin_y);
-    // The frame around a pinned pixel.
-    const Box pin = is_pinned ? Box{x - 5, y - 5, x + 10, y + 10} : Box{};
+    // The frame around a pinned pixel, and its arms.
+    const Box pin = is_pinned ? Box{x - 14, y - 14, x + 16, y + 16} : Box{};
     expect_picture("Image/picture", command, [&](int at_x, int at_y) { return pin.contains(at_x, at_y); });
 }
 
