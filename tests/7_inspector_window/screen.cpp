@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -52,12 +53,17 @@ std::string printed_by(const std::string& line) {
 
 Screen::Screen(int wide, int high) {
     server_ = start("Xvfb", fmt::format("-displayfd 1 -screen 0 {}x{}x24 -nolisten tcp", wide, high), "display.txt");
-    const auto is_ready = [] { return contents(folder() / "display.txt").ends_with('\n'); };
+    const auto is_ready = [] {
+        const std::string said = contents(folder() / "display.txt");
+        return said.size() > 1 && said.ends_with('\n') && std::isdigit(static_cast<unsigned char>(said[said.size() - 2]));
+    };
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!is_ready() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    const std::string said = contents(folder() / "display.txt");
+    std::string said = contents(folder() / "display.txt");
     if (!is_ready()) throw std::runtime_error(fmt::format("Xvfb does not start: {}", said));
-    setenv("DISPLAY", fmt::format(":{}", std::stoi(said)).c_str(), 1);
+    // Where a display is taken it says so, and tries the next.
+    said.pop_back();
+    setenv("DISPLAY", fmt::format(":{}", said.substr(said.rfind('\n') + 1)).c_str(), 1);
 }
 
 Screen::~Screen() {
