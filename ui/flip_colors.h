@@ -18,7 +18,7 @@ public:
     /// Once per frame: what is wanted now. The same map and end cost nothing; until they are ready the last stays.
     void show(const std::shared_ptr<const HostImage>& map, double end, WorkQueue&, ImguiLayer&);
     TextureId texture() const { return texture_; }
-    bool is_busy() const { return job_ != nullptr; }
+    bool is_busy() const { return job_ && !job_->result(); }
     /// A strip of all colors.
     TextureId legend(ImguiLayer&);
 

@@ -44,7 +44,8 @@ public:
     /// The last that was ready; null at first.
     const PictureInfo* picture() const { return picture_ ? picture_.get() : nullptr; }
     TextureId texture() const { return texture_; }
-    bool is_busy() const { return job_ != nullptr; }
+    /// What is finished waits for the next show(), which may never come: nobody waits for that.
+    bool is_busy() const { return job_ && !job_->result(); }
 
 private:
     std::shared_ptr<const HostImage> wanted_;

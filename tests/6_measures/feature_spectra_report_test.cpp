@@ -55,7 +55,7 @@ public:
         run.tables.emplace(request.outputs.front(), table);
         return run;
     }
-    Result<std::vector<strata::Run>> time(std::span<const Request> requests, std::size_t repeats) override {
+    Result<std::vector<strata::Run>> time(std::span<const Request> requests, std::size_t repeats, const Progress&) override {
         std::vector<strata::Run> runs(requests.size());
         for (std::size_t i = 0; i < requests.size(); ++i)
             for (std::size_t turn = 0; turn < repeats; ++turn)
@@ -65,10 +65,16 @@ public:
     Result<PlannedFrame> plan(const Request&) override { return not_asked(); }
     Result<HostImage> peek(const Request&, std::size_t, const std::string&) override { return not_asked(); }
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override { return not_asked(); }
+    Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2) override { return not_asked(); }
+    Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t) override { return not_asked(); }
     Result<ImageSet> truth(const Request&, Stage) override { return not_asked(); }
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet*) override { return not_asked(); }
     Result<const FragmentLists*> transparent_fragments(const Request&) override { return not_asked(); }
     Result<std::vector<strata::Run>> run(Frame, std::span<const Request>) override { return not_asked(); }
+    Result<ReloadedShaders> reload_shaders(const std::filesystem::path&, std::span<const Request>) override {
+        return not_asked();
+    }
+    void stop_when(std::stop_token) override {}
     void forget_memo() override {}
 
     /// Of all tiles by the request's modes: what a mode costs, and 2 ms more for each of the heavy tiles.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "replay/counted.h"
+#include "ui/asked.h"
 #include "ui/camera.h"
 #include "ui/legend.h"
 #include "ui/outline.h"
@@ -15,12 +16,10 @@
 namespace strata::ui {
 namespace {
 
-struct Peeked {
+struct Peek {
     Request request;
     ImageChoice image;
-    JobOf<HostImage> job;
-    std::shared_ptr<const HostImage> result;
-    std::string error;
+    friend bool operator==(const Peek&, const Peek&) = default;
 };
 
 class ImagePanel final : public Panel {
@@ -42,7 +41,7 @@ public:
         model.under = under_;
     }
 
-    bool is_busy() const override { return shown_.is_busy() || (peeked_ && peeked_->job) || (saved_ && !saved_->result()); }
+    bool is_busy() const override { return shown_.is_busy() || peeked_.progress() || (saved_ && !saved_->result()); }
 
     std::span<const PanelKey> keys() const override;
 
@@ -102,6 +101,7 @@ private:
             return made->image;
         }
         if (!model.image.step) {
+            peeked_.withdraw();
             model.want(model.image.name);
             if (!replay) return nullptr;
             auto image = replay->image(replay, model.image.name);
@@ -114,23 +114,16 @@ private:
 
     /// What a step wrote, asked of the device once per replay.
     std::shared_ptr<const HostImage> peeked_image(const Model& model, Services& services, const Replay& replay) {
-        ImageChoice image = model.image;
-        image.layer = 0;
-        if (!peeked_ || peeked_->request != replay.request || peeked_->image != image) {
-            if (peeked_ && peeked_->job) peeked_->job->progress.cancel();
-            peeked_ = Peeked{replay.request, image, {}, peeked_ ? peeked_->result : nullptr, {}};
-            const Request request = replay.request;
-            peeked_->job = services.replayer.start<HostImage>(
-                [request, image](Session& session, Progress&) { return session.peek(request, *image.step, image.name); });
-        }
-        if (peeked_->job && peeked_->job->result()) {
-            const Result<HostImage>& result = *peeked_->job->result();
-            if (result) peeked_->result = std::make_shared<HostImage>(*result);
-            else peeked_->error = result.error().sentence;
-            peeked_->job.reset();
-        }
-        message_ = peeked_->error;
-        return peeked_->result;
+        Peek peek{replay.request, model.image};
+        peek.image.layer = 0;  // all of them come at once
+        peeked_.ask(services.replayer, peek,
+                    [](Session& session, Progress&, const Peek& of) -> Result<std::shared_ptr<const HostImage>> {
+                        auto image = session.peek(of.request, *of.image.step, of.image.name);
+                        if (!image) return image.error();
+                        return std::make_shared<const HostImage>(*std::move(image));
+                    });
+        message_ = peeked_.error();
+        return peeked_.answer() ? *peeked_.answer() : nullptr;
     }
 
     Look look_of(const Model& model) const {
@@ -332,7 +325,7 @@ private:
     ShownPicture shown_;
     std::string shown_name_ = "display", message_;
     Look default_;
-    std::optional<Peeked> peeked_;
+    Asked<Peek, std::shared_ptr<const HostImage>> peeked_;
     JobOf<std::filesystem::path> saved_;
     Camera camera_;
     Placement placement_;
