@@ -25,7 +25,7 @@ struct Loaded {
     LoadedFrame frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
 
     Loaded() { scene.upload(scene_records(frame.frame)); }
-    Sources sources() const { return {frame, scene, device->info()}; }
+    Sources sources() const { return {frame, scene, device->info(), ShaderLibrary::built_in()}; }
 };
 
 void declare_a_frame(benchmark::State& state) {
