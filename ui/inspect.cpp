@@ -28,7 +28,15 @@ Model model_of(const std::filesystem::path& capture, const InspectOptions& optio
     return model;
 }
 
-/// Opening shows a sentence in a window; a script has nobody to read it.
+/// What a window would show and nobody is there to read.
+Result<void> report_opening(const Inspector& inspector) {
+    for (const LogLine& line : inspector.log())
+        if (line.kind == LogLine::Kind::warned) fmt::print(stderr, "strata: {}\n", line.text);
+    const Replayer& replayer = inspector.replayer();
+    const Error* error = replayer.open_error() ? replayer.open_error() : replayer.error("A");
+    return error ? Result<void>(*error) : Result<void>();
+}
+
 Result<void> play_script(const InspectOptions& options) {
     std::ifstream file(options.script);
     std::stringstream text;
@@ -43,7 +51,7 @@ Result<void> play_script(const InspectOptions& options) {
     Inspector inspector(**layer, model_of(options.capture, options, options.first), opener(options.capture, options), Layout());
     Player player(inspector, **layer, {static_cast<float>(width), static_cast<float>(height)});
     if (const auto opened = player.wait(); !opened) return opened;
-    if (const Error* error = inspector.replayer().open_error()) return *error;
+    if (const auto opened = report_opening(inspector); !opened) return opened;
     if (const auto played = play(player, *lines, options.script.string(), std::filesystem::current_path()); !played)
         return played;
     const std::vector<std::string> messages = (*layer)->take_messages();

@@ -50,13 +50,17 @@ Services Inspector::services() { return {widgets_, *replayer_, *host_, *layer_, 
 
 void Inspector::say(LogLine::Kind kind, std::string text) { log_.push_back({kind, seconds_, std::move(text)}); }
 
+void Inspector::say_what_was_opened(const CaptureFacts& facts) {
+    say(LogLine::Kind::said,
+        fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), counted(facts.frames, "frame"),
+                    facts.device.name, facts.device.driver, facts.device.driver_version));
+    for (const std::string& sentence : facts.left_out) say(LogLine::Kind::warned, sentence);
+}
+
 void Inspector::take_results() {
     const bool was_open = replayer_->facts() != nullptr;
     replayer_->take_results();
-    if (const CaptureFacts* facts = replayer_->facts(); facts && !was_open)
-        say(LogLine::Kind::said,
-            fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), counted(facts->frames, "frame"),
-                        facts->device.name, facts->device.driver, facts->device.driver_version));
+    if (const CaptureFacts* facts = replayer_->facts(); facts && !was_open) say_what_was_opened(*facts);
     const Error* error = replayer_->open_error() ? replayer_->open_error() : replayer_->error("A");
     const std::string sentence = error ? error->sentence : "";
     if (!sentence.empty() && sentence != last_error_) say(LogLine::Kind::failed, sentence);

@@ -42,6 +42,7 @@ public:
     Widgets& widgets() { return widgets_; }
     const Widgets& widgets() const { return widgets_; }
     Replayer& replayer() { return *replayer_; }
+    const Replayer& replayer() const { return *replayer_; }
     const Layout& layout() const { return layout_; }
     const FrameRate& frame_rate() const { return frame_rate_; }
     const std::vector<LogLine>& log() const { return log_; }
@@ -54,6 +55,7 @@ private:
 
     Services services();
     void take_results();
+    void say_what_was_opened(const CaptureFacts&);
     void press_keys();
     void press_panel_keys();
     void draw();

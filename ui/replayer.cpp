@@ -1,5 +1,7 @@
 #include "ui/replayer.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 
 #include "replay/measure/lap.h"
@@ -14,6 +16,12 @@ Result<FrameFacts> facts_of(Session& session, std::size_t index) {
     FrameFacts facts{.index = index, .features = frame_features(*frame)};
     facts.bare.view = frame->view;
     facts.bare.recorded_with = std::move(frame->recorded_with);
+    return facts;
+}
+
+CaptureFacts facts_of(const Session& session) {
+    CaptureFacts facts{.device = session.device(), .frames = session.frame_count(), .id = session.capture_id(), .left_out = {}};
+    if (const Capture* capture = session.capture()) facts.left_out = capture->summary().left_out;
     return facts;
 }
 
@@ -61,6 +69,12 @@ Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& re
     return std::shared_ptr<const Replay>(std::move(made));
 }
 
+/// On a CPU driver both sides draw on the same cores. The driver's threads, which opening makes, have their maker's priority.
+void let_the_window_go_first() {
+    constexpr int niceness = 10;
+    setpriority(PRIO_PROCESS, 0, niceness);  // of a thread, on Linux
+}
+
 }  // namespace
 
 std::shared_ptr<const HostImage> Replay::image(const std::shared_ptr<const Replay>& self, const std::string& name) const {
@@ -69,7 +83,10 @@ std::shared_ptr<const HostImage> Replay::image(const std::shared_ptr<const Repla
 }
 
 Replayer::Replayer(Open open) : open_(std::move(open)) {
-    queue_.add_first([this] { this->open(); });
+    queue_.add_first([this] {
+        let_the_window_go_first();
+        this->open();
+    });
 }
 
 Replayer::~Replayer() {
@@ -81,9 +98,7 @@ Replayer::~Replayer() {
 void Replayer::open() {
     session_ = nullptr;  // its memory may be what the next one needs
     auto session = within_memory<std::unique_ptr<Session>>(open_);
-    Result<CaptureFacts> facts =
-        session ? Result<CaptureFacts>(CaptureFacts{(*session)->device(), (*session)->frame_count(), (*session)->capture_id()})
-                : Result<CaptureFacts>(session.error());
+    Result<CaptureFacts> facts = session ? Result<CaptureFacts>(facts_of(**session)) : Result<CaptureFacts>(session.error());
     if (session) session_ = *std::move(session);
     const std::scoped_lock lock(mutex_);
     opened_ = std::move(facts);

@@ -18,6 +18,7 @@ struct CaptureFacts {
     DeviceInfo device;
     std::size_t frames = 0;
     std::string id;
+    std::vector<std::string> left_out;  ///< of the file, each with where it is
 };
 
 /// What is known of a frame without replaying it.
