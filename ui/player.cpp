@@ -218,8 +218,6 @@ Result<void> Player::shot(const std::filesystem::path& path) {
     return write_png(path, Extent{picture->width, picture->height, 1}, picture->rgb);
 }
 
-Result<void> Player::tree(const std::filesystem::path& path) const {
-    return write_whole_file(path, widget_tree(*inspector_));
-}
+Result<void> Player::tree(const std::filesystem::path& path) const { return write_whole_file(path, widget_tree(*inspector_)); }
 
 }  // namespace strata::ui

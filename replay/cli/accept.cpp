@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/expectation_writer.h"
-#include "replay/revision.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/expectation_check.h"
 #include "replay/repeat.h"
+#include "replay/revision.h"
 
 namespace strata {
 namespace {

@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/whole_file.h"
-#include "replay/revision.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
 #include "replay/image_io.h"
+#include "replay/revision.h"
 
 namespace strata {
 namespace {

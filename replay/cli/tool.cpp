@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "replay/revision.h"
 #include "replay/gpu/device.h"
+#include "replay/revision.h"
 
 namespace strata {
 namespace {
