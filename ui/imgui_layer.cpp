@@ -7,6 +7,8 @@
 #include <cstring>
 #include <map>
 
+#include <xxhash.h>
+
 #include "replay/image_io.h"
 #include "ui/imgui_layer.frag.h"
 #include "ui/imgui_layer.shared.h"
@@ -37,6 +39,7 @@ std::array<float, 255> byte_ends() {
 struct Texture {
     LayerImage image;
     vk::raii::DescriptorSet set = nullptr;
+    std::uint32_t version = 0;  ///< no two have the same
 };
 
 struct ShownTexture {
@@ -80,6 +83,7 @@ public:
     void begin() override;
     void begin_frame() override { shown_.clear(); }
     Result<void> draw(const ImDrawData&) override;
+    void forget_drawn() override { changed_.forget(); }
     Picture read_back() override { return target_.read_back(); }
     LayerDevice& device() override { return *device_; }
     const LayerTarget& target() const override { return target_; }
@@ -89,8 +93,9 @@ private:
     Texture make_texture(vk::Extent2D, vk::Format, std::span<const std::byte>);
     void grow(LayerBuffer&, std::uint64_t bytes, vk::BufferUsageFlags);
     void copy_triangles(const ImDrawData&);
-    void record(const vk::raii::CommandBuffer&, const ImDrawData&);
-    void record_list(const vk::raii::CommandBuffer&, const ImDrawData&, const ImDrawList&, glm::ivec2 first);
+    std::uint64_t look_of(ImTextureID) const;
+    void record(const vk::raii::CommandBuffer&, const ImDrawData&, const Region&);
+    void record_list(const vk::raii::CommandBuffer&, const ImDrawData&, const Region&, const ImDrawList&, glm::ivec2 first);
     /// Binds what a command shows: false where that is gone.
     bool bind_shown(const vk::raii::CommandBuffer&, ImTextureID, LayerPush&);
 
@@ -104,6 +109,8 @@ private:
     LayerBuffer ends_, vertices_, indices_;
     std::map<TextureId, Texture> textures_;  // 0: the fonts
     TextureId next_ = 1;
+    std::uint32_t versions_ = 0;
+    ChangedRegions changed_;
     std::vector<ShownTexture> shown_;  // ImTextureID is an index of it, from 1; 0 is the fonts
 };
 
@@ -184,7 +191,9 @@ Layer::Layer(std::unique_ptr<LayerDevice> device)
 }
 
 Texture Layer::make_texture(vk::Extent2D extent, vk::Format format, std::span<const std::byte> texels) {
-    Texture texture{device_->image(extent, format, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst)};
+    Texture texture{
+        .image = device_->image(extent, format, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst),
+        .version = ++versions_};
     const LayerBuffer staging = device_->buffer(texels.size(), vk::BufferUsageFlagBits::eTransferSrc);
     std::memcpy(staging.mapped, texels.data(), texels.size());
     auto commands = device_->begin_commands();
@@ -225,6 +234,7 @@ void Layer::begin() {
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
     const vk::Extent2D extent(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     textures_.clear();
+    forget_drawn();
     textures_.emplace(0, make_texture(extent, vk::Format::eR8G8B8A8Unorm,
                                       std::as_bytes(std::span(pixels, std::size_t{4} * extent.width * extent.height))));
 }
@@ -247,6 +257,21 @@ void Layer::copy_triangles(const ImDrawData& data) {
     }
 }
 
+std::uint64_t Layer::look_of(ImTextureID id) const {
+    const auto place = reinterpret_cast<std::size_t>(id);
+    const ShownTexture shown = place == 0 ? ShownTexture() : shown_[place - 1];
+    const auto texture = textures_.find(shown.texture);
+    const Look& look = shown.look;
+    const std::array<std::uint32_t, 7> facts = {place == 0,
+                                                texture == textures_.end() ? 0 : texture->second.version,
+                                                std::bit_cast<std::uint32_t>(look.exposure),
+                                                std::bit_cast<std::uint32_t>(look.black),
+                                                std::bit_cast<std::uint32_t>(look.white),
+                                                static_cast<std::uint32_t>(look.channels),
+                                                static_cast<std::uint32_t>(look.curve)};
+    return XXH3_64bits(facts.data(), sizeof facts);
+}
+
 bool Layer::bind_shown(const vk::raii::CommandBuffer& commands, ImTextureID id, LayerPush& push) {
     const auto place = reinterpret_cast<std::size_t>(id);
     const auto texture = textures_.find(place == 0 ? 0 : shown_[place - 1].texture);
@@ -262,30 +287,25 @@ bool Layer::bind_shown(const vk::raii::CommandBuffer& commands, ImTextureID id, 
     return true;
 }
 
-void Layer::record_list(const vk::raii::CommandBuffer& commands, const ImDrawData& data, const ImDrawList& list,
-                        glm::ivec2 first) {
+void Layer::record_list(const vk::raii::CommandBuffer& commands, const ImDrawData& data, const Region& region,
+                        const ImDrawList& list, glm::ivec2 first) {
     LayerPush push{.to_clip = {2 / data.DisplaySize.x, 2 / data.DisplaySize.y}, .clip_offset = {-1, -1}};
-    const auto in_target = [&](float at, float end) { return static_cast<std::int32_t>(std::clamp(at, 0.0f, end)); };
     for (const ImDrawCmd& command : list.CmdBuffer) {
-        const std::int32_t left = in_target(command.ClipRect.x, data.DisplaySize.x),
-                           top = in_target(command.ClipRect.y, data.DisplaySize.y),
-                           right = in_target(command.ClipRect.z, data.DisplaySize.x),
-                           bottom = in_target(command.ClipRect.w, data.DisplaySize.y);
-        if (right <= left || bottom <= top || command.ElemCount == 0 || !bind_shown(commands, command.TextureId, push)) continue;
-        commands.setScissor(
-            0, vk::Rect2D({left, top}, {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}));
+        const Region shown = intersection(clip_of(command, data.DisplaySize), region);
+        if (shown.is_empty() || command.ElemCount == 0 || !bind_shown(commands, command.TextureId, push)) continue;
+        commands.setScissor(0, rect_of(shown));
         commands.drawIndexed(command.ElemCount, 1, static_cast<std::uint32_t>(first.y) + command.IdxOffset,
                              first.x + static_cast<std::int32_t>(command.VtxOffset), 0);
     }
 }
 
-void Layer::record(const vk::raii::CommandBuffer& commands, const ImDrawData& data) {
+void Layer::record(const vk::raii::CommandBuffer& commands, const ImDrawData& data, const Region& region) {
     commands.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
     commands.bindIndexBuffer(*indices_.buffer, 0, sizeof(ImDrawIdx) == 2 ? vk::IndexType::eUint16 : vk::IndexType::eUint32);
     commands.setViewport(0, vk::Viewport(0, 0, data.DisplaySize.x, data.DisplaySize.y, 0, 1));
     glm::ivec2 first(0);
     for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
-        record_list(commands, data, *list, first);
+        record_list(commands, data, region, *list, first);
         first += glm::ivec2(list->VtxBuffer.Size, list->IdxBuffer.Size);
     }
 }
@@ -293,10 +313,14 @@ void Layer::record(const vk::raii::CommandBuffer& commands, const ImDrawData& da
 Result<void> Layer::draw(const ImDrawData& data) {
     try {
         target_.resize({static_cast<std::uint32_t>(data.DisplaySize.x), static_cast<std::uint32_t>(data.DisplaySize.y)});
+        const auto regions = changed_.next(data, [this](ImTextureID id) { return look_of(id); });
+        if (regions.empty()) return {};
         copy_triangles(data);
-        target_.render([&](const vk::raii::CommandBuffer& commands) { record(commands, data); });
+        target_.render(regions,
+                       [&](const vk::raii::CommandBuffer& commands, const Region& region) { record(commands, data, region); });
         return {};
     } catch (const vk::SystemError& problem) {
+        forget_drawn();
         return fail(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());
     }
 }

@@ -62,8 +62,10 @@ public:
     virtual void begin() = 0;
     /// Forgets what was shown() in the frame before.
     virtual void begin_frame() = 0;
-    /// Draws the frame; one that nobody looks at need not be.
+    /// Draws of the frame what differs from the one drawn before; one that nobody looks at need not be drawn.
     virtual Result<void> draw(const ImDrawData&) = 0;
+    /// The next frame is drawn whole.
+    virtual void forget_drawn() = 0;
     /// The frame drawn last.
     virtual Picture read_back() = 0;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
@@ -48,6 +50,9 @@ public:
             if (count > 0) static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->dropped_ = paths[0];
         });
         ImGui_ImplGlfw_InitForVulkan(window, /*install_callbacks=*/true);
+        glfwSetWindowRefreshCallback(window, [](GLFWwindow* on) {
+            static_cast<GlfwWindow*>(glfwGetWindowUserPointer(on))->shown_revision_ = 0;  // what it showed is lost
+        });
         take_input();
     }
     ~GlfwWindow() override {
@@ -85,11 +90,13 @@ public:
 
     bool begin_frame(Pace pace) override {
         if (after_event_ > 0) {
+            std::this_thread::sleep_until(frame_began_ + std::chrono::duration<double>(busy_seconds));
             glfwPollEvents();
         } else {
             glfwWaitEventsTimeout(pace == Pace::busy ? busy_seconds : resting_seconds);
         }
         while (is_hidden() && !glfwWindowShouldClose(window_.get())) glfwWaitEventsTimeout(resting_seconds);
+        frame_began_ = std::chrono::steady_clock::now();
         ImGui_ImplGlfw_NewFrame();
         input_.begin_frame(ImGui::GetIO());
         after_event_ = something_happened() ? frames_after_event : std::max(0, after_event_ - 1);
@@ -100,8 +107,12 @@ public:
         try {
             std::pair<int, int> extent;
             glfwGetFramebufferSize(window_.get(), &extent.first, &extent.second);
-            swapchain_->show(layer_->target(),
-                             {static_cast<std::uint32_t>(extent.first), static_cast<std::uint32_t>(extent.second)});
+            const vk::Extent2D pixels(static_cast<std::uint32_t>(extent.first), static_cast<std::uint32_t>(extent.second));
+            const LayerTarget& target = layer_->target();
+            if (shown_revision_ == target.revision() && shown_extent_ == pixels) return {};
+            if (!swapchain_->show(target, pixels)) return {};
+            shown_revision_ = target.revision();
+            shown_extent_ = pixels;
             return {};
         } catch (const vk::SystemError& problem) {
             return fail(Fault::device_failed, "the window cannot be drawn: {}", problem.what());
@@ -154,6 +165,9 @@ private:
     std::filesystem::path dropped_;
     std::string title_;
     ImVec2 mouse_;
+    std::uint64_t shown_revision_ = 0;
+    vk::Extent2D shown_extent_;
+    std::chrono::steady_clock::time_point frame_began_;
     int after_event_ = frames_after_event;
 };
 

@@ -22,7 +22,7 @@ public:
     virtual ImguiLayer& layer() = 0;
     /// Takes what happened since the last frame; false when the window was closed.
     virtual bool begin_frame(Pace) = 0;
-    /// Shows what the layer drew last.
+    /// Shows what the layer drew last, if that is not what the window shows.
     virtual Result<void> present() = 0;
     virtual void set_title(const std::string&) = 0;
     /// The file that was dropped on it since the last call, or an empty path.

@@ -12,8 +12,8 @@ class Swapchain {
 public:
     explicit Swapchain(LayerDevice&);
 
-    /// Copies the target to the window's next image. A window that just changed its size skips a frame.
-    void show(const LayerTarget&, vk::Extent2D);
+    /// Copies the target to the window's next image. False where the window just changed its size: it may not be seen.
+    bool show(const LayerTarget&, vk::Extent2D);
 
 private:
     void make(vk::Extent2D);
