@@ -58,12 +58,15 @@ void FrameColumns::draw_choice(Widgets& widgets) {
         "what it does, and how many barriers it waits for");
 }
 
-void FrameColumns::set_up() const {
+void FrameColumns::set_up(const ShownFrame& frame) const {
     const BesideRow& row = beside_rows[static_cast<std::size_t>(beside_)];
-    for (std::size_t i = 0; i < count; ++i)
+    const bool is_known = beside_ != Beside::time || frame.times;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool is_shown = is_known && row.widths[i] > 0;
         ImGui::TableSetupColumn(row.heads[i],
-                                ImGuiTableColumnFlags_WidthFixed | (row.widths[i] > 0 ? 0 : ImGuiTableColumnFlags_Disabled),
+                                ImGuiTableColumnFlags_WidthFixed | (is_shown ? 0 : ImGuiTableColumnFlags_Disabled),
                                 std::max(1.0f, row.widths[i]));
+    }
 }
 
 void FrameColumns::draw_act(Widgets& widgets, const ShownFrame& frame, const FrameAct& act, int column) const {

@@ -20,8 +20,8 @@ public:
 
     /// At the right end of the line.
     void draw_choice(Widgets&);
-    /// As the next columns of the table.
-    void set_up() const;
+    /// As the next columns of the table; times that were not measured leave their room to the names.
+    void set_up(const ShownFrame&) const;
     void draw_act(Widgets&, const ShownFrame&, const FrameAct&, int column) const;
     void draw_step(Widgets&, const ShownFrame&, std::string_view label, std::size_t step, int column) const;
 

@@ -53,7 +53,9 @@ std::optional<std::size_t> ReportTable::draw(Widgets& widgets, const Study& stud
 
 void ReportTable::draw_heads(Widgets& widgets, const Columns& columns, const ReportAxes& axes) {
     const auto scope = widgets.in("heads");
-    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    // No row of headers by its flag: a column would not be as wide as its own head.
+    ImGui::TableNextRow();
+    ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_TableHeaderBg));
     ImGui::TableNextColumn();
     widgets.text("front", star, &palette().warning);
     widgets.help("nothing is both more accurate and cheaper, by the two axes");

@@ -214,10 +214,13 @@ private:
             return;
         }
         widgets.text("summary",
-                     fmt::format("{} of {}, {} each, on {}; truth: {}", counted(report.rows.size(), "setting"),
-                                 name(report.stage), counted(report.repeats, "turn"), report.device.name, report.truth),
+                     fmt::format("{} of {}, {} each; truth: {}", counted(report.rows.size(), "setting"), name(report.stage),
+                                 counted(report.repeats, "turn"), report.truth),
                      &palette().dim);
-        if (report.device.software) widgets.help("a CPU renders here: times rank methods on this driver only, they model no GPU");
+        widgets.help(fmt::format("measured on {}{}", report.device.name,
+                                 report.device.software
+                                     ? "\na CPU renders here: times rank methods on this driver only, they model no GPU"
+                                     : ""));
         if (report_base(model.request(), report.stage) != study.base)
             widgets.text("stale", "measured before other stages were changed: measure again", &palette().warning);
     }
@@ -263,7 +266,7 @@ private:
                          &palette().warning);
         const ImVec2 room = ImGui::GetContentRegionAvail();
         const bool beside = room.x >= side_by_side;
-        const ImVec2 size(beside ? room.x * .55f : room.x, beside ? room.y : std::max(230.0f, room.y * .6f));
+        const ImVec2 size(beside ? room.x * .55f : room.x, beside ? room.y : std::max(230.0f, room.y * .66f));
         // Without scrolling, so that the wheel is the plot's.
         ImGui::BeginChild("plot", size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
         const auto chosen = draw_points(widgets, plot, axes);

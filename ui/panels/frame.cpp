@@ -190,7 +190,7 @@ private:
         if (!ImGui::BeginTable("steps", first_beside + FrameColumns::count, flags)) return;
         ImGui::TableSetupColumn("##executed", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_IndentDisable, mark_width);
         ImGui::TableSetupColumn("step", ImGuiTableColumnFlags_WidthStretch | ImGuiTableColumnFlags_IndentEnable);
-        columns_.set_up();
+        columns_.set_up(frame);
         ImGui::TableHeadersRow();
         for (const FrameAct& act : frame.rows.acts) draw_act(model, widgets, frame, act);
         ImGui::EndTable();
