@@ -63,8 +63,7 @@ void FrameColumns::set_up(const ShownFrame& frame) const {
     const bool is_known = beside_ != Beside::time || frame.times;
     for (std::size_t i = 0; i < count; ++i) {
         const bool is_shown = is_known && row.widths[i] > 0;
-        ImGui::TableSetupColumn(row.heads[i],
-                                ImGuiTableColumnFlags_WidthFixed | (is_shown ? 0 : ImGuiTableColumnFlags_Disabled),
+        ImGui::TableSetupColumn(row.heads[i], ImGuiTableColumnFlags_WidthFixed | (is_shown ? 0 : ImGuiTableColumnFlags_Disabled),
                                 std::max(1.0f, row.widths[i]));
     }
 }

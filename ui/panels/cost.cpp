@@ -217,10 +217,9 @@ private:
                      fmt::format("{} of {}, {} each; truth: {}", counted(report.rows.size(), "setting"), name(report.stage),
                                  counted(report.repeats, "turn"), report.truth),
                      &palette().dim);
-        widgets.help(fmt::format("measured on {}{}", report.device.name,
-                                 report.device.software
-                                     ? "\na CPU renders here: times rank methods on this driver only, they model no GPU"
-                                     : ""));
+        widgets.help(fmt::format(
+            "measured on {}{}", report.device.name,
+            report.device.software ? "\na CPU renders here: times rank methods on this driver only, they model no GPU" : ""));
         if (report_base(model.request(), report.stage) != study.base)
             widgets.text("stale", "measured before other stages were changed: measure again", &palette().warning);
     }
