@@ -3,6 +3,7 @@
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
 #   ./build.sh test     build and run the whole test suite
+#   ./build.sh sanitize build with clang and run the tests that need no device under address and undefined-behavior sanitizers
 #   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -15,8 +16,8 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip)
-fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev)
+clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -89,13 +90,18 @@ case "${1:-build}" in
         build tests
         ctest --preset tests
         ;;
+    sanitize)
+        install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
+        build asan unit_tests
+        ctest --preset asan
+        ;;
     fuzz)
-        install_missing "${packages[@]}" "${fuzz_packages[@]}"
+        install_missing "${packages[@]}" "${clang_packages[@]}"
         build fuzz
         for name in reader gltf deep; do fuzz "$name" "${2:-60}"; done
         ;;
     *)
-        sed -n '2,7p' "$0" >&2
+        sed -n '2,8p' "$0" >&2
         exit 2
         ;;
 esac

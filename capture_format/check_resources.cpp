@@ -80,10 +80,10 @@ bool affine(const glm::dmat4& matrix) {
 
 void inspect_draw(Inspection& inspection, const ResourceShapes& resources, const Draw& draw) {
     inspection.expect(draw.name.size() <= longest_text, "names may have {} bytes", longest_text);
-    const bool indexed =
-        inspection.expect(draw.mesh < resources.meshes.size(), "it draws mesh {} of {}", draw.mesh, resources.meshes.size()) &
-        inspection.expect(draw.material < resources.materials.size(), "it uses material {} of {}", draw.material,
-                          resources.materials.size());
+    const bool has_mesh =
+        inspection.expect(draw.mesh < resources.meshes.size(), "it draws mesh {} of {}", draw.mesh, resources.meshes.size());
+    const bool has_material = inspection.expect(draw.material < resources.materials.size(), "it uses material {} of {}",
+                                                draw.material, resources.materials.size());
     inspection.expect(affine(draw.to_world), "to_world must be finite with the last row 0 0 0 1");
     inspection.expect(affine(draw.previous_to_world), "previous_to_world must be finite with the last row 0 0 0 1");
     inspection.expect(known(draw.mobility, Mobility::moving), "there is no mobility {}",
@@ -92,7 +92,7 @@ void inspect_draw(Inspection& inspection, const ResourceShapes& resources, const
                       static_cast<std::uint32_t>(draw.resolution));
     inspection.expect(draw.layer <= last_layer, "layers are 0 to {}, not {}", last_layer, draw.layer);
     // An earlier failure may be that material's own bad uv set.
-    if (indexed && !inspection.failed())
+    if (has_mesh && has_material && !inspection.failed())
         inspect_uv_sets(inspection, resources.meshes[draw.mesh], resources.materials[draw.material]);
 }
 

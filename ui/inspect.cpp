@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "capture_format/reader.h"
 #include "ui/script.h"
 #include "ui/window.h"
 
@@ -79,6 +80,10 @@ Result<void> show_window(const InspectOptions& options) {
         if (inspector->is_closing()) break;
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;
+        if (const auto capture = Capture::open(dropped, options.partial); !capture) {
+            inspector->refuse(capture.error());
+            continue;
+        }
         layout = inspector->layout();
         inspector =
             std::make_unique<Inspector>((*window)->layer(), model_of(dropped, options, {}), opener(dropped, options), layout);

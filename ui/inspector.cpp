@@ -11,6 +11,7 @@ namespace strata::ui {
 namespace {
 
 constexpr float splitter_width = 5, least_region = 80;
+constexpr double refusal_seconds = 10;
 
 /// The keys that are no panel's.
 struct OwnKey {
@@ -55,6 +56,12 @@ void Inspector::say_what_was_opened(const CaptureFacts& facts) {
         fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), counted(facts.frames, "frame"),
                     facts.device.name, facts.device.driver, facts.device.driver_version));
     for (const std::string& sentence : facts.left_out) say(LogLine::Kind::warned, sentence);
+}
+
+void Inspector::refuse(const Error& error) {
+    say(LogLine::Kind::failed, error.sentence);
+    refusal_ = error.sentence;
+    refusal_ends_ = seconds_ + refusal_seconds;
 }
 
 void Inspector::take_results() {
@@ -291,6 +298,10 @@ void Inspector::draw_region(Area area, ImVec2 size) {
 
 void Inspector::draw_status() {
     const auto scope = widgets_.in("status");
+    if (seconds_ < refusal_ends_) {
+        widgets_.text("refused", refusal_.substr(0, refusal_.find('\n')), &palette().bad);
+        return;
+    }
     if (!last_error_.empty()) {
         const bool has_good = last_replay_ != nullptr;
         const std::string line = last_error_.substr(0, last_error_.find('\n'));

@@ -34,6 +34,8 @@ public:
     bool is_settled() const;
     /// Somebody asked to close the window.
     bool is_closing() const { return is_closing_; }
+    /// Says why something is not done, in the log and for a while in place of the command line. What is open stays.
+    void refuse(const Error&);
     /// "smoke.strata, frame 0 - Strata on llvmpipe".
     std::string title() const;
 
@@ -78,6 +80,8 @@ private:
     std::vector<LogLine> log_;
     double seconds_ = 0;
     std::string last_error_;  ///< that the log has
+    std::string refusal_;
+    double refusal_ends_ = 0;
     std::shared_ptr<const Replay> last_replay_;
     bool keys_are_shown_ = false, is_closing_ = false, saves_window_ = false;
     bool was_busy_ = false;  ///< as the frame before left it

@@ -30,7 +30,7 @@ float read_value(exr_pixel_type_t type, const std::byte* from) {
 
 }  // namespace
 
-void DeepBlock::Storage::Free::operator()(libdeflate_decompressor* inflater) const { libdeflate_free_decompressor(inflater); }
+void DeepBlock::Storage::Free::operator()(libdeflate_decompressor* freed) const { libdeflate_free_decompressor(freed); }
 
 Error DeepFile::damaged(const Place& place, std::string_view what) {
     return fail(Fault::bad_input, "the block of pixels at ({}, {}) {}", place.window.x, place.window.y, what);

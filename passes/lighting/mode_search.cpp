@@ -23,7 +23,7 @@ public:
         for (const Scene& scene : problem.scenes)
             for (const auto& [spectrum, tiles] : scene.tiles) spectra_.push_back(spectrum);
         std::ranges::sort(spectra_);
-        spectra_.erase(std::ranges::unique(spectra_).begin(), spectra_.end());
+        spectra_.erase(std::unique(spectra_.begin(), spectra_.end()), spectra_.end());
         // A sum over scenes is one scene with all their tiles.
         weights_.assign(problem.aim == Aim::sum ? 1 : std::max<std::size_t>(1, problem.scenes.size()),
                         std::vector<double>(spectra_.size()));

@@ -47,8 +47,8 @@ Piece rectangle(const PlacedLight& at) {
 
 Piece disc(const PlacedLight& at) {
     const double radius = double(at.light->source_radius);
-    const auto [x, y] = perpendiculars(at.direction);
-    return [=, offset = at.offset, normal = at.direction](dvec2 p) {
+    const auto [across, up] = perpendiculars(at.direction);
+    return [=, x = across, y = up, offset = at.offset, normal = at.direction](dvec2 p) {
         const double angle = 2 * pi * p.y;
         const dvec3 to = offset + radius * p.x * (x * std::cos(angle) + y * std::sin(angle));
         return EmitterPoint{to, solid_angle(to, normal, 2 * pi * radius * radius * p.x)};
@@ -60,8 +60,8 @@ Piece sphere(const PlacedLight& at, const dvec3& normal) {
     const double radius = double(at.light->source_radius), d = std::max(glm::length(at.offset), 1e-6);
     const dvec3 axis = d > 1e-6 ? at.offset / d : normal;
     const double share = std::min(1.0, radius * radius / (d * d)), cap = share / (1 + std::sqrt(1 - share));  // 1 - cos
-    const auto [x, y] = perpendiculars(axis);
-    return [=](dvec2 p) {
+    const auto [across, up] = perpendiculars(axis);
+    return [=, x = across, y = up](dvec2 p) {
         const double angle = 2 * pi * p.y, cosine = 1 - cap * p.x, sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
         const double near = d * cosine - std::sqrt(std::max(0.0, radius * radius - d * d * sine * sine));
         const dvec3 direction = axis * cosine + (x * std::cos(angle) + y * std::sin(angle)) * sine;

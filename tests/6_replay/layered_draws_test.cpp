@@ -1,6 +1,7 @@
 // Draws into all layers of an array at once, the layer chosen by a vertex shader or by a geometry shader.
 #include <array>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/session.h"
@@ -61,8 +62,8 @@ enum class LayerFrom { vertex_shader, geometry_shader };
 /// Instances 0 to 2 of a triangle over the left half, at depth .5, and three layers to draw them into.
 struct LayeredFrame : TestFrame {
     explicit LayeredFrame(LayerFrom chosen) : from(chosen) {
-        shader("choosing.vert", std::string(corners_block) + layer_from_vertex);
-        shader("sorting.vert", std::string(corners_block) + value_from_vertex);
+        shader("choosing.vert", fmt::format("{}{}", corners_block, layer_from_vertex));
+        shader("sorting.vert", fmt::format("{}{}", corners_block, value_from_vertex));
         shader("sorting.geom", layer_from_geometry);
         shader("choosing.frag", paint_value);
         const std::vector<glm::vec3> corners = {{-1, -1, .5}, {-1, 3, .5}, {0, -1, .5}, {0, -1, .5}, {-1, 3, .5}, {0, 3, .5}};

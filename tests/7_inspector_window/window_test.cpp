@@ -10,6 +10,7 @@
 
 #include "replay/image_io.h"
 #include "tests/7_inspector_window/driven_window.h"
+#include "tests/7_inspector_window/drop_file.h"
 #include "tests/7_inspector_window/pictures.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
@@ -37,12 +38,16 @@ public:
     ShaderFolder shaders;
     std::unique_ptr<DrivenWindow> window;
     std::string recorded_command;
+    std::string shown = capture;  ///< the stem of the capture that is open
 
     /// The line that *Copy command* puts into the clipboard.
     std::string copied_command();
     /// The folder of files that a replay of the line writes; each line is replayed once.
     std::filesystem::path replayed(const std::string& command);
-    HostImage headless_picture(const std::string& command) { return must(read_png(replayed(command) / png)); }
+    std::filesystem::path headless_file(const std::string& command, const char* extension) {
+        return replayed(command) / fmt::format("{}.f0000.{}", shown, extension);
+    }
+    HostImage headless_picture(const std::string& command) { return must(read_png(headless_file(command, "png"))); }
 
     /// Screen and Shift+F12 agree, and the picture at 1:1 is that of the headless replay, as far as neither pin nor anything
     /// else the caller names lies over it.
@@ -51,8 +56,6 @@ public:
     void expect_image();
     /// Where a texel of the picture at 1:1 is on the screen.
     std::pair<int, int> on_screen(const std::string& path, int x, int y) const;
-
-    static constexpr const char *png = "smoke_grenade.f0000.png", *exr = "smoke_grenade.f0000.exr";
 
 private:
     std::map<std::string, std::filesystem::path> replayed_;
@@ -252,9 +255,28 @@ void saves(Sitting& at) {
     const std::filesystem::path stem = folder() / "smoke_grenade_0_display";
     EXPECT_EQ(must(read_png(stem.string() + ".png")).texels, at.headless_picture(command).texels);
     EXPECT_EQ(must(read_exr(stem.string() + ".exr")).at("display").texels,
-              must(read_exr(at.replayed(command) / Sitting::exr)).at("display").texels);
+              must(read_exr(at.headless_file(command, "exr"))).at("display").texels);
     std::ifstream file(stem.string() + ".json");
     EXPECT_EQ(nlohmann::json::parse(file)["strata.command"], command);
+    at.expect_image();
+}
+
+void takes_what_is_dropped(Sitting& at) {
+    const std::filesystem::path notes = folder() / "notes.txt", other = folder() / "another capture.strata";
+    std::ofstream(notes) << "no capture";
+    const Seen before = at.window->look();
+    const auto [x, y] = at.on_screen("Image/picture", 0, 0);
+    drop_file(notes, "Strata", x, y);
+    EXPECT_THAT(at.window->look().said("status/refused"), HasSubstr("notes.txt"));
+    EXPECT_EQ(at.window->seen().command, before.command) << "what was open stays";
+    const Finished recorded =
+        strata(fmt::format("record glass_and_smoke -o '{}' --size {}x{}", other.string(), picture_width, picture_height));
+    ASSERT_EQ(recorded.code, 0) << recorded.err;
+    drop_file(other, "Strata", x, y);
+    EXPECT_THAT(at.window->look().title, StartsWith("another capture.strata, frame 0"));
+    EXPECT_FALSE(at.window->seen().at("top/undo").enabled);
+    at.shown = "another capture";
+    at.window->click("Image/100 %");
     at.expect_image();
 }
 
@@ -277,6 +299,7 @@ TEST(InspectorWindow, ShowsOnTheScreenWhatASessionOfMouseAndKeysDoes) {
         {"keeps the picture where a shader is broken", keeps_the_picture_where_a_shader_is_broken},
         {"undoes", undoes},
         {"saves", saves},
+        {"takes what is dropped", takes_what_is_dropped},
         {"closes", closes},
     };
     Sitting at;

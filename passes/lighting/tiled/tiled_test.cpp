@@ -45,7 +45,7 @@ TEST(TileLists, AnEmptyTileHasNoLightsAndAPixelIsATile) {
 }
 
 TEST(TileLists, HoldEveryLightInIndexOrderHoweverMany) {
-    for (const std::size_t n : {1, 31, 32, 33, 63, 64, 65, 255, 256, 257, 4095, 4096}) {
+    for (const std::size_t n : {1u, 31u, 32u, 33u, 63u, 64u, 65u, 255u, 256u, 257u, 4095u, 4096u}) {
         OneTile tile;
         tile.scene.lights.assign(n, omni({0, 0, 10}, 4));
         const MirroredTile all = tile.cull();

@@ -37,7 +37,7 @@ TEST(ABuffer, IsAsExactAsItsFormatsUpToNineLayersInAnyOrder) {
     std::vector<Fragment> fragments;
     for (int i = 0; i < 9; ++i) fragments.push_back(layer(1 + i, .1 + .05 * i, 1. / (1 + i)));
     for (int turn = 0; turn < 9; ++turn) {
-        std::ranges::rotate(fragments, fragments.begin() + 1);
+        std::rotate(fragments.begin(), fragments.begin() + 1, fragments.end());
         const glm::dvec3 exact = exact_blend(fragments, glm::dvec3(.3));
         for (const StoredAs kind : {StoredAs::mono, StoredAs::rgb}) {
             const glm::dvec3 error = glm::abs(a_buffer_blend(fragments, glm::dvec3(.3), 9, kind) - exact) / exact;
