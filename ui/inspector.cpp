@@ -30,6 +30,9 @@ constexpr OwnKey own_keys[] = {
     {"ctrl+q", "close the window"},
 };
 
+/// What a line of the status has room for; the log has it all.
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 bool is_down(std::string_view chord) { return is_pressed(*chord_of(chord)); }
 
 }  // namespace
@@ -299,14 +302,15 @@ void Inspector::draw_region(Area area, ImVec2 size) {
 void Inspector::draw_status() {
     const auto scope = widgets_.in("status");
     if (seconds_ < refusal_ends_) {
-        widgets_.text("refused", refusal_.substr(0, refusal_.find('\n')), &palette().bad);
+        widgets_.text("refused", first_line(refusal_), &palette().bad);
         return;
     }
     if (!last_error_.empty()) {
         const bool has_good = last_replay_ != nullptr;
-        const std::string line = last_error_.substr(0, last_error_.find('\n'));
-        widgets_.text("error", fmt::format("{}{}", line, has_good ? "  (what is shown is the last replay that worked)" : ""),
-                      &palette().bad);
+        widgets_.text(
+            "error",
+            fmt::format("{}{}", first_line(last_error_), has_good ? "  (what is shown is the last replay that worked)" : ""),
+            &palette().bad);
         return;
     }
     widgets_.text("command", model_.command_line(), &palette().dim);
