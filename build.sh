@@ -2,8 +2,9 @@
 # Builds Strata on Debian 12 and runs it. Installs what is missing with apt.
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
-#   ./build.sh test     build and run the whole test suite
-#   ./build.sh sanitize build with clang and run the tests that need no device under address and undefined-behavior sanitizers
+#   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and choices
+#   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers;
+#                       ./build.sh sanitize all: every test that needs no device
 #   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -18,6 +19,8 @@ packages=(
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
+
+usage() { sed -n '2,8p' "$0" >&2; exit 2; }
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -67,7 +70,7 @@ fuzz() {
     local options=(-max_total_time=$seconds -timeout=20 -rss_limit_mb=3000 -max_len=8192 -artifact_prefix="$out/$name-" -print_final_stats=1)
     [ ! -f "tests/fuzz/$name.dict" ] || options+=(-dict="tests/fuzz/$name.dict")
     say "fuzzing $name"
-    if ! "build-fuzz/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
+    if ! "build-sanitize/${name}_fuzzer" "$out/$name" "${options[@]}" >"$out/$name.log" 2>&1; then
         tail -n 60 "$out/$name.log" >&2
         return 1
     fi
@@ -88,20 +91,30 @@ case "${1:-build}" in
     test)
         install_missing "${packages[@]}" "${test_packages[@]}"
         build tests
-        ctest --preset tests
+        case "${2:-}" in
+            all) ctest --preset all ;;
+            "") ctest --preset tests ;;
+            *) usage ;;
+        esac
         ;;
     sanitize)
         install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
-        build asan unit_tests
-        ctest --preset asan
+        programs=(test_1_capture)
+        case "${2:-}" in
+            all) programs+=(test_2_graph test_4_references test_5_facts test_8_rules) ;;
+            "") ;;
+            *) usage ;;
+        esac
+        build sanitize "${programs[@]}"
+        for program in "${programs[@]}"; do
+            say "$program under sanitizers"
+            "build-sanitize/$program" --gtest_brief=1
+        done
         ;;
     fuzz)
-        install_missing "${packages[@]}" "${clang_packages[@]}"
-        build fuzz
+        install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
+        build sanitize fuzzers
         for name in reader gltf deep; do fuzz "$name" "${2:-60}"; done
         ;;
-    *)
-        sed -n '2,8p' "$0" >&2
-        exit 2
-        ;;
+    *) usage ;;
 esac

@@ -1,11 +1,11 @@
 // Texts are expect sections of version 1, their images expect sections of version 2 before them, in the grammar of blobs.
 #include "capture_format/expectation_writer.h"
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/picture.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
+#include "capture_format/container/picture.h"
+#include "capture_format/container/whole_file.h"
 #include "capture_format/recorder.h"
-#include "capture_format/whole_file.h"
 
 namespace strata {
 

@@ -7,12 +7,12 @@
 
 #include <xxhash.h>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/decode_frame.h"
-#include "capture_format/frame_delta.h"
-#include "capture_format/picture.h"
-#include "capture_format/upgrade.h"
+#include "capture_format/codec/decode_frame.h"
+#include "capture_format/codec/frame_delta.h"
+#include "capture_format/codec/upgrade.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
+#include "capture_format/container/picture.h"
 
 namespace strata {
 

@@ -12,9 +12,9 @@
 #include <thread>
 #include <utility>
 
-#include "capture_format/container.h"
-#include "capture_format/frame_writer.h"
-#include "capture_format/picture.h"
+#include "capture_format/codec/frame_writer.h"
+#include "capture_format/container/container.h"
+#include "capture_format/container/picture.h"
 #include "capture_format/recording_queue.h"
 
 namespace strata {

@@ -166,7 +166,7 @@ std::vector<Frame> nothing_in_sight() {
 
 std::vector<Frame> one_layer_mid_range() { return {frame_of({grey(metres(0), .7f, .5f)}, glm::vec3(.2f))}; }
 
-constexpr auto table = std::to_array<HardCase>({
+constexpr auto hard_case_table = std::to_array<HardCase>({
     {"H1a cards far apart", "of three opaque cards .1 apart in the logarithm of depth on [-1, 1], is only the first seen?",
      HardMeasure::error, .01, cards_far_apart},
     {"H1b cards close", "the same at .02", HardMeasure::error, .01, cards_at_a_fiftieth},
@@ -201,6 +201,6 @@ constexpr auto table = std::to_array<HardCase>({
 
 }  // namespace
 
-std::span<const HardCase> hard_cases() { return table; }
+std::span<const HardCase> hard_cases() { return hard_case_table; }
 
 }  // namespace strata

@@ -1,5 +1,5 @@
-// The frames on which methods of transparency come to grief, small and computable by hand (transparency chapter 8, H1 to H16).
-// What a technique makes of them is measured by replay/report/hard_cases.h.
+// The frames on which methods of transparency come to grief, small and computable by hand (docs/algorithms/transparency.md 8, H1
+// to H16). What a technique makes of them is measured by replay/report/hard_cases.h.
 #pragma once
 
 #include <span>
@@ -26,7 +26,7 @@ struct HardCase {
     std::vector<Frame> (*build)() = nullptr;
 };
 
-/// All of them, in the chapter's order.
+/// All of them, in the order of docs/algorithms/transparency.md 8.
 std::span<const HardCase> hard_cases();
 
 }  // namespace strata

@@ -10,7 +10,7 @@
 namespace strata {
 namespace {
 
-constexpr auto table = std::to_array<Scenario>({
+constexpr auto scenario_table = std::to_array<Scenario>({
     {"three_cards", "What leaks through three almost opaque cards at almost one depth?", 160, 90, scenario::three_cards},
     {"smoke_grenade", "Is a character seen inside thick smoke, or through it?", 320, 180, scenario::smoke_grenade},
     {"glass_and_smoke", "Do colored glass, smoke and a lit room agree about what lies between them?", 160, 90,
@@ -70,11 +70,11 @@ constexpr auto table = std::to_array<Scenario>({
 
 }  // namespace
 
-std::span<const Scenario> scenarios() { return table; }
+std::span<const Scenario> scenarios() { return scenario_table; }
 
 Result<const Scenario*> find_scenario(std::string_view name) {
     std::vector<std::string_view> names;
-    for (const Scenario& scenario : table) {
+    for (const Scenario& scenario : scenario_table) {
         if (scenario.name == name) return &scenario;
         names.push_back(scenario.name);
     }

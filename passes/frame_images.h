@@ -17,12 +17,15 @@
 
 namespace strata {
 
+class SceneFacts;  // passes/scene/scene_facts.h
+
 struct FrameImages {
     // What is recorded.
     const Frame* recorded = nullptr;
     const Features* features = nullptr;
-    Extent extent;              ///< of the view; depth 1
-    std::uint32_t samples = 1;  ///< 1 or 4
+    const SceneFacts* facts = nullptr;  ///< derived from `recorded`: what declarations ask instead of walking the frame
+    Extent extent;                      ///< of the view; depth 1
+    std::uint32_t samples = 1;          ///< 1 or 4
     // What it is drawn on.
     Capabilities capabilities;
 

@@ -10,26 +10,9 @@
 
 #include "capture_format/frame_features.h"
 #include "passes/reference/image.h"
+#include "passes/stage.h"
 
 namespace strata {
-
-enum class Stage : std::uint32_t {
-    culling,
-    shadows,
-    extinction,
-    gbuffer,
-    edges,
-    rain,
-    occlusion,
-    indirect,
-    lighting,
-    sun_shafts,
-    combine,
-    transparency,
-    lens,
-    film,
-    count_,
-};
 
 /// Images of a frame by the names of frame_images.h, read back or computed in double.
 using ImageSet = std::map<std::string, ReferenceImage, std::less<>>;

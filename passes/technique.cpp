@@ -72,6 +72,8 @@ void place(std::span<std::byte> block, std::size_t offset, T value) {
 
 }  // namespace
 
+std::string_view name(ModelKind kind) { return kind == ModelKind::mirror ? "mirror" : "paper"; }
+
 Settings::Settings(std::span<const Param> params) : params_(params) {
     for (const Param& param : params) values_.push_back(param.fallback);
 }
@@ -114,6 +116,12 @@ void Settings::write(std::span<std::byte> block) const {
         else  // int32 and uint32 have the same bits where both can hold the value
             place(block, param.offset, static_cast<std::uint32_t>(static_cast<std::int64_t>(values_[i])));
     }
+}
+
+Tolerance tolerance_at(const Tolerance& tolerance, std::string_view settings, std::string_view scenario) {
+    for (const ToleranceException& row : tolerance.exceptions)
+        if (row.settings == settings && row.scenario == scenario) return {row.rmse, row.worst, row.because};
+    return tolerance;
 }
 
 }  // namespace strata

@@ -15,7 +15,6 @@
 #include "passes/capability.h"
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
-#include "passes/reference/fragments.h"
 #include "passes/stages.h"
 
 namespace strata {
@@ -145,11 +144,28 @@ struct ShaderVariants {
 /// The method on whole images: returns the stage's outputs.
 using Model = ImageSet (*)(const StageInput&, const Settings&);
 
+/// A frame on which the GPU may be farther from the model than on all others: without it the tolerance would hide bugs on those.
+struct ToleranceException {
+    std::string_view settings;  ///< as Settings::lines() join by spaces: "kind=power8"; empty: the defaults
+    std::string_view scenario;
+    double rmse = 0, worst = 0;
+    std::string_view because;
+};
+/// Where a model comes from. `paper`: from the published formulas alone. `mirror`: where the method is a bit pattern (a hash, a
+/// code, a list made by tests in float) the model repeats the shader's, so a mistake in both goes unseen. A mirror has property
+/// tests beside it, named in its README, that derive what they expect by other arithmetic.
+enum class ModelKind : std::uint32_t { paper, mirror };
+std::string_view name(ModelKind);
+
 /// How far the GPU may be from the model, relative to max(|model|, its root mean square). An empty reason fails a test.
 struct Tolerance {
     double rmse = 0, worst = 0;
     std::string_view because;
+    std::span<const ToleranceException> exceptions = {};
 };
+
+/// The tolerance on a scenario, at settings as in ToleranceException.
+Tolerance tolerance_at(const Tolerance&, std::string_view settings, std::string_view scenario);
 
 /// A hard case (replay/report/hard_cases.h) that a method is known not to hold, and by how much: neither more nor less.
 struct KnownFailure {
@@ -198,6 +214,7 @@ struct Technique {
     AddFunction add = nullptr;
     std::vector<Act> also = {};
     Model model = nullptr;
+    ModelKind model_is = ModelKind::paper;
     Tolerance tolerance = {};
 };
 

@@ -108,6 +108,46 @@ std::span<const char* const> glsl_options() {
     target_sources(${target} PRIVATE ${generated_passes}/embedded_sources.cpp)
 endfunction()
 
+# add_stages(target name...): each folder's stage.cpp, the enumeration of stages and their table, in the order of a frame.
+function(add_stages target)
+    set(declarations "")
+    set(rows "")
+    foreach(stage IN LISTS ARGN)
+        string(APPEND declarations "namespace ${stage} { StageInfo stage(); }\n")
+        string(APPEND rows "        ${stage}::stage(),\n")
+    endforeach()
+    list(JOIN ARGN ",\n    " enumerators)
+    file(CONFIGURE OUTPUT ${generated_passes}/stage.h CONTENT
+"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
+#pragma once
+
+#include <cstdint>
+
+namespace strata {
+
+enum class Stage : std::uint32_t {
+    ${enumerators},
+    count_,
+};
+
+}  // namespace strata
+" @ONLY)
+    file(CONFIGURE OUTPUT ${generated_passes}/stage_table.cpp CONTENT
+"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
+#include \"passes/stages.h\"
+
+namespace strata {
+${declarations}
+std::span<const StageInfo> stages() {
+    static const std::vector<StageInfo> table{
+${rows}    };
+    return table;
+}
+}  // namespace strata
+" @ONLY)
+    target_sources(${target} PRIVATE ${generated_passes}/stage_table.cpp)
+endfunction()
+
 # The table of techniques.
 function(write_technique_table target)
     set(declarations "")

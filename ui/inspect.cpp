@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "capture_format/reader.h"
-#include "ui/script.h"
-#include "ui/window.h"
+#include "ui/script/script.h"
+#include "ui/window/window.h"
 
 namespace strata::ui {
 namespace {

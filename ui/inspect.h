@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata::ui {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "replay/counted.h"
-#include "ui/keys.h"
-#include "ui/keys_list.h"
-#include "ui/widget_tree.h"
+#include "ui/widgets/keys_list.h"
+#include "ui/widgets/widget_tree.h"
+#include "ui/window/keys.h"
 
 namespace strata::ui {
 namespace {
@@ -135,7 +135,7 @@ void Inspector::press_keys() {
     if (is_down("ctrl+g")) go_to_pixel_.open();
     if (is_down("shift+f12")) saves_window_ = true;
     if (is_down("ctrl+q")) is_closing_ = true;
-    // With the right button held they fly (ui/camera.h).
+    // With the right button held they fly (ui/picture/camera.h).
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Right)) press_panel_keys();
 }
 

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "ui/frame_rate.h"
-#include "ui/go_to_pixel.h"
-#include "ui/layout.h"
 #include "ui/panel.h"
-#include "ui/save_window.h"
-#include "ui/shader_reload.h"
-#include "ui/theme.h"
+#include "ui/picture/go_to_pixel.h"
+#include "ui/replayer/shader_reload.h"
+#include "ui/window/frame_rate.h"
+#include "ui/window/layout.h"
+#include "ui/window/save_window.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 

@@ -1,5 +1,5 @@
 // strata: the verbs of the command line, and the inspector's.
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/tool.h"
 
 namespace strata {

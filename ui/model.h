@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "replay/session.h"
-#include "ui/imgui_layer.h"
-#include "ui/replayer.h"
+#include "replay/session/session.h"
+#include "ui/replayer/replayer.h"
+#include "ui/window/imgui_layer.h"
 
 namespace strata::ui {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "ui/imgui_layer.h"
 #include "ui/model.h"
-#include "ui/replayer.h"
-#include "ui/widgets.h"
+#include "ui/replayer/replayer.h"
+#include "ui/widgets/widgets.h"
+#include "ui/window/imgui_layer.h"
 
 namespace strata::ui {
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/export/gltf_losses.h"
 #include "capture_format/export/gltf_parts.h"
 #include "capture_format/export/gltf_surfaces.h"
-#include "capture_format/whole_file.h"
 
 namespace strata {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <fmt/core.h>
 
+#include "capture_format/codec/texture_mips.h"
 #include "capture_format/export/gltf_glass.h"
 #include "capture_format/export/png.h"
 #include "capture_format/srgb.h"
-#include "capture_format/texture_mips.h"
 
 namespace strata::to_gltf_parts {
 namespace {

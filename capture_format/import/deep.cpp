@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "capture_format/file.h"
+#include "capture_format/container/file.h"
 #include "capture_format/import/deep_pixel.h"
 #include "capture_format/inspection.h"
 
@@ -20,7 +20,7 @@ namespace {
 /// that no rounding of a vertex or of the rasterizer decides what is covered.
 constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
 
-/// Events below both are dropped by every technique (transparency chapter 0.2).
+/// Events below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
 constexpr double least_alpha = 1e-5;
 
 /// Which channels of a mesh's samples hide what is behind: all, or with chromatic alpha one of three.

@@ -8,8 +8,8 @@
 
 #include <stb_image.h>
 
+#include "capture_format/codec/texture_mips.h"
 #include "capture_format/inspection.h"
-#include "capture_format/texture_mips.h"
 
 namespace strata::gltf {
 namespace {

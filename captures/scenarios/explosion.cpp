@@ -82,7 +82,7 @@ Mesh ripples(float half, std::uint32_t cells) {
     return mesh;
 }
 
-void add_smoke(FrameBuilder& builder) {
+void add_smoke_column(FrameBuilder& builder) {
     Emitter smoke = cloud({"smoke", 200, 0.45, 1.2, 0.36, 0.5f}, builder.add(puff(builder.seed())), builder);
     for (Particle& particle : smoke.particles) particle.color = glm::vec3(static_cast<float>(0.08 + 0.08 * particle.center.y));
     builder.frame.emitters.push_back(std::move(smoke));
@@ -100,7 +100,7 @@ Frame explosion(std::uint32_t frame, const ScenarioOptions& options) {
     add_crate(builder, builder.add(lambert("wood", {0.45f, 0.28f, 0.12f})), glm::dvec3(0.4),
               {.position = {1.5, 0, -0.6}, .yaw = 0.4});
     People(builder).add(builder, builder.add(lambert("coat", {0.1f, 0.2f, 0.5f})), {.position = {-1.6, 0, -1}, .yaw = 0.3});
-    add_smoke(builder);
+    add_smoke_column(builder);
     add_fire(builder);
     Material hot_air = unlit("hot air", {0.9f, 0.85f, 0.8f, 0.04f});
     hot_air.distortion = 0.02f;

@@ -44,7 +44,7 @@ void add_cars(FrameBuilder& builder) {
     }
 }
 
-void add_smoke(FrameBuilder& builder) {
+void add_plume(FrameBuilder& builder) {
     Emitter smoke;
     smoke.name = "smoke between glass and cars";
     smoke.texture = builder.add(puff(builder.seed()));
@@ -75,7 +75,7 @@ Frame facade_at_150m(std::uint32_t frame, const ScenarioOptions& options) {
     builder.draw(builder.add(box({16, 0.1f, 4})), builder.add(lambert("street", glm::vec3(0.25f))), {.position = {0, -0.1, -2}});
     add_cars(builder);
     add_facade(builder);
-    add_smoke(builder);
+    add_plume(builder);
     builder.frame.hemisphere = {.sky = {0.9f, 1, 1.1f}, .ground = {0.3f, 0.28f, 0.25f}};
     builder.frame.background = {0.7f, 0.8f, 1};
     return std::move(builder.frame);

@@ -82,7 +82,7 @@ void add_plant(FrameBuilder& builder) {
     }
 }
 
-void add_smoke(FrameBuilder& builder) {
+void add_haze(FrameBuilder& builder) {
     Emitter smoke;
     smoke.name = "smoke between the panes";
     smoke.texture = builder.add(puff(builder.seed()));
@@ -125,7 +125,7 @@ Frame glass_and_smoke(std::uint32_t frame, const ScenarioOptions& options) {
     const std::uint32_t sheet = builder.add(quad({0.7f, 0.9f}));
     builder.draw(sheet, builder.add(pane("amber glass", {0.95f, 0.6f, 0.15f})), {.position = {-0.2, 1.0, 0.1}, .yaw = 0.25});
     builder.draw(sheet, builder.add(pane("blue glass", {0.15f, 0.45f, 0.9f})), {.position = {0.5, 1.0, -1.4}, .yaw = -0.2});
-    add_smoke(builder);
+    add_haze(builder);
     add_lights(builder);
     return std::move(builder.frame);
 }

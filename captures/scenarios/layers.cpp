@@ -90,7 +90,7 @@ Frame pane_at_the_lens(std::uint32_t frame, const ScenarioOptions& options) {
     return std::move(stage.builder.frame);
 }
 
-/// Over white the overlap is exactly (0.2, 0.2, 0.04): transparency chapter, oracle R3.
+/// Over white the overlap is exactly (0.2, 0.2, 0.04): docs/algorithms/transparency.md R3.
 Frame red_and_green_glass(std::uint32_t frame, const ScenarioOptions& options) {
     Stage stage(frame, options);
     stage.builder.frame.materials[0] = unlit("white wall", glm::vec4(1));
@@ -119,7 +119,7 @@ Frame foggy_panes(std::uint32_t frame, const ScenarioOptions& options) {
 }
 
 /// Two columns of 200 panes of alpha .01 over black, each greys i / 199: nearest darkest on the left, nearest brightest on the
-/// right. All that is seen are two numbers, .296181 (transparency chapter, oracle R6) and .569839.
+/// right. All that is seen are two numbers, .296181 (docs/algorithms/transparency.md R6) and .569839.
 Frame thin_layers(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 0, 0}, .target = {0, 0, -4}, .swing = 0.1});

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "capture_format/codec/texture_mips.h"
 #include "capture_format/srgb.h"
-#include "capture_format/texture_mips.h"
 #include "captures/scenarios/random.h"
 
 namespace strata::scenario {

@@ -19,7 +19,8 @@ SurfacePoint surface(const StageInput& input, const ComposedSample& at) {
     return decoded_surface(input.frame, texels, at.x, at.y);
 }
 
-/// Diffuse light that comes from everywhere, after the material's and the screen's occlusion (deferred 8.3: both multiply).
+/// Diffuse light that comes from everywhere, after the material's and the screen's occlusion (docs/algorithms/deferred.md 8.3:
+/// both multiply).
 glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const SurfacePoint& p) {
     if (p.model == LightingModel::unlit) return glm::dvec3(0);
     const glm::dvec3 indirect(texel(input, "indirect", at, glm::dvec4(0)));

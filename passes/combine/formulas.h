@@ -1,4 +1,4 @@
-// Combining and developing a picture in double, from deferred chapter 8: what truth and models compute with.
+// Combining and developing a picture in double, from docs/algorithms/deferred.md 8: what truth and models compute with.
 #pragma once
 
 #include "passes/reference/shade.h"
@@ -17,7 +17,7 @@ glm::dvec3 composed(const StageInput&, const ComposedSample&);
 /// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
 double tone_mapped(double exposed, double white);
 
-/// Display light of a pixel: its samples exposed and tone mapped, then averaged (deferred 3.5).
+/// Display light of a pixel: its samples exposed and tone mapped, then averaged (docs/algorithms/deferred.md 3.5).
 glm::dvec3 developed(const Frame&, const ReferenceImage& color, std::uint32_t x, std::uint32_t y);
 
 /// Whether something is drawn over the combined color before it is developed.

@@ -1,4 +1,4 @@
-// The truth of combining: the formulas of deferred chapter 8 in double, every sample with its own light.
+// The truth of combining: the formulas of docs/algorithms/deferred.md 8 in double, every sample with its own light.
 #pragma once
 
 #include "passes/stages.h"

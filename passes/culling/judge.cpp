@@ -1,7 +1,7 @@
 // Judges a visible set.
 #include "passes/culling/judge.h"
 
-#include "passes/culling/opaque_draws.h"
+#include "passes/reference/fragments.h"
 
 namespace strata {
 

@@ -3,8 +3,8 @@
 
 #include <unordered_map>
 
-#include "passes/culling/opaque_draws.h"
 #include "passes/culling/visible_image.h"
+#include "passes/reference/fragments.h"
 
 namespace strata {
 

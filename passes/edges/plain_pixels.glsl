@@ -1,4 +1,5 @@
-// Pixels whose first sample stands for all: those that are no edge (deferred 3.1). passes/edges/plain_pixels.h binds the edges.
+// Pixels whose first sample stands for all: those that are no edge (docs/algorithms/deferred.md 3.1). passes/edges/plain_pixels.h
+// binds the edges.
 #ifndef PASSES_EDGES_PLAIN_PIXELS_GLSL
 #define PASSES_EDGES_PLAIN_PIXELS_GLSL
 

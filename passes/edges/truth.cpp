@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 4> surface_images = {"gbuffer0", "gbuffer1", "gbuffer2", "emission"};
 
 // Within one triangle all samples carry what was shaded at the pixel's center: they are equal to the bit. A mean of samples
-// is no test: at 8 samples 46.7 % of pixels without an edge differ from theirs (deferred chapter 3.2).
+// is no test: at 8 samples 46.7 % of pixels without an edge differ from theirs (docs/algorithms/deferred.md 3.2).
 bool differs(const ReferenceImage& image, std::uint32_t x, std::uint32_t y) {
     for (std::uint32_t sample = 1; sample < image.layers; ++sample) {
         if (image.at(x, y, sample) != image.at(x, y, 0)) return true;

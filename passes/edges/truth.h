@@ -5,8 +5,8 @@
 
 namespace strata {
 
-/// "edges": 1 where any sample's G-buffer or emission texel differs in any bit from sample 0 (deferred chapter 3.2, D1), or
-/// where only some samples are covered. Empty at one sample.
+/// "edges": 1 where any sample's G-buffer or emission texel differs in any bit from sample 0 (docs/algorithms/deferred.md 3.2,
+/// D1), or where only some samples are covered. Empty at one sample.
 ImageSet edges_truth(const StageInput&);
 
 }  // namespace strata

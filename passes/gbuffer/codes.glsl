@@ -1,4 +1,4 @@
-// Integers in half-float channels, and half floats that no device can round differently (deferred 2.6, 0.3).
+// Integers in half-float channels, and half floats that no device can round differently (docs/algorithms/deferred.md 2.6, 0.3).
 #ifndef PASSES_GBUFFER_CODES_GLSL
 #define PASSES_GBUFFER_CODES_GLSL
 #include "passes/shaders/material_point.glsl"
@@ -20,8 +20,8 @@ uint code_of_half(float value) {
     return ((bits & 0x7fffffffu) >> 13) - 0x1c000u - 0x0400u + (bits >> 31) * codes_per_sign;
 }
 
-// The nearest half float, ties to even, as a float: what a store of undefined rounding (deferred 0.3) then keeps as it is. Below
-// the normal half floats only 0 and 2^-14 are used, because subnormals may be flushed.
+// The nearest half float, ties to even, as a float: what a store of undefined rounding (docs/algorithms/deferred.md 0.3) then
+// keeps as it is. Below the normal half floats only 0 and 2^-14 are used, because subnormals may be flushed.
 float nearest_half(float value) {
     const uint bits = floatBitsToUint(value);
     const float size = uintBitsToFloat(bits & 0x7fffffffu);

@@ -1,4 +1,5 @@
-// Half floats bit by bit, and integer codes in half-float channels (deferred 2.6), for the models. In double and integers.
+// Half floats bit by bit, and integer codes in half-float channels (docs/algorithms/deferred.md 2.6), for the models. In double
+// and integers.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
-#include "passes/texture_uses.h"
+#include "passes/scene/texture_uses.h"
 
 namespace strata::gbuffer {
 namespace {

@@ -14,9 +14,12 @@ struct Sums {
     double surfaces = 0, disagreeing = 0;
 };
 
+// What is not a number is as wrong as can be; std::max and a comparison would pass over it.
+double infinite_if_nan(double error) { return std::isnan(error) ? HUGE_VAL : error; }
+
 // atan2 and not acos: acos loses every angle below 1e-8 in a double, and 0.03 degrees in a float.
 double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+    return infinite_if_nan(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi);
 }
 
 double square(double x) { return x * x; }
@@ -66,7 +69,7 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
         add(sums, got, wanted);
         sums.position += square(position_error(input.frame, i, got.normal.w, wanted.normal.w));
     }
-    const auto rms = [&](double sum) { return std::sqrt(sum / std::max(1.0, sums.surfaces)); };
+    const auto rms = [&](double sum) { return infinite_if_nan(std::sqrt(sum / std::max(1.0, sums.surfaces))); };
     return {{"normal angle rms", "degrees", rms(sums.angle)},    {"normal angle worst", "degrees", sums.worst_angle},
             {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
             {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},

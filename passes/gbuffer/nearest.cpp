@@ -43,6 +43,8 @@ ImageSet surface_images(const Frame& frame, const std::vector<NearestSurface>& s
                     {"surface_material", material},
                     {"emission", emission},
                     {"depth_layers", depth}};
+    images.at("depth_layers").channels = 1;
+    if (frame.view.samples == 1) images.emplace("depth", images.at("depth_layers"));
     for (auto& [name, image] : images) image.undecided = undecided;
     return images;
 }

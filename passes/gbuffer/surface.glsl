@@ -20,7 +20,8 @@ Surface no_surface() { return Surface(false, vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0
 // Whether lights matter to it: what an unlit surface has is emission.
 bool takes_light(Surface s) { return s.exists && s.lighting_model != model_unlit; }
 
-// The G-buffer holds attributes of the pixel's center for every sample, so positions are reconstructed there too (deferred 2.2).
+// The G-buffer holds attributes of the pixel's center for every sample, so positions are reconstructed there too
+// (docs/algorithms/deferred.md 2.2).
 vec3 surface_position(Surface s, uvec2 pixel) { return view_position(vec2(pixel) + 0.5, s.z); }
 
 // What is lit. Emission has an image of its own.

@@ -138,28 +138,28 @@ std::uint32_t member_bytes(const Compiler& compiler, const SPIRType& holder, std
     return runtime_array ? 0 : static_cast<std::uint32_t>(compiler.get_declared_struct_member_size(holder, index));
 }
 
-/// Where a struct lies in a block while it is flattened.
-struct Place {
+/// A struct within a block: the path of its members' names and its offset in the block.
+struct NestedStruct {
     std::string block, path, holder;
     std::uint32_t offset = 0;
 };
 
-void flatten(const Compiler& compiler, const SPIRType& holder, const Place& place, std::vector<BlockMember>& members) {
+void flatten(const Compiler& compiler, const SPIRType& holder, const NestedStruct& nested, std::vector<BlockMember>& members) {
     for (std::uint32_t i = 0; i < holder.member_types.size(); ++i) {
         const SPIRType& type = compiler.get_type(holder.member_types[i]);
         const std::uint32_t offset = compiler.type_struct_member_offset(holder, i);
-        const std::string path = place.path + compiler.get_member_name(holder.self, i);
-        members.push_back({.block = place.block,
+        const std::string path = nested.path + compiler.get_member_name(holder.self, i);
+        members.push_back({.block = nested.block,
                            .name = path,
-                           .offset = place.offset + offset,
+                           .offset = nested.offset + offset,
                            .bytes = member_bytes(compiler, holder, i),
-                           .holder = place.holder,
+                           .holder = nested.holder,
                            .offset_in_holder = offset,
                            .stride = type.array.empty() ? 0 : compiler.type_struct_member_array_stride(holder, i)});
         if (type.basetype != SPIRType::Struct) continue;
         // SPIRV-Cross gives an array of structs the `self` of the struct, which bears the names.
         flatten(compiler, compiler.get_type(type.self),
-                {place.block, path + ".", compiler.get_name(type.self), place.offset + offset}, members);
+                {nested.block, path + ".", compiler.get_name(type.self), nested.offset + offset}, members);
     }
 }
 

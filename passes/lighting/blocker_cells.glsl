@@ -1,7 +1,7 @@
-// A blocker or portal of one light against a cell (lighting chapter 2.3): its shadow is the convex unbounded polyhedron behind the
-// rectangle, within the four planes through the light and an edge. Never wrong: `none` and `full` hold for every point that
-// off_surface() may make of a point of the cell, and what cannot be proven is `partial`. passes/lighting/cells.cpp is the same on
-// the CPU.
+// A blocker or portal of one light against a cell (docs/algorithms/lighting.md 2.3): its shadow is the convex unbounded
+// polyhedron behind the rectangle, within the four planes through the light and an edge. Never wrong: `none` and `full` hold for
+// every point that off_surface() may make of a point of the cell, and what cannot be proven is `partial`.
+// passes/lighting/cells.cpp is the same on the CPU.
 #ifndef PASSES_LIGHTING_BLOCKER_CELLS_GLSL
 #define PASSES_LIGHTING_BLOCKER_CELLS_GLSL
 #include "passes/lighting/cell.glsl"

@@ -1,5 +1,5 @@
-// Cells of view space on the CPU and what a blocker's shadow does to them (lighting chapter 2.3), in float, operation by
-// operation as blocker_cells.glsl has it, or in double.
+// Cells of view space on the CPU and what a blocker's shadow does to them (docs/algorithms/lighting.md 2.3), in float, operation
+// by operation as blocker_cells.glsl has it, or in double.
 #pragma once
 
 #include <array>

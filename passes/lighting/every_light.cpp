@@ -6,8 +6,8 @@
 
 #include "passes/edges/plain_pixels.h"
 #include "passes/reference/decoded.h"
+#include "passes/reference/light_sets.h"
 #include "passes/reference/placed_light.h"
-#include "passes/shadows/shadow_views.h"
 
 namespace strata::lighting {
 namespace {
@@ -28,7 +28,7 @@ EveryLight::EveryLight(const StageInput& input, LightForm form, LightFilter filt
       normal_(&input.before.at("surface_normal")),
       color_(&input.before.at("surface_color")),
       material_(&input.before.at("surface_material")) {
-    for (const Light& light : shadow_lights(input.frame)) {
+    for (const Light& light : shining_lights(input.frame)) {
         lights_.push_back({.light = light,
                            .from = light_point(input.frame, light),
                            .blockers = filter_.asks_blockers ? asked_blockers(input.frame, light, form) : LightBlockers{}});
@@ -37,7 +37,7 @@ EveryLight::EveryLight(const StageInput& input, LightForm form, LightFilter filt
     if (visibility == input.before.end()) return;
     visibility_ = &visibility->second;
     std::uint32_t layer = 0;
-    for (const std::uint32_t light : shadowed_lights(shadow_views(input.frame))) {
+    for (const std::uint32_t light : mapped_lights(input.frame)) {
         lights_[light].visibility_layer = layer;
         layer += input.frame.view.samples;
     }

@@ -16,7 +16,7 @@ enum class LightForm { real_time, exact };
 
 /// What is left out.
 struct LightFilter {
-    /// Whether the pixel's list has the light, by its place in shadow_lights(); none: all are listed.
+    /// Whether the pixel's list has the light, by its place in shining_lights(); none: all are listed.
     std::function<bool(glm::uvec2 pixel, std::size_t light)> lists = {};
     bool asks_blockers = true;  ///< else they let light through
 };

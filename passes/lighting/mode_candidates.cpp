@@ -7,7 +7,7 @@
 namespace strata::lighting {
 namespace {
 
-constexpr std::size_t paired_spectra = 64;  // lighting chapter 3.5
+constexpr std::size_t paired_spectra = 64;  // docs/algorithms/lighting.md 3.5
 
 /// A union of spectra and how many tiles it stands for.
 struct Merged {

@@ -1,5 +1,5 @@
-// What a tile costs that is shaded by a mode with certain feature bits (lighting chapter 3.5): by a weight per bit, from times
-// measured for some sets of bits, or from a compiler's statistics.
+// What a tile costs that is shaded by a mode with certain feature bits (docs/algorithms/lighting.md 3.5): by a weight per bit,
+// from times measured for some sets of bits, or from a compiler's statistics.
 #pragma once
 
 #include <array>
@@ -17,15 +17,16 @@ using ModeCost = std::function<double(std::uint32_t features)>;
 using ModeWaves = std::function<std::uint32_t(std::uint32_t features)>;
 
 /// By bit of light_features.shared.h, relative to a mode without any, which costs 1. Those of blockers, portals, shadows, soft
-/// shadows, square spots, tubes, areas and projected textures are the chapter's example (T3.2); the others are guessed beside
-/// them by what they compute: a branch or two .05 or less, another lobe or two .2 to .35. Measure to know.
+/// shadows, square spots, tubes, areas and projected textures are the example of docs/algorithms/lighting.md T3.2; the others are
+/// guessed beside them by what they compute: a branch or two .05 or less, another lobe or two .2 to .35. Measure to know.
 inline constexpr std::array<double, light_feature_bits> example_weights = {.30, .15, .25, .60, .10, .05, .05, .35,
                                                                            .50, .10, .02, .08, .20, .30, .25, .35};
 
 /// 1 + the weights of the bits.
 double weighted_cost(std::uint32_t features);
 
-/// max(1, reference / waves)^power: fewer waves than a reference hide less latency. The exponent is a guess of the chapter.
+/// max(1, reference / waves)^power: fewer waves than a reference hide less latency. The exponent is the guess of
+/// docs/algorithms/lighting.md 3.5.
 double occupancy_penalty(std::uint32_t waves, std::uint32_t reference, double power = .5);
 
 /// What a compiler says of a mode.

@@ -1,5 +1,5 @@
-// Which N shading modes serve the tiles of one or several scenes at the least cost (lighting chapter 3.5 and 3.7): a p-median
-// with coverage. Greedy additions, then swaps of one mode, then a branch and bound that proves the result or beats it.
+// Which N shading modes serve the tiles of one or several scenes at the least cost (docs/algorithms/lighting.md 3.5 and 3.7): a
+// p-median with coverage. Greedy additions, then swaps of one mode, then a branch and bound that proves the result or beats it.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,9 @@ struct ModeProblem {
     double dispatch = 0;  ///< what a mode costs every frame, used or not, in the unit of cost
     Aim aim = Aim::sum;
     std::uint32_t full = every_light_feature;  ///< the mode that serves whatever comes is always there
-    /// The register target of chapter 3.7: no two modes of a set are one a strict subset of the other and leave room for as many
-    /// waves, since the smaller would skip arithmetic only, which uniform branches do nearly as well. Empty: any set will do.
+    /// The register target of docs/algorithms/lighting.md 3.7: no two modes of a set are one a strict subset of the other and
+    /// leave room for as many waves, since the smaller would skip arithmetic only, which uniform branches do nearly as well.
+    /// Empty: any set will do.
     ModeWaves waves = {};
 };
 

@@ -1,6 +1,6 @@
-// Feature spectra (lighting chapter 3; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018): what a tile's surviving
-// lights and surfaces need, as bits of light_features.shared.h, and the few shading modes, each compiled for a fixed set of bits,
-// that serve them. A mode serves every spectrum that is a subset of its bits.
+// Feature spectra (docs/algorithms/lighting.md 3; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018): what a tile's
+// surviving lights and surfaces need, as bits of light_features.shared.h, and the few shading modes, each compiled for a fixed
+// set of bits, that serve them. A mode serves every spectrum that is a subset of its bits.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Tiles of the screen as cells of view space, and which lights reach them (lighting chapter 1.3 and 1.4). Every test is
-// conservative: it may keep a light that misses and never drops one that adds anything but exactly 0 to a point of the cell.
+// Tiles of the screen as cells of view space, and which lights reach them (docs/algorithms/lighting.md 1.3 and 1.4). Every test
+// is conservative: it may keep a light that misses and never drops one that adds anything but exactly 0 to a point of the cell.
 #ifndef PASSES_LIGHTING_TILE_CELL_GLSL
 #define PASSES_LIGHTING_TILE_CELL_GLSL
 #include "passes/lighting/cell.glsl"

@@ -15,12 +15,12 @@ namespace {
 using glm::dvec2, glm::dvec3, glm::dmat3;
 using Polygon = std::vector<dvec3>;
 
-constexpr double pi = std::numbers::pi;
-constexpr int corners = 16;  // of what is round
+using std::numbers::pi;
+constexpr int outline_corners = 16;  // of what is round
 constexpr double widest_sine_squared = 0.9999;
 
 // A regular polygon of these corners has the area of its circle when it is this much larger.
-const double equal_area = std::sqrt(2 * pi / corners / std::sin(2 * pi / corners));
+const double equal_area = std::sqrt(2 * pi / outline_corners / std::sin(2 * pi / outline_corners));
 
 dvec3 perpendicular(const dvec3& a, const dvec3& b) {
     const dvec3 normal = glm::cross(a, b);
@@ -46,7 +46,7 @@ double angle_of(double radius, double distance) {
 
 Polygon circle(const Rim& rim) {
     Polygon polygon;
-    for (int i = 0; i < corners; ++i) polygon.push_back(rim.at(2 * pi * i / corners));
+    for (int i = 0; i < outline_corners; ++i) polygon.push_back(rim.at(2 * pi * i / outline_corners));
     return polygon;
 }
 
@@ -92,8 +92,8 @@ Polygon tube(const PlacedLight& at, const dvec3& normal) {
     const double split = 0.5 * (std::clamp(touch[0], -2.0, 2.0) + std::clamp(touch[1], -2.0, 2.0));
     const auto touched = [&](int rim, double sign) { return rims[rim].at(sign * std::acos(std::clamp(touch[rim], -1.0, 1.0))); };
     Polygon polygon;
-    for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * pi * i / corners, next = 2 * pi * (i + 1) / corners;
+    for (int i = 0; i < outline_corners; ++i) {
+        const double angle = 2 * pi * i / outline_corners, next = 2 * pi * (i + 1) / outline_corners;
         const int from = std::cos(angle) > split ? 1 : 0, to = std::cos(next) > split ? 1 : 0;
         polygon.push_back(rims[from].center + equal_area * (rims[from].at(angle) - rims[from].center));
         if (from == to) continue;

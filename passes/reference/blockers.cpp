@@ -1,4 +1,5 @@
-// Written from lighting chapter 0.2, 2.2 and 2.6, with the point of crossing in the open; shaders compare without division.
+// Written from docs/algorithms/lighting.md 0.2, 2.2 and 2.6, with the point of crossing in the open; shaders compare without
+// division.
 #include "passes/reference/blockers.h"
 
 #include <algorithm>
@@ -11,11 +12,11 @@
 namespace strata {
 namespace {
 
-// Chapter 2.2: metres a point must lie behind a plane (d_P), and a light before it (d_L; of directional lights a cosine). The
-// chapter has 1 cm for d_P, as much as off_surface() moves a point: the far face of a wall would lie on the threshold, lit
-// through its own blocker. Half of it leaves 5 mm to either side.
+// docs/algorithms/lighting.md 2.2: metres a point must lie behind a plane (d_P), and a light before it (d_L; of directional
+// lights a cosine). off_surface() moves a point by 1 cm; with a d_P of as much, the far face of a wall would lie on the threshold
+// and be lit through its own blocker. Half of it leaves 5 mm to either side.
 constexpr double point_behind = 0.005, light_before = 0.02, direction_before = 1e-3;
-// Chapter 2.2, what blockers grow by: as a share and in metres. Portals that abut grow by `joined` metres.
+// docs/algorithms/lighting.md 2.2, what blockers grow by: as a share and in metres. Portals that abut grow by `joined` metres.
 constexpr double grown = 1e-5, joined = 1e-4;
 constexpr double nearest_offset = 0.01, offset_per_metre = 5e-4;
 

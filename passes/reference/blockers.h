@@ -1,10 +1,10 @@
-// Light blockers and portals in double (lighting chapter 2; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018): a
-// blocker is a rectangle that stops light, a portal a rectangular hole in the one blocker it names. Nothing is projected to the
-// screen: whether a light reaches a point is where the straight way between them passes through each blocker's plane.
+// Light blockers and portals in double (docs/algorithms/lighting.md 2; Kircher, Rendering Technology in Agents of Mayhem, GDC
+// 2018): a blocker is a rectangle that stops light, a portal a rectangular hole in the one blocker it names. Nothing is projected
+// to the screen: whether a light reaches a point is where the straight way between them passes through each blocker's plane.
 //
 // A blocker's rectangle is closed and a portal's open: light does not pass between blockers that share an edge, and a portal
 // without area opens nothing. A portal cuts no other blocker, however near: a door through both faces of a thick wall is two
-// portals (2.10 N16; chapter 0.2 makes two records of it).
+// portals (docs/algorithms/lighting.md 0.2, N16).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ namespace strata {
 inline constexpr std::size_t most_light_blockers = 32, most_light_portals = 32;
 
 /// A blocker in view space: center +- u half_u +- v half_v, v = cross(normal, u). Its halves are 1e-5 of the greater and 1e-5 m
-/// wider than recorded, so that a rounded position between two that share an edge is inside one of them (2.2).
+/// wider than recorded, so that a rounded position between two that share an edge is inside one of them
+/// (docs/algorithms/lighting.md 2.2).
 struct PlacedBlocker {
     glm::dvec3 center{0}, normal{0, 0, 1}, u{1, 0, 0};
     double half_u = 0, half_v = 0;
@@ -55,9 +56,9 @@ struct LightBlockers {
 /// same turn) are made 1e-4 m wider: between open sets there would be a line left over. Use it where light starts from anywhere
 /// on an emitter, with clear_between().
 LightBlockers all_blockers(const Frame&, const Light&);
-/// Of those the ones that can stop light from its position or direction: within its range, its plane not through the light (2.6),
-/// not one-sided away from it. If they are more than most_light_blockers, those of the greatest solid angle seen from the light
-/// (the earlier one of equals); they keep their order.
+/// Of those the ones that can stop light from its position or direction: within its range, its plane not through the light
+/// (docs/algorithms/lighting.md 2.6), not one-sided away from it. If they are more than most_light_blockers, those of the
+/// greatest solid angle seen from the light (the earlier one of equals); they keep their order.
 LightBlockers light_blockers(const Frame&, const Light&);
 
 /// Homogeneous in view space: (position, 1), or (towards the light, 0) of directional ones.
@@ -75,8 +76,8 @@ bool lets_through(const LightBlockers&, const glm::dvec4& light, const glm::dvec
 /// The same from a point of an emitter: what the truth of area lights and tubes asks per sample.
 bool clear_between(const LightBlockers&, const glm::dvec3& position, const glm::dvec3& emitter);
 
-/// Edges as wide as a light of this radius makes them (2.2), and blockers that fade while the light comes through their plane
-/// (2.6).
+/// Edges as wide as a light of this radius makes them (docs/algorithms/lighting.md 2.2), and blockers that fade while the light
+/// comes through their plane (docs/algorithms/lighting.md 2.6).
 struct SoftEdges {
     double radius = 0;  ///< of the source, metres; the tangent of its angular radius when directional; 0 has hard edges
     double fade = 0;    ///< a blocker reaches full strength this far beyond the distance from which it acts; 0 is at once

@@ -1,36 +1,27 @@
-// Bounding spheres of draws in view space.
 #include "passes/reference/bounds.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "passes/reference/shade.h"
+#include "passes/reference/triangles.h"
 
 namespace strata {
 
-Box bounding_box(std::span<const glm::vec3> positions) {
-    if (positions.empty()) return {};
-    Box box{positions.front(), positions.front()};
-    for (const glm::vec3& position : positions) {
-        box.low = glm::min(box.low, glm::dvec3(position));
-        box.high = glm::max(box.high, glm::dvec3(position));
-    }
-    return box;
-}
-
 Sphere bounding_sphere(const Frame& frame, std::uint32_t draw) {
-    const Draw& drawn = frame.draws[draw];
-    return bounding_sphere(frame, drawn, bounding_box(frame.meshes[drawn.mesh].positions));
-}
-
-Sphere bounding_sphere(const Frame& frame, const Draw& draw, const Box& box) {
-    const auto in_view = [&](const glm::dvec3& p) { return to_view(frame, glm::dvec3(draw.to_world * glm::dvec4(p, 1))); };
-    Sphere sphere{in_view(0.5 * (box.low + box.high)), 0};
-    for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
-                                i & 4u ? box.high.z : box.low.z);
-        sphere.radius = std::max(sphere.radius, glm::length(in_view(corner) - sphere.center));
+    const DrawSpace space = draw_space(frame, draw);
+    const std::vector<glm::vec3>& positions = frame.meshes[frame.draws[draw].mesh].positions;
+    if (positions.empty()) return {space.offset, 0};
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const glm::vec3& position : positions) {
+        low = glm::min(low, glm::dvec3(position));
+        high = glm::max(high, glm::dvec3(position));
     }
-    return sphere;
+    // Half edges in view space: each of the four diagonals is a sum of them, and opposite corners are equally far.
+    const glm::dvec3 half = 0.5 * (high - low);
+    const glm::dvec3 x = space.linear[0] * half.x, y = space.linear[1] * half.y, z = space.linear[2] * half.z;
+    const double radius =
+        std::max({glm::length(x + y + z), glm::length(x + y - z), glm::length(x - y + z), glm::length(x - y - z)});
+    return {space.linear * (0.5 * (low + high)) + space.offset, radius};
 }
 
 }  // namespace strata

@@ -10,7 +10,7 @@
 namespace strata {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Reflectance of skin and hair at normal incidence: refraction of 1.4 and of 1.55.
 constexpr double skin_f0 = 0.028, hair_f0 = 0.0465;
 

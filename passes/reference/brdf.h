@@ -1,4 +1,5 @@
-// Reflectance of the lighting models in double, written from the papers and not from the shaders (lighting chapter 0.5).
+// Reflectance of the lighting models in double, written from the papers and not from the shaders
+// (docs/algorithms/lighting.md 0.5).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,7 +8,7 @@ namespace strata {
 
 struct SurfacePoint;
 
-/// Smallest width of a GGX lobe: below it points' highlights alias anyway (lighting chapter 0.5).
+/// Smallest width of a GGX lobe: below it points' highlights alias anyway (docs/algorithms/lighting.md 0.5).
 inline constexpr double smallest_lobe = 0.002;
 /// Smallest cosine of the eye: it keeps the visibility term finite where a mapped normal leans away.
 inline constexpr double smallest_cosine = 1e-4;

@@ -1,6 +1,7 @@
 #include "passes/reference/difference.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace strata {
@@ -16,22 +17,31 @@ double percentile(std::span<const double> ascending, double share) {
     return ascending[std::clamp<std::size_t>(rank, 1, ascending.size()) - 1];
 }
 
+double signed_error(double got, double wanted) {
+    if (got == wanted || (std::isnan(got) && std::isnan(wanted))) return 0;
+    const double error = got - wanted;
+    return std::isnan(error) ? HUGE_VAL : error;
+}
+
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted) {
+    assert(got.width == wanted.width && got.height == wanted.height && got.layers == wanted.layers);
     Difference d;
     double squares = 0, power = 0;
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
         if (!decided(got, wanted, i)) continue;
-        const glm::dvec3 right(wanted.texels[i]), error = glm::dvec3(got.texels[i]) - right;
-        squares += glm::dot(error, error);
-        power += glm::dot(right, right);
-        d.bias += error.x + error.y + error.z;
-        d.worst = std::max({d.worst, std::abs(error.x), std::abs(error.y), std::abs(error.z)});
+        for (int c = 0; c < 3; ++c) {
+            const double right = wanted.texels[i][c], error = signed_error(got.texels[i][c], right);
+            squares += error * error;
+            power += std::isfinite(right) ? right * right : 0;
+            d.bias += error;
+            d.worst = std::max(d.worst, std::abs(error));
+        }
         ++d.compared;
     }
     const double values = std::max(1.0, 3.0 * double(d.compared));
     d.rmse = std::sqrt(squares / values);
     d.relative = power > 0 ? std::sqrt(squares / power) : d.rmse;
-    d.bias /= values;
+    d.bias = std::isnan(d.bias) ? HUGE_VAL : d.bias / values;  // infinities of both signs
     return d;
 }
 

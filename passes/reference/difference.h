@@ -7,7 +7,7 @@
 
 namespace strata {
 
-/// Over the three color channels of every decided texel.
+/// Over the three color channels of every decided texel. A channel that is NaN in one image alone is infinitely wrong.
 struct Difference {
     double rmse = 0;
     double relative = 0;  ///< rmse over the root mean square of what was wanted; rmse where that is zero
@@ -16,7 +16,11 @@ struct Difference {
     std::size_t compared = 0;
 };
 
+/// Images of one extent.
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted);
+
+/// got - wanted; 0 where they are equal, infinities and NaN, too; infinite where one of them alone is NaN.
+double signed_error(double got, double wanted);
 
 /// The smallest of the ascending values that at least `share` percent of them do not exceed (nearest rank); 0 of none.
 double percentile(std::span<const double> ascending, double share);

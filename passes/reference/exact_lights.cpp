@@ -14,7 +14,7 @@ namespace strata {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Lobes wider than this need no search for their peak.
 constexpr double wide_lobe = 0.25;
 
@@ -36,7 +36,7 @@ std::array<dvec3, 2> perpendiculars(const dvec3& axis) {
     return {x, glm::cross(axis, x)};
 }
 
-Piece rectangle(const PlacedLight& at) {
+Piece emitting_rectangle(const PlacedLight& at) {
     const dvec3 u = at.axis_u * double(at.light->half_extent.x), v = at.axis_v * double(at.light->half_extent.y);
     return [=, offset = at.offset, normal = at.direction](dvec2 p) {
         const dvec2 place = 2.0 * p - 1.0;
@@ -45,7 +45,7 @@ Piece rectangle(const PlacedLight& at) {
     };
 }
 
-Piece disc(const PlacedLight& at) {
+Piece emitting_disc(const PlacedLight& at) {
     const double radius = double(at.light->source_radius);
     const auto [across, up] = perpendiculars(at.direction);
     return [=, x = across, y = up, offset = at.offset, normal = at.direction](dvec2 p) {
@@ -56,7 +56,7 @@ Piece disc(const PlacedLight& at) {
 }
 
 // The cap of directions that a sphere covers.
-Piece sphere(const PlacedLight& at, const dvec3& normal) {
+Piece emitting_sphere(const PlacedLight& at, const dvec3& normal) {
     const double radius = double(at.light->source_radius), d = std::max(glm::length(at.offset), 1e-6);
     const dvec3 axis = d > 1e-6 ? at.offset / d : normal;
     const double share = std::min(1.0, radius * radius / (d * d)), cap = share / (1 + std::sqrt(1 - share));  // 1 - cos
@@ -130,11 +130,11 @@ void add_cap(const TubeFrame& tube, const dvec3& center, const dvec3& axis, std:
 std::vector<Piece> pieces_of(const PlacedLight& at, const dvec3& normal) {
     switch (at.light->type) {
         case LightType::sphere:
-            return {sphere(at, normal)};
+            return {emitting_sphere(at, normal)};
         case LightType::disc:
-            return {disc(at)};
+            return {emitting_disc(at)};
         case LightType::rectangle:
-            return {rectangle(at)};
+            return {emitting_rectangle(at)};
         default:
             break;
     }

@@ -20,7 +20,7 @@ namespace {
 
 // Depths a float cannot tell apart after an interpolation, relative: two ulps.
 constexpr double depth_rounding = 0x1p-22;
-// Smaller coverage and emission than this is not an event (transparency chapter 0.2).
+// Smaller coverage and emission than this is not an event (docs/algorithms/transparency.md 0.2).
 constexpr double smallest_alpha = 1e-5, smallest_emission = 1e-6;
 
 double finite(double value) { return std::isfinite(value) ? value : 0; }

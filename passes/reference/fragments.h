@@ -24,7 +24,7 @@
 
 namespace strata {
 
-/// A transparent event: L_out = p + e + t L_behind. Fog is already in it (transparency chapter 0.4).
+/// A transparent event: L_out = p + e + t L_behind. Fog is already in it (docs/algorithms/transparency.md 0.4).
 struct Fragment {
     double depth = 0;              ///< view z in metres, depth offset applied, or an interface layer's: what ordering uses
     glm::dvec3 color{0};           ///< premultiplied scattered radiance p
@@ -110,8 +110,8 @@ private:
 };
 
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
-/// sanitized as transparency chapter 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order of two
-/// that do not commute hangs on float rounding.
+/// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order
+/// of two that do not commute hangs on float rounding.
 FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth);
 
 }  // namespace strata

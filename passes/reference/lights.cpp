@@ -10,9 +10,9 @@
 namespace strata {
 namespace {
 
-// Metres: the inverse square law ends here (lighting chapter 0.3, e).
+// Metres: the inverse square law ends here (docs/algorithms/lighting.md 0.3, e).
 constexpr double nearest_light = 0.01;
-// Share of a square spot's half width over which it fades (lighting chapter 0.4, f).
+// Share of a square spot's half width over which it fades (docs/algorithms/lighting.md 0.4, f).
 constexpr double square_feather = 0.1;
 
 double round_cone(const PlacedLight& at, const glm::dvec3& to_light) {

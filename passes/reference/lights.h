@@ -1,5 +1,5 @@
-// What surfaces reflect of lights, in double: as it is done in real time, and as it is. Written from lighting chapter 0.3 and 0.4
-// and not from the shaders.
+// What surfaces reflect of lights, in double: as it is done in real time, and as it is. Written from
+// docs/algorithms/lighting.md 0.3 and 0.4 and not from the shaders.
 #pragma once
 
 #include <cstdint>

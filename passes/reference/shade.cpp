@@ -1,4 +1,4 @@
-// Ambient light and fog, written from lighting chapter 0.3 and transparency chapter 0.4.
+// Ambient light and fog, written from docs/algorithms/lighting.md 0.3 and docs/algorithms/transparency.md 0.4.
 #include "passes/reference/shade.h"
 
 #include <array>
@@ -40,7 +40,7 @@ glm::dvec3 pixel_ray(const Frame& frame, double px, double py) {
 }
 
 glm::dvec2 sample_position(std::uint32_t samples, std::uint32_t sample) {
-    // Vulkan's standard positions (deferred chapter 0.4).
+    // Vulkan's standard positions (docs/algorithms/deferred.md 0.4).
     constexpr std::array<glm::dvec2, 4> four = {{{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
     assert(samples == 1 || samples == 4);
     return samples == 1 ? glm::dvec2(0.5) : four[sample];

@@ -39,7 +39,8 @@ FogAt fog_at(const Frame&, double z);
 
 /// World position to view space.
 glm::dvec3 to_view(const Frame&, const glm::dvec3& world);
-/// Where a view-space ray through a sample of a pixel goes, z = 1 (lighting chapter 0.1). Sample offsets: deferred 0.4.
+/// Where a view-space ray through a sample of a pixel goes, z = 1 (docs/algorithms/lighting.md 0.1). Sample offsets: deferred
+/// 0.4.
 glm::dvec3 pixel_ray(const Frame&, double px, double py);
 /// Position of a sample within its pixel, 0..1; (.5, .5) at one sample.
 glm::dvec2 sample_position(std::uint32_t samples, std::uint32_t sample);

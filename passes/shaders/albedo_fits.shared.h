@@ -7,9 +7,9 @@
 namespace strata {
 #endif
 
-// GGX with height-correlated visibility and a Fresnel term of 1 (lighting chapter T0.7), s = cosine / (cosine + alpha): small
-// lobes are alike in cosine / alpha. Never below the truth, so that what is divided by it stays below 1, and at most 0.9 % of
-// it above, for alpha from 0.002 to 1 and cosines from 1e-4 to 1.
+// GGX with height-correlated visibility and a Fresnel term of 1 (docs/algorithms/lighting.md T0.7), s = cosine / (cosine +
+// alpha): small lobes are alike in cosine / alpha. Never below the truth, so that what is divided by it stays below 1, and at
+// most 0.9 % of it above, for alpha from 0.002 to 1 and cosines from 1e-4 to 1.
 const vec4 ggx_albedo_fit[6] = {
     vec4(0.990197f, 0.032725f, -0.030720f, -0.000763f),  vec4(-0.072407f, -0.376872f, -4.418835f, 1.373487f),
     vec4(-0.720567f, 3.140868f, 12.914429f, -1.436312f), vec4(0.136797f, -7.523212f, -32.572357f, -3.300684f),

@@ -1,6 +1,7 @@
-// Light blockers and portals per point, exact and without division (lighting chapter 2.2; Kircher, Rendering Technology in Agents
-// of Mayhem, GDC 2018). The only such test: opaque, transparent and per-tile code call it, so their edges are the same bits. All
-// of it is precise, in products and sums written out: contracted differently in two shaders, it would leave seams between tiles.
+// Light blockers and portals per point, exact and without division (docs/algorithms/lighting.md 2.2; Kircher, Rendering
+// Technology in Agents of Mayhem, GDC 2018). The only such test: opaque, transparent and per-tile code call it, so their edges
+// are the same bits. All of it is precise, in products and sums written out: contracted differently in two shaders, it would
+// leave seams between tiles.
 #ifndef PASSES_SHADERS_BLOCKERS_GLSL
 #define PASSES_SHADERS_BLOCKERS_GLSL
 #include "passes/shaders/blockers.shared.h"
@@ -79,7 +80,7 @@ bool any_portal_open(LightRecord light, vec3 at, uint portal_mask) {
 }
 
 // Whether the light reaches a position off the surface. Bits of the masks are the light's own: blockers and portals that need no
-// test here are left out of them (2.7).
+// test here are left out of them (docs/algorithms/lighting.md 2.7).
 bool blockers_pass(LightRecord light, vec3 position, uint blocker_mask, uint portal_mask) {
     const vec4 from = light_point(light);
     for (; blocker_mask != 0u; blocker_mask &= blocker_mask - 1u) {

@@ -1,4 +1,4 @@
-// Thresholds of light blockers (lighting chapter 2.2 and 2.3), metres unless said otherwise.
+// Thresholds of light blockers (docs/algorithms/lighting.md 2.2 and 2.3), metres unless said otherwise.
 // passes/reference/blockers.cpp has its own.
 #ifndef PASSES_SHADERS_BLOCKERS_SHARED_H
 #define PASSES_SHADERS_BLOCKERS_SHARED_H
@@ -18,8 +18,8 @@ const float light_before_blocker = 0.02f;
 const float direction_before_blocker = 1e-3f;
 
 // What a distance from a shadow's plane may be off by rounding, beyond what the offset of surfaces makes of it: a share of the
-// size of the numbers in it (chapter 2.3: 2e-6 fails once in 300000 cells, 5e-6 never in two million), and a share of that size
-// over the sine between light and edge, by which the rounding of a cross product turns the plane.
+// size of the numbers in it (docs/algorithms/lighting.md 2.3: 2e-6 fails once in 300000 cells, 5e-6 never in two million), and a
+// share of that size over the sine between light and edge, by which the rounding of a cross product turns the plane.
 const float classification_margin = 1e-5f;
 const float grazing_margin = 4e-7f;
 // Below this sine an edge and the light make no plane.

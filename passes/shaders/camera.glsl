@@ -3,7 +3,7 @@
 #define PASSES_SHADERS_CAMERA_GLSL
 #include "passes/shaders/scene.glsl"
 
-// Where the eye's ray through a point of the image goes, z = 1 (lighting chapter 0.1). Pixel centers are at +.5.
+// Where the eye's ray through a point of the image goes, z = 1 (docs/algorithms/lighting.md 0.1). Pixel centers are at +.5.
 vec3 view_ray(vec2 pixel) {
     const vec2 ndc = vec2(2.0, -2.0) * pixel / vec2(view.extent) + vec2(-1.0, 1.0);
     return vec3((ndc - view.ndc_offset) / view.ndc_scale, 1.0);

@@ -1,5 +1,5 @@
 // What shading a light or a surface may need, as bits: a light's own, a tile's "feature spectrum", a shader variant's constant
-// (lighting chapter 3.2; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018).
+// (docs/algorithms/lighting.md 3.2; Kircher, Rendering Technology in Agents of Mayhem, GDC 2018).
 #ifndef PASSES_SHADERS_LIGHT_FEATURES_SHARED_H
 #define PASSES_SHADERS_LIGHT_FEATURES_SHARED_H
 #include "passes/shader_interop.h"

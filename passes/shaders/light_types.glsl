@@ -1,4 +1,4 @@
-// What all lights share: their types, how they end, what cuts them. Lighting chapter 0.3 and 0.4.
+// What all lights share: their types, how they end, what cuts them. docs/algorithms/lighting.md 0.3 and 0.4.
 #ifndef PASSES_SHADERS_LIGHT_TYPES_GLSL
 #define PASSES_SHADERS_LIGHT_TYPES_GLSL
 #include "passes/shaders/light_features.shared.h"
@@ -24,7 +24,7 @@ float range_window(float d, float range) {
 }
 
 // The sphere around a round cone of half angle below 90 degrees: how far ahead of the apex its center is, and its radius. Up to 45
-// degrees it goes through the apex and the rim of the cap, above it is the one around the rim (lighting chapter 1.4).
+// degrees it goes through the apex and the rim of the cap, above it is the one around the rim (docs/algorithms/lighting.md 1.4).
 vec2 sphere_around_cone(float cosine, float range) {
     const float sine = sqrt(max(0.0, 1.0 - cosine * cosine));
     return cosine >= sine ? vec2(range * (0.5 / cosine)) : range * vec2(cosine, sine);

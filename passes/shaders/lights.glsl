@@ -1,5 +1,5 @@
-// What a point reflects of a light to the eye, without shadow and blockers (lighting chapter 0.3 and 0.4): all types of light, with
-// clip planes and pictures. Any shader stage.
+// What a point reflects of a light to the eye, without shadow and blockers (docs/algorithms/lighting.md 0.3 and 0.4): all types
+// of light, with clip planes and pictures. Any shader stage.
 #ifndef PASSES_SHADERS_LIGHTS_GLSL
 #define PASSES_SHADERS_LIGHTS_GLSL
 #include "passes/shaders/area_lights.glsl"

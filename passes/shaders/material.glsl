@@ -5,7 +5,7 @@
 #include "passes/shaders/material_point.glsl"
 #include "passes/shaders/texture.glsl"
 
-// What the frame's materials use (passes/texture_uses.h); the rest is compiled away.
+// What the frame's materials use (passes/scene/texture_uses.h); the rest is compiled away.
 layout(constant_id = 20) const uint used_textures = 0xffffffffu;
 
 bool is_used(uint kind) { return (used_textures & (1u << kind)) != 0u; }

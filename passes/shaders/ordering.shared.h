@@ -1,4 +1,4 @@
-// What puts interfaces in front of the world, for C++ and GLSL (transparency chapter 6.13).
+// What puts interfaces in front of the world, for C++ and GLSL (docs/algorithms/transparency.md 6.13).
 #ifndef PASSES_SHADERS_ORDERING_SHARED_H
 #define PASSES_SHADERS_ORDERING_SHARED_H
 #include "passes/shader_interop.h"

@@ -1,5 +1,5 @@
 // The light of a convex emitter of one radiance is that of its outline, whatever is inside: irradiance as the sum over the outline's
-// edges (Lambert 1760; lighting chapter 0.4), the part below the horizon cut away. Any shader stage.
+// edges (Lambert 1760; docs/algorithms/lighting.md 0.4), the part below the horizon cut away. Any shader stage.
 #ifndef PASSES_SHADERS_POLYGON_LIGHT_GLSL
 #define PASSES_SHADERS_POLYGON_LIGHT_GLSL
 

@@ -1,6 +1,6 @@
-// Pictures of lights: thrown by spots, emitted by rectangles (lighting chapter 0.4). The picture's u grows along the light's axis_u
-// and its v against axis_v; alpha means nothing. Levels of detail are computed: in a compute shader there are no derivatives,
-// and a neighbor may belong to other geometry.
+// Pictures of lights: thrown by spots, emitted by rectangles (docs/algorithms/lighting.md 0.4). The picture's u grows along the
+// light's axis_u and its v against axis_v; alpha means nothing. Levels of detail are computed: in a compute shader there are no
+// derivatives, and a neighbor may belong to other geometry.
 #ifndef PASSES_SHADERS_PROJECTED_TEXTURE_GLSL
 #define PASSES_SHADERS_PROJECTED_TEXTURE_GLSL
 #include "passes/shaders/camera.glsl"

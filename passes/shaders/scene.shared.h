@@ -169,7 +169,7 @@ struct ClipPlaneRecord {
 };
 
 // One shadow map: a square of a layer of shadow_maps. The buffer has the maps of Allocation::own, then as many of ::need
-// (passes/shadows/shadow_views.h); slots count from the first of either.
+// (passes/scene/shadow_views.h); slots count from the first of either.
 struct ShadowRecord {
     mat4 view_to_map;   // view space to (u, v, depth, w): uv in 0..1 of this map, depth 1 at the light, 0 far
     uint light;         // index into lights

@@ -1,5 +1,5 @@
 // How much of a light reaches a point, by its shadow maps: percentage-closer filtering (Reeves, Salesin, Cook 1987), and for soft
-// lights percentage-closer soft shadows (Fernando 2005; lighting chapter 6.1 to 6.3). Whoever includes this declares
+// lights percentage-closer soft shadows (Fernando 2005; docs/algorithms/lighting.md 6.1 to 6.3). Whoever includes this declares
 // `sampler2DArray shadow_maps` before and fixes the constants (passes/shadows/filter.h).
 #ifndef PASSES_SHADERS_SHADOW_FILTER_GLSL
 #define PASSES_SHADERS_SHADOW_FILTER_GLSL
@@ -9,13 +9,13 @@
 
 layout(constant_id = 60) const int shadow_kernel = 4;         // texels per edge of the fixed kernel
 layout(constant_id = 61) const float shadow_slope_limit = 4.0;  // tangent between normal and light that the bias makes up for
-layout(constant_id = 62) const uint shadow_allocation = 0u;   // Allocation of passes/shadows/shadow_views.h
+layout(constant_id = 62) const uint shadow_allocation = 0u;   // Allocation of passes/scene/shadow_views.h
 layout(constant_id = 63) const int shadow_search_taps = 16;
 layout(constant_id = 64) const int shadow_filter_taps = 32;
 layout(constant_id = 65) const uint shadow_noise = 0u;        // 1: the discs of taps are turned pixel by pixel
 
-const float cascade_blend_share = 0.1;  // of a cascade's depth (lighting chapter 6.4)
-const float least_disc_radius = 0.5;     // penumbrae are 1 to 64 texels wide (6.2)
+const float cascade_blend_share = 0.1;  // of a cascade's depth (docs/algorithms/lighting.md 6.4)
+const float least_disc_radius = 0.5;     // penumbrae are 1 to 64 texels wide (docs/algorithms/lighting.md 6.2)
 const float greatest_disc_radius = 32.0;
 
 // A receiver in a map: where, in texels with centers at +.5, how deep, and what its plane gains in depth per texel.

@@ -4,7 +4,7 @@
 #include "passes/shaders/scene.glsl"
 #include "passes/shaders/srgb.glsl"
 
-// The formats of the textures that are read (passes/texture_uses.h); the rest is compiled away.
+// The formats of the textures that are read (passes/scene/texture_uses.h); the rest is compiled away.
 layout(constant_id = 21) const uint used_formats = 0xffffffffu;
 
 // TextureFormat and AddressMode of capture_format/frame.h.

@@ -1,14 +1,15 @@
 // Draws the casters into shadow maps.
 #include "passes/shadows/cast.h"
 
-#include "passes/shadows/map_places.h"
+#include "passes/scene/map_places.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/scene/texture_uses.h"
 #include "passes/shadows/shadows.shared.h"
-#include "passes/texture_uses.h"
 
 namespace strata {
 
 void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
-    const std::vector<ShadowView> views = shadow_views(*frame.recorded, allocation);
+    const std::vector<ShadowView>& views = frame.facts->shadow_views(allocation);
     if (views.empty()) return;
     const MapLayers in = map_layers(views);
     const auto count = static_cast<std::uint32_t>(views.size());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passes/frame_images.h"
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/shadow_views.h"
 
 namespace strata {
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "passes/gbuffer/surface_at.h"
+#include "passes/scene/map_places.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/shadows/cast.h"
-#include "passes/shadows/map_places.h"
 #include "passes/shadows/shadows.shared.h"
 
 namespace strata {
@@ -18,7 +19,7 @@ constexpr std::string_view allocations[] = {"own", "need"};
 Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
 
 AtlasPush atlas_push(const FrameImages& frame) {
-    const std::vector<ShadowView> views = shadow_views(*frame.recorded, allocation_of(frame.shadow_filter));
+    const std::vector<ShadowView>& views = frame.facts->shadow_views(allocation_of(frame.shadow_filter));
     const MapLayers in = map_layers(views);
     const bool is_alone = allocation_of(frame.shadow_filter) == Allocation::own;
     return {.first = is_alone ? 0 : static_cast<std::uint32_t>(views.size()), .extent = in.extent, .layers = in.layers};
@@ -35,7 +36,7 @@ Image atlas_view(Graph& graph, FrameImages& frame, const Settings&) {
 }
 
 Image atlas_table(Graph& graph, FrameImages& frame, const Settings&) {
-    const auto rows = static_cast<std::uint32_t>(std::max<std::size_t>(shadow_views(*frame.recorded).size(), 1));
+    const auto rows = static_cast<std::uint32_t>(std::max<std::size_t>(frame.facts->shadow_views(Allocation::own).size(), 1));
     Image numbers = graph.create("atlas rows", {.extent = {1, rows}, .format = Format::rgba32f});
     graph.compute("shadows/atlas_table.comp").stores("numbers", numbers).push(atlas_push(frame)).over({1, rows});
     return numbers;
@@ -50,7 +51,7 @@ void make_shadow_maps(Graph& graph, FrameImages& frame, const Settings& settings
 
 void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& shader) {
     if (!frame.shadow_maps) return;
-    const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(shadow_views(*frame.recorded)).size());
+    const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(frame.facts->shadow_views(Allocation::own)).size());
     const Shape maps = graph.shape(frame.shadow_maps);
     const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
     frame.visibility =

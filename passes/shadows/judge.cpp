@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "passes/reference/difference.h"
+#include "passes/reference/light_sets.h"
 #include "passes/shadows/receivers.h"
-#include "passes/shadows/shadow_views.h"
 
 namespace strata {
 
@@ -27,10 +28,11 @@ struct Sums {
     double squares = 0, samples = 0, wrongly_lit = 0, wrongly_shadowed = 0;
 
     void add(double got, double wanted) {
+        const double error = signed_error(got, wanted);
         samples += 1;
-        squares += (got - wanted) * (got - wanted);
-        wrongly_lit += wanted < 0.5 && got >= 0.5;
-        wrongly_shadowed += wanted >= 0.5 && got < 0.5;
+        squares += error * error;
+        wrongly_lit += wanted < 0.5 && !(got < 0.5);  // NaN counts as wrong, too
+        wrongly_shadowed += wanted >= 0.5 && !(got >= 0.5);
     }
     void add(const Sums& other) {
         samples += other.samples;
@@ -46,8 +48,8 @@ std::vector<Figure> shadows_judge(const ImageSet& result, const ImageSet& truth,
     const auto got = result.find("visibility"), wanted = truth.find("visibility");
     Sums sums;
     if (got != result.end() && wanted != truth.end()) {
-        const std::vector<std::uint32_t> shadowed = shadowed_lights(shadow_views(input.frame));
-        const std::vector<Light> lights = shadow_lights(input.frame);
+        const std::vector<std::uint32_t> shadowed = mapped_lights(input.frame);
+        const std::vector<Light> lights = shining_lights(input.frame);
         const std::uint32_t samples = input.before.at("depth_layers").layers;
         std::vector<Sums> rows(input.before.at("depth_layers").height);  // one each: rows run in parallel
         for_each_receiver(input, [&](const Receiver& receiver) {

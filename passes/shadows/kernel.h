@@ -1,4 +1,4 @@
-// The filter kernel in double over a shadow map (deferred chapter 5.1 and 5.2, reversed depth).
+// The filter kernel in double over a shadow map (docs/algorithms/deferred.md 5.1 and 5.2, reversed depth).
 #pragma once
 
 #include <cstdint>

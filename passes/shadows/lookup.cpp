@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/reference/light_sets.h"
 #include "passes/reference/shade.h"
 
 namespace strata::shadows {
@@ -70,7 +71,7 @@ LookupScene::LookupScene(const Frame& recorded, const ReferenceImage& drawn, con
     : frame(recorded),
       maps(drawn),
       views(shadow_views(recorded, static_cast<Allocation>(settings.allocation))),
-      lights(shadow_lights(recorded)),
+      lights(shining_lights(recorded)),
       filter(settings) {}
 
 std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver,
@@ -105,7 +106,7 @@ ImageSet visibility_model(const StageInput& input, const Settings& settings, Loo
     const auto maps = input.before.find("shadow_maps"), depth = input.before.find("depth_layers");
     if (maps == input.before.end() || depth == input.before.end() || !input.before.contains("surface_normal")) return {};
     const LookupScene scene(input.frame, maps->second, settings.as<ShadowFilter>());
-    const std::vector<std::uint32_t> shadowed = shadowed_lights(scene.views);
+    const std::vector<std::uint32_t> shadowed = mapped_lights(scene.frame);
     const ReferenceImage& shape = depth->second;
     const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;
     ReferenceImage visibility(shape.width, shape.height, layers, glm::dvec4(1, 0, 0, 1));
@@ -118,6 +119,7 @@ ImageSet visibility_model(const StageInput& input, const Settings& settings, Loo
             undecided[texel] = result.undecided;
         }
     });
+    visibility.channels = 1;
     visibility.undecided.assign(undecided.begin(), undecided.end());
     return {{"visibility", visibility}};
 }

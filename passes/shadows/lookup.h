@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "passes/scene/shadow_views.h"
 #include "passes/shadows/kernel.h"
 #include "passes/shadows/receivers.h"
 #include "passes/shadows/shadow_filter.h"
-#include "passes/shadows/shadow_views.h"
 #include "passes/technique.h"
 
 namespace strata::shadows {

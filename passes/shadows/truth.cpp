@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "passes/reference/light_sets.h"
 #include "passes/reference/rays.h"
 #include "passes/shadows/receivers.h"
-#include "passes/shadows/shadow_views.h"
 
 namespace strata {
 
@@ -104,10 +104,10 @@ double visible_share(const RayScene& scene, const Receiver& receiver, std::span<
 }  // namespace
 
 ImageSet shadows_truth(const StageInput& input) {
-    const std::vector<std::uint32_t> shadowed = shadowed_lights(shadow_views(input.frame));
+    const std::vector<std::uint32_t> shadowed = mapped_lights(input.frame);
     const auto depth = input.before.find("depth_layers");
     if (shadowed.empty() || depth == input.before.end()) return {};
-    const std::vector<Light> lights = shadow_lights(input.frame);
+    const std::vector<Light> lights = shining_lights(input.frame);
     const RayScene scene(input.frame, RayMask::shadow_casters);
     const ReferenceImage& shape = depth->second;
     const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;

@@ -14,7 +14,8 @@ layout(set = 0, binding = 5, r16f) writeonly uniform image2DArray visibility;
 layout(set = 0, binding = 6, scalar) buffer Counters { ShadowCounters counters; };
 #include "passes/shaders/shadow_filter.glsl"
 
-// Depth is a sample's own, so the ray is too: then position lies on the surface. Standard places (deferred chapter 0.4).
+// Depth is a sample's own, so the ray is too: then position lies on the surface. Standard places
+// (docs/algorithms/deferred.md 0.4).
 const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
 
 vec2 sample_position(uint i) { return view.samples == 1u ? vec2(0.5) : places[i]; }

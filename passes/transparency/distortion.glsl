@@ -1,4 +1,4 @@
-// What is behind transparent layers as they bend it (transparency chapter 6.13): seen sum d T(z) away, of T the
+// What is behind transparent layers as they bend it (docs/algorithms/transparency.md 6.13): seen sum d T(z) away, of T the
 // luminance.
 #ifndef PASSES_TRANSPARENCY_DISTORTION_GLSL
 #define PASSES_TRANSPARENCY_DISTORTION_GLSL

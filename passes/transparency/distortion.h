@@ -1,6 +1,6 @@
-// Materials that distort what is behind them (transparency chapter 6.13): the background is seen sum d_i T(z_i) away, d_i in uv.
-// A method with a T(z) of its own adds the offsets with it and reads undistorted(); the others call distort_background(). Of a
-// frame where nothing distorts nothing is declared.
+// Materials that distort what is behind them (docs/algorithms/transparency.md 6.13): the background is seen sum d_i T(z_i) away,
+// d_i in uv. A method with a T(z) of its own adds the offsets with it and reads undistorted(); the others call
+// distort_background(). Of a frame where nothing distorts nothing is declared.
 #pragma once
 
 #include "passes/frame_images.h"

@@ -1,7 +1,6 @@
 #include "passes/transparency/distortion_model.h"
 
 #include "passes/transparency/bilinear_taps.h"
-#include "passes/transparency/object_order.h"
 
 namespace strata::transparency {
 

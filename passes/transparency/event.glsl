@@ -1,5 +1,5 @@
-// The transparent event under a sample, from the varyings of draw.vert: L_out = p + e + t L_behind (transparency chapter 0.1), with
-// L_behind seen d away (6.13).
+// The transparent event under a sample, from the varyings of draw.vert: L_out = p + e + t L_behind
+// (docs/algorithms/transparency.md 0.1), with L_behind seen d away (6.13).
 // Every technique draws the same events; they differ in how they combine them. gl_SampleID makes the shader run per sample.
 // event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
 #ifndef PASSES_TRANSPARENCY_EVENT_GLSL
@@ -92,8 +92,9 @@ Event particle_event(MaterialPoint m) {
     return event;
 }
 
-// Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact. Chapter 0.4 adds alpha s;
-// what an event hides of the fog in front of it is 1 - t per channel, which is the same for grey events only.
+// Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact. What an event
+// hides of the fog in front of it is 1 - t per channel; alpha is the same for grey events only
+// (docs/algorithms/transparency.md 0.4).
 void add_fog(inout Event event) {
     const float remains = fog_remains(position_here().z);
     event.p = event.p * remains + (1.0 - event.t) * (1.0 - remains) * view.fog_color;

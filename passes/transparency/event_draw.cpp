@@ -3,9 +3,8 @@
 #include <cassert>
 #include <utility>
 
-#include "passes/lighting/light_features.h"
-#include "passes/reference/fragments.h"
-#include "passes/texture_uses.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/scene/texture_uses.h"
 
 namespace strata {
 namespace {
@@ -16,7 +15,7 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
-        .fixes("light_features", light_features(*images.recorded));
+        .fixes("light_features", images.facts->light_features());
     return fix_textures(pass, images, Surfaces::transparent);
 }
 
@@ -34,7 +33,7 @@ DrawPass draw_events_untested(Graph& graph, std::string shader, const DrawList& 
 std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution) {
     const Frame& frame = *images.recorded;
     // The list has this order, too.
-    const std::vector<std::uint32_t> draws = transparent_draws(frame);
+    const std::vector<std::uint32_t>& draws = images.facts->lists().transparent;
     assert(draws.size() == images.transparent.count);
     std::vector<DrawList> stretches;
     bool goes_on = false;

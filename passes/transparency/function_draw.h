@@ -1,7 +1,7 @@
 // How every method that is a transmittance function T(z) draws and resolves: C = sum p T(z), X = sum of optical depths,
 // N = sum (1 - t) T(z), E = sum e T(z), then L = L_behind exp(-X) + C (1 - exp(-X)) / N + E. For the exact T the factor is 1:
-// sum (1 - t_i) T_i telescopes (transparency chapter 1 and 7). Methods differ in T alone. Sums have no order, so those of draws
-// at half resolution, which look T(z) up like the others, are added to those at full resolution when they are resolved.
+// sum (1 - t_i) T_i telescopes (docs/algorithms/transparency.md 1 and 7). Methods differ in T alone. Sums have no order, so those
+// of draws at half resolution, which look T(z) up like the others, are added to those at full resolution when they are resolved.
 #pragma once
 
 #include <functional>

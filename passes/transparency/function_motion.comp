@@ -1,5 +1,5 @@
-// Motion of what is seen, the first sample's: (sum (1 - t) T(z) v) (1 - T_total) / N + v_behind T_total (transparency chapter 6.13), of
-// luminances where there are three channels. w: T_total.
+// Motion of what is seen, the first sample's: (sum (1 - t) T(z) v) (1 - T_total) / N + v_behind T_total
+// (docs/algorithms/transparency.md 6.13), of luminances where there are three channels. w: T_total.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/function_sums.glsl"

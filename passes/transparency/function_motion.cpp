@@ -1,6 +1,6 @@
 #include "passes/transparency/function_motion.h"
 
-#include "passes/texture_uses.h"
+#include "passes/scene/texture_uses.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {

@@ -1,5 +1,5 @@
-// How far what a method shows has moved since the frame before, as motion vectors of a frame are (transparency chapter 6.13):
-// fragments weighted as their color is, over what is opaque behind them.
+// How far what a method shows has moved since the frame before, as motion vectors of a frame are
+// (docs/algorithms/transparency.md 6.13): fragments weighted as their color is, over what is opaque behind them.
 #pragma once
 
 #include "passes/transparency/function_draw.h"

@@ -1,33 +1,10 @@
 #include "passes/transparency/function_prepass.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "passes/reference/fragments.h"
-#include "passes/reference/ordering.h"
-#include "passes/reference/shade.h"
-#include "passes/shaders/ordering.shared.h"
-
 namespace strata::transparency {
 namespace {
 
 constexpr std::string_view channel_choices[] = {"automatic", "mono", "rgb"};
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth"};
-
-struct Range {
-    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-    void take(double z, double near) {
-        nearest = std::min(nearest, std::max(z, near));
-        farthest = std::max(farthest, z);
-    }
-};
-
-void take_draw(Range& range, const Frame& frame, const Draw& draw) {
-    for (const glm::vec3& position : frame.meshes[draw.mesh].positions) {
-        const glm::dvec3 world(draw.to_world * glm::dvec4(glm::dvec3(position), 1));
-        range.take(to_view(frame, world).z, double(frame.view.near));
-    }
-}
 
 }  // namespace
 
@@ -49,32 +26,6 @@ FrameImages prepass_images(Graph& graph, const FrameImages& images, std::uint32_
         .covers(low.depth_layers)
         .writes_depth(low.depth);
     return low;
-}
-
-DepthRange transparent_depth_range(const Frame& frame) {
-    DepthRange range = world_depth_range(frame);
-    if (const std::uint32_t layer = highest_layer(frame))
-        range.nearest = std::min(range.nearest, layer_depth(frame.view.near, layer));
-    return range;
-}
-
-DepthRange world_depth_range(const Frame& frame) {
-    Range range;
-    for (const std::uint32_t index : transparent_draws(frame)) {
-        if (layer_of(frame, index) > 0) continue;
-        if (index < frame.draws.size()) {
-            take_draw(range, frame, frame.draws[index]);
-            continue;
-        }
-        for (const Particle& particle : frame.emitters[index - frame.draws.size()].particles) {
-            const double z = to_view(frame, particle.center).z;
-            if (z > double(frame.view.near)) range.take(z - double(particle.depth_offset), double(frame.view.near));
-        }
-    }
-    const double near = double(frame.view.near);
-    if (range.farthest <= near) return {frame.view.near, 2 * frame.view.near};
-    // Flat geometry has no range of its own.
-    return {static_cast<float>(range.nearest), static_cast<float>(std::max(range.farthest, range.nearest * 1.001))};
 }
 
 const Param resolution_row = {.name = "resolution",

@@ -14,16 +14,6 @@ FrameImages prepass_images(Graph&, const FrameImages&, std::uint32_t divisor);
 /// Texels of the prepass: each axis rounded up.
 Extent prepass_extent(Extent, std::uint32_t divisor);
 
-/// Nearest and farthest view depth of transparent geometry in front of the near plane, in metres, depth offsets applied:
-/// what depth is mapped by. Of a frame without any: the near plane and twice that.
-struct DepthRange {
-    float nearest = 0, farthest = 0;
-};
-/// As events are ordered: from the nearest interface layer on.
-DepthRange transparent_depth_range(const Frame&);
-/// Of what is in no interface layer.
-DepthRange world_depth_range(const Frame&);
-
 /// The row of the `resolution` parameter: a choice by name; divisor_of() is what it stands for.
 extern const Param resolution_row;
 std::uint32_t divisor_of(std::uint32_t resolution);

@@ -1,5 +1,5 @@
-// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E, with L_behind seen D away (transparency chapters 7 and 6.13), and what is not
-// L_behind skewed (6.12).
+// L = L_behind exp(-X) + C (1 - exp(-X)) / N + E, with L_behind seen D away (docs/algorithms/transparency.md 7 and 6.13), and
+// what is not L_behind skewed (6.12).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/distortion.glsl"

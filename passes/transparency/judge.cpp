@@ -15,17 +15,19 @@ double displayed(const Frame& frame, double radiance) {
 }
 
 bool off_by_a_step(const Frame& frame, const glm::dvec4& got, const glm::dvec4& wanted) {
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3; ++c) {
+        if (std::isnan(got[c]) != std::isnan(wanted[c])) return true;  // NaN would be displayed as black
         if (std::abs(displayed(frame, got[c]) - displayed(frame, wanted[c])) > 1. / 255) return true;
+    }
     return false;
 }
 
-/// |a - b| / (|b| + .01) of the channel where that is largest (transparency chapter 9.3). Below a radiance of .01 the absolute
-/// error takes over; what is not a number is as wrong as can be.
+/// |a - b| / (|b| + .01) of the channel where that is largest (docs/algorithms/transparency.md 9.3). Below a radiance of .01 the
+/// absolute error takes over; what is not a number is as wrong as can be.
 double relative_error(const glm::dvec4& got, const glm::dvec4& wanted) {
     double worst = 0;
     for (int c = 0; c < 3; ++c) {
-        const double error = std::abs(got[c] - wanted[c]) / (std::abs(wanted[c]) + .01);
+        const double error = std::abs(signed_error(got[c], wanted[c])) / (std::abs(wanted[c]) + .01);
         worst = std::max(worst, std::isnan(error) ? HUGE_VAL : error);
     }
     return worst;

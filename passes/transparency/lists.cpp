@@ -4,9 +4,10 @@
 #include <cassert>
 #include <limits>
 
+#include "passes/scene/row_bounds.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/layers_beyond.h"
-#include "passes/transparency/row_bounds.h"
 
 namespace strata::transparency {
 namespace {
@@ -16,7 +17,7 @@ std::uint32_t groups(const Band& band) { return (cells(band) + cells_per_group -
 
 std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
     const double limit = double(pool_millions) * 1e6 / images.samples;
-    const auto row_bounds = transparent_row_bounds(*images.recorded, images.extent);
+    const std::vector<std::uint64_t>& row_bounds = images.facts->row_bounds(images.extent);
     std::vector<Band> bands;
     std::uint64_t pool = 1;
     for (const RowBand& rows : row_bands(row_bounds, static_cast<std::uint64_t>(limit))) {

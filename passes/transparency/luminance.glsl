@@ -1,4 +1,5 @@
-// How bright linear light of the primaries of BT.709 is: one number where a method keeps no color (transparency chapter 0.3).
+// How bright linear light of the primaries of BT.709 is: one number where a method keeps no color
+// (docs/algorithms/transparency.md 0.3).
 #ifndef PASSES_TRANSPARENCY_LUMINANCE_GLSL
 #define PASSES_TRANSPARENCY_LUMINANCE_GLSL
 

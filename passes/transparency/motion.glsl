@@ -1,5 +1,5 @@
-// How far what is seen has moved since the frame before (transparency chapter 6.13), in pixels, x right and y down. Particles stand
-// still, and so does the camera: captures tell neither where they were.
+// How far what is seen has moved since the frame before (docs/algorithms/transparency.md 6.13), in pixels, x right and y down.
+// Particles stand still, and so does the camera: captures tell neither where they were.
 #ifndef PASSES_TRANSPARENCY_MOTION_GLSL
 #define PASSES_TRANSPARENCY_MOTION_GLSL
 #include "passes/shaders/camera.glsl"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "passes/transparency/object_order.h"
+#include "passes/reference/ordering.h"
 
 namespace strata::transparency {
 namespace {
@@ -19,7 +19,7 @@ void keep_only(Frame& frame, const Frame& whole, std::uint32_t index) {
     const Emitter& emitter = whole.emitters[index - whole.draws.size()];
     frame.emitters.push_back(emitter);
     frame.emitters[0].particles.clear();
-    for (const std::uint32_t particle : back_to_front_particles(whole, emitter))
+    for (const std::uint32_t particle : painters_order(whole, emitter))
         frame.emitters[0].particles.push_back(emitter.particles[particle]);
 }
 
@@ -57,7 +57,7 @@ ReferenceImage blended(ReferenceImage color, const StageInput& input, const Plac
 
 ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, const SampleBlend& blend) {
     Frame alone = input.frame;
-    for (const std::uint32_t index : back_to_front_draws(input.frame)) {
+    for (const std::uint32_t index : painters_order(input.frame)) {
         keep_only(alone, input.frame, index);
         color = blended(std::move(color), {alone, input.before}, blend);
     }

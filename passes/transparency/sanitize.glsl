@@ -1,5 +1,5 @@
-// Bad numbers stop here (transparency chapter 0.2): every transparent shader gets its events through event.glsl, which uses
-// these. NaN is found by its bits; comparing x != x is optimized away by fast-math drivers.
+// Bad numbers stop here (docs/algorithms/transparency.md 0.2): every transparent shader gets its events through event.glsl, which
+// uses these. NaN is found by its bits; comparing x != x is optimized away by fast-math drivers.
 #ifndef PASSES_TRANSPARENCY_SANITIZE_GLSL
 #define PASSES_TRANSPARENCY_SANITIZE_GLSL
 

@@ -1,6 +1,6 @@
-// Color where T(z) has one channel (transparency chapter 6.12): what is drawn is multiplied by T' / luminance(T'), T' being the product
-// of all layers' transmittance, each as far as it is seen. Only what T' has of red and blue more than of green matters, so two sums
-// of optical depth say it, to which what is grey adds exactly 0.
+// Color where T(z) has one channel (docs/algorithms/transparency.md 6.12): what is drawn is multiplied by T' / luminance(T'), T'
+// being the product of all layers' transmittance, each as far as it is seen. Only what T' has of red and blue more than of green
+// matters, so two sums of optical depth say it, to which what is grey adds exactly 0.
 #ifndef PASSES_TRANSPARENCY_TINT_GLSL
 #define PASSES_TRANSPARENCY_TINT_GLSL
 #include "passes/transparency/optical_depth.glsl"

@@ -12,10 +12,10 @@ namespace strata {
 /// depths the later submission is nearer.
 glm::dvec3 exact_blend(std::span<const Fragment>, glm::dvec3 behind);
 
-/// How far from a sample, in uv, what is behind its fragments is seen: sum T d (transparency chapter 6.13).
+/// How far from a sample, in uv, what is behind its fragments is seen: sum T d (docs/algorithms/transparency.md 6.13).
 glm::dvec2 exact_distortion(std::span<const Fragment>);
 
-/// `color` as it should be after transparency, per sample (transparency chapter 1).
+/// `color` as it should be after transparency, per sample (docs/algorithms/transparency.md 1).
 ImageSet transparency_truth(const StageInput&);
 
 }  // namespace strata

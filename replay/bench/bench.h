@@ -7,7 +7,7 @@
 
 #include "passes/technique.h"
 #include "replay/report/report.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

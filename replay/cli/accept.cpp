@@ -7,14 +7,14 @@
 #include "capture_format/expectation_writer.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
-#include "replay/expectation_check.h"
-#include "replay/repeat.h"
+#include "replay/expectations/expectation_check.h"
 #include "replay/revision.h"
+#include "replay/session/repeat.h"
 
 namespace strata {
 namespace {
 
-struct Options {
+struct AcceptArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string frames;
@@ -30,7 +30,7 @@ struct Candidate {
     bool is_news() const { return !before || before->agreement != Agreement::exact || lacks_images; }
 };
 
-Result<Candidate> replay_candidate(Session& session, const Request& request, const Options& options,
+Result<Candidate> replay_candidate(Session& session, const Request& request, const AcceptArguments& options,
                                    const std::vector<Expectation>& known) {
     auto run = session.run(request);
     if (!run) return run.error();
@@ -63,14 +63,14 @@ void show(const Candidate& candidate) {
     }
 }
 
-Result<void> write(ExpectationWriter& writer, Candidate& candidate, const Options& options) {
+Result<void> write(ExpectationWriter& writer, Candidate& candidate, const AcceptArguments& options) {
     for (std::size_t i = 0; options.with_images && i < candidate.run.acts.size(); ++i)
         for (ExpectedImage& image : candidate.expectation.acts[i].images)
             image.texels = writer.add_image(candidate.run.acts[i].images.at(image.name).texels);
     return writer.add(as_json(candidate.expectation));
 }
 
-Result<void> accept(const Options& options) {
+Result<void> accept(const AcceptArguments& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->outputs.clear();
@@ -112,7 +112,7 @@ Result<void> accept(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_accept(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<AcceptArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");

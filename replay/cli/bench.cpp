@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
-#include "capture_format/whole_file.h"
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/cli/verb_options.h"
@@ -19,7 +19,7 @@ namespace {
 // Of scenarios, where no extent is asked for: a CPU takes seconds per ratio, a GPU's clock has something to measure.
 constexpr std::pair<std::uint32_t, std::uint32_t> extent_on_a_cpu{320, 180}, extent_on_a_gpu{1920, 1080};
 
-struct Options {
+struct BenchArguments {
     std::string word, only, size;
     OpenOptions open;
     ChoiceOptions choices;
@@ -68,7 +68,7 @@ Result<std::vector<Frame>> frames_of(std::span<Claim> claims, std::pair<std::uin
     return frames;
 }
 
-Result<std::unique_ptr<Session>> open_scenarios(const Options& options, std::span<Claim> claims) {
+Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, std::span<Claim> claims) {
     const auto asked = options.size.empty() ? Result(extent_on_a_cpu) : extent_of(options.size);
     if (!asked) return asked.error();
     auto frames = frames_of(claims, *asked);
@@ -79,7 +79,7 @@ Result<std::unique_ptr<Session>> open_scenarios(const Options& options, std::spa
     return frames ? Session::open(*std::move(frames), options.open.device) : frames.error();
 }
 
-Result<std::unique_ptr<Session>> open_capture(const Options& options, std::span<Claim> claims) {
+Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std::span<Claim> claims) {
     for (Claim& claim : claims) {
         claim.scene = options.open.capture.filename().string();
         claim.base.frame = options.frame;
@@ -87,7 +87,7 @@ Result<std::unique_ptr<Session>> open_capture(const Options& options, std::span<
     return open(options.open);
 }
 
-Result<void> bench(const Options& options) {
+Result<void> bench(const BenchArguments& options) {
     auto claims = claims_of(options.word, options.only);
     if (!claims) return claims.error();
     const auto base = request_of(options.choices);
@@ -104,7 +104,7 @@ Result<void> bench(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_bench(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<BenchArguments>();
     app.add_option("technique", options->word, "a technique, with or without its stage")->required();
     CLI::Option* capture =
         app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario");

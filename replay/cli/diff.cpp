@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "replay/revision.h"
 
 namespace strata {
@@ -22,7 +22,7 @@ struct SideOptions {
     std::vector<std::string> uses, sets;
 };
 
-struct Options {
+struct DiffArguments {
     SideOptions a, b;
     ChoiceOptions both;  ///< but for --use and --set, which are B's
     DeviceChoice device;
@@ -53,7 +53,7 @@ Result<NamedImages> read_images(const std::filesystem::path& file) {
 /// Writes the pictures of what differs and removes those of what no longer does.
 class Pictures {
 public:
-    explicit Pictures(const Options& options) : options_(options) {}
+    explicit Pictures(const DiffArguments& options) : options_(options) {}
 
     Result<void> see(std::size_t frame, const ActComparison& act, const ImageComparison& made, const HostImage& a,
                      const HostImage& b) {
@@ -83,7 +83,7 @@ public:
     const std::map<std::string, std::string>& artefacts() const { return artefacts_; }
 
 private:
-    const Options& options_;
+    const DiffArguments& options_;
     std::map<std::string, std::string> artefacts_;
 };
 
@@ -93,13 +93,13 @@ SeeImages seeing(Pictures& pictures, std::size_t frame) {
     };
 }
 
-Result<std::unique_ptr<Session>> open_side(const Options& options, const SideOptions& side) {
+Result<std::unique_ptr<Session>> open_side(const DiffArguments& options, const SideOptions& side) {
     DeviceChoice device = options.device;
     if (!side.gpu.empty()) device.gpu = side.gpu;
     return open(OpenOptions{side.file, device, options.allow_partial});
 }
 
-Result<Request> request_of_side(const Options& options, const SideOptions& side) {
+Result<Request> request_of_side(const DiffArguments& options, const SideOptions& side) {
     ChoiceOptions choices = options.both;
     choices.uses = side.uses;
     choices.sets = side.sets;
@@ -113,7 +113,7 @@ Side describe(const SideOptions& side, const Session& session) {
 }
 
 /// Both captures, or one capture two ways. One session serves both where file and device are the same.
-Result<void> compare_captures(const Options& options, Pictures& pictures, Comparison& comparison) {
+Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     auto request_a = request_of_side(options, options.a), request_b = request_of_side(options, options.b);
     if (!request_a) return request_a.error();
     if (!request_b) return request_b.error();
@@ -139,7 +139,7 @@ Result<void> compare_captures(const Options& options, Pictures& pictures, Compar
 }
 
 /// The images of a file against the capture's own of the same names, made now.
-Result<void> compare_with_images(const Options& options, Pictures& pictures, Comparison& comparison) {
+Result<void> compare_with_images(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.b.file) == FileKind::png)
         return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG",
                     options.b.file.string());
@@ -168,7 +168,7 @@ Result<void> compare_with_images(const Options& options, Pictures& pictures, Com
     return {};
 }
 
-Result<void> compare_files(const Options& options, Pictures& pictures, Comparison& comparison) {
+Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.a.file) != kind_of(options.b.file))
         return fail(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
     const auto a = read_images(options.a.file), b = read_images(options.b.file);
@@ -182,7 +182,7 @@ Result<void> compare_files(const Options& options, Pictures& pictures, Compariso
     return {};
 }
 
-Result<void> compare(const Options& options, Pictures& pictures, Comparison& comparison) {
+Result<void> compare(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     const bool a_is_capture = kind_of(options.a.file) == FileKind::capture,
                b_is_capture = kind_of(options.b.file) == FileKind::capture;
     if (a_is_capture && b_is_capture) return compare_captures(options, pictures, comparison);
@@ -201,7 +201,7 @@ Error over_tolerance(const Comparison& comparison) {
     return fail(Fault::over_tolerance, "over tolerance");
 }
 
-Result<void> diff(Options options) {
+Result<void> diff(DiffArguments options) {
     if (options.b.file.empty()) {
         const bool same = options.a.uses == options.b.uses && options.a.sets == options.b.sets && options.a.gpu == options.b.gpu;
         if (same)
@@ -220,7 +220,7 @@ Result<void> diff(Options options) {
     return verdict(comparison) == Verdict::over ? Result<void>(over_tolerance(comparison)) : Result<void>();
 }
 
-void add_sides(CLI::App& app, Options& options) {
+void add_sides(CLI::App& app, DiffArguments& options) {
     app.add_option("A", options.a.file, "a .strata capture, or an .exr or .png image: what is right")->required();
     app.add_option("B", options.b.file, "what is compared with it; default A itself, done otherwise");
     const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
@@ -259,7 +259,7 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
 }  // namespace
 
 std::function<Result<void>()> declare_diff(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DiffArguments>();
     add_sides(app, *options);
     add_limits(app, options->limits);
     app.add_option("--junit", options->junit, "write JUnit XML to a file: a suite per frame, a case per act and image");

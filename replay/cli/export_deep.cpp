@@ -1,15 +1,15 @@
 // strata export --deep: rasterized in double, tested against the depth that the replay gave.
 #include <algorithm>
 
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "passes/transparency/truth.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/run_json.h"
 #include "replay/counted.h"
-#include "replay/deep_image.h"
-#include "replay/flatten_deep.h"
-#include "replay/loaded_frame.h"
+#include "replay/deep/deep_image.h"
+#include "replay/deep/flatten_deep.h"
 #include "replay/scene/fit_textures.h"
+#include "replay/session/loaded_frame.h"
 
 namespace strata {
 namespace {
@@ -60,7 +60,7 @@ Result<void> export_deep(const ExportOptions& options) {
     if (!recorded) return recorded.error();
     auto loaded = load_frame(*std::move(recorded), variant_of(*request));
     if (!loaded) return loaded.error();
-    Frame& frame = loaded->frame;
+    Frame& frame = (*loaded)->frame;
     fit_textures(frame, (*session)->device().max_buffer_bytes);
     const auto sample = sample_of(options, frame.view.samples);
     if (!sample) return sample.error();

@@ -1,7 +1,7 @@
 // strata export --gltf and --json: what a frame says. No device is needed.
+#include "capture_format/codec/frame_json.h"
+#include "capture_format/container/whole_file.h"
 #include "capture_format/export/gltf.h"
-#include "capture_format/frame_json.h"
-#include "capture_format/whole_file.h"
 #include "replay/cli/export_kinds.h"
 
 namespace strata {

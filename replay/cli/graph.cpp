@@ -9,14 +9,14 @@
 namespace strata {
 namespace {
 
-struct Options {
+struct GraphArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0;
     bool dot = false;
 };
 
-Result<void> graph(const Options& options) {
+Result<void> graph(const GraphArguments& options) {
     auto session = open(options.open);
     if (!session) return session.error();
     auto request = request_of(options.choices);
@@ -36,7 +36,7 @@ Result<void> graph(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_graph(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<GraphArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frame", options->frame, "which frame, default 0");

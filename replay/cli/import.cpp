@@ -4,17 +4,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
-#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
 
 namespace strata {
 namespace {
 
-struct Options {
+struct ImportArguments {
     std::filesystem::path scene, output;
     std::string size = "640x360";
     std::uint32_t frames = 1;
@@ -25,12 +25,12 @@ struct Options {
     DeviceChoice device;
 };
 
-std::filesystem::path output_of(const Options& options) {
+std::filesystem::path output_of(const ImportArguments& options) {
     return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
 }
 
 /// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns the last one.
-Result<Frame> record_frames(const Options& options, std::uint32_t count,
+Result<Frame> record_frames(const ImportArguments& options, std::uint32_t count,
                             const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
     auto frame = frame_at(0);
     if (!frame) return frame;
@@ -53,7 +53,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
 }
 
-Result<void> import_deep_image(const Options& options) {
+Result<void> import_deep_image(const ImportArguments& options) {
     DeepOptions of_deep = options.of_deep;
     if (!options.window.empty())
         of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
@@ -70,7 +70,7 @@ Result<void> import_deep_image(const Options& options) {
     return {};
 }
 
-Result<void> import(const Options& options) {
+Result<void> import(const ImportArguments& options) {
     if (options.deep) return import_deep_image(options);
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
@@ -91,7 +91,7 @@ Result<void> import(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_import(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ImportArguments>();
     app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")->required();
     app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
     app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct InfoArguments {
     std::filesystem::path capture;
     std::size_t frame = 0;
     bool allow_partial = false, json = false;
@@ -83,7 +83,7 @@ void print(const Capture& capture, const Frame& frame, std::size_t index) {
     for (const StageChoice& stage : frame.recorded_with) fmt::print("recorded with {} for {}\n", stage.technique, stage.stage);
 }
 
-Result<void> info(const Options& options) {
+Result<void> info(const InfoArguments& options) {
     const auto capture = open_capture(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
@@ -97,7 +97,7 @@ Result<void> info(const Options& options) {
     return {};
 }
 
-Result<void> validate(const Options& options) {
+Result<void> validate(const InfoArguments& options) {
     const auto capture = open_capture(options.capture, Partial::refused);
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
@@ -111,7 +111,7 @@ Result<void> validate(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_info(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoArguments>();
     app.add_option("capture", options->capture, "a .strata file")->required();
     app.add_option("--frame", options->frame, "which frame to describe, default 0");
     app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
@@ -120,7 +120,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
 }
 
 std::function<Result<void>()> declare_validate(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoArguments>();
     app.add_option("capture", options->capture, "a .strata file")->required();
     return [options] { return validate(*options); };
 }

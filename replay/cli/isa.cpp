@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
@@ -16,7 +16,7 @@
 namespace strata {
 namespace {
 
-struct Options {
+struct IsaArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::vector<std::string> models;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 /// A null stands for the device itself.
-Result<std::vector<const GpuModel*>> models_of(const Options& options) {
+Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
     std::vector<const GpuModel*> models;
     for (const std::string& name : options.models) {
         const auto found = find_gpu_model(name);
@@ -48,7 +48,8 @@ std::string file_name(std::size_t number, const std::string& label, const std::s
 }
 
 /// What was compiled, one file per program.
-Result<void> dump(const Options& options, const std::string& gpu, const Compilation& made, const PipelineRequests& requests) {
+Result<void> dump(const IsaArguments& options, const std::string& gpu, const Compilation& made,
+                  const PipelineRequests& requests) {
     if (const auto folder = make_folder(options.dump); !folder) return folder;
     std::size_t written = 0, without_assembly = 0;
     for (std::size_t i = 0; i < made.pipelines.size(); ++i)
@@ -70,7 +71,7 @@ Result<void> dump(const Options& options, const std::string& gpu, const Compilat
 }
 
 /// Whether `--tiles` can be followed: before anything is compiled.
-Result<void> check_tiles(const Options& options, std::span<const GpuModel* const> models) {
+Result<void> check_tiles(const IsaArguments& options, std::span<const GpuModel* const> models) {
     if (options.tiles.empty()) return {};
     const std::string kind = options.tiles.extension().string();
     if (kind != ".exr" && kind != ".png")
@@ -87,7 +88,7 @@ struct TilesOfGpu {
 };
 
 /// Joins the tiles of the frame with what was compiled, and writes their picture.
-Result<void> add_tiles(Session& session, Request request, const Options& options, TilesOfGpu of) {
+Result<void> add_tiles(Session& session, Request request, const IsaArguments& options, TilesOfGpu of) {
     request.outputs = outputs_of_variants(of.technique);
     request.once = true;
     const auto run = session.run(request);
@@ -114,7 +115,7 @@ bool needs_a_run(const Plan& plan) {
     });
 }
 
-Result<IsaReport> describe_frame(Session& session, const Request& request, const Options& options) {
+Result<IsaReport> describe_frame(Session& session, const Request& request, const IsaArguments& options) {
     const auto frame = session.frame(request.frame);
     if (!frame) return frame.error();
     return IsaReport{.capture = options.open.capture.filename().string(),
@@ -125,7 +126,7 @@ Result<IsaReport> describe_frame(Session& session, const Request& request, const
 }
 
 /// The compilations of one plan, in the order of the models.
-Result<std::vector<Compilation>> compile_all(const Options& options, const PipelineRequests& requests,
+Result<std::vector<Compilation>> compile_all(const IsaArguments& options, const PipelineRequests& requests,
                                              std::span<const GpuModel* const> models, std::uint32_t device) {
     std::vector<Compilation> made;
     for (const GpuModel* model : models) {
@@ -142,14 +143,14 @@ Result<std::vector<Compilation>> compile_all(const Options& options, const Pipel
 }
 
 /// Who shades the tiles that are asked for, which the request then uses; null where none are.
-Result<const Technique*> shader_of_tiles(const Options& options, Request& request) {
+Result<const Technique*> shader_of_tiles(const IsaArguments& options, Request& request) {
     if (options.tiles.empty()) return nullptr;
     const auto technique = technique_of_variants(request.uses);
     if (technique) request.uses.emplace_back((*technique)->name);
     return technique;
 }
 
-Result<void> report_frame(const Options& options, std::span<const GpuModel* const> models) {
+Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel* const> models) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->frame = options.frame;
@@ -183,7 +184,7 @@ Result<void> report_frame(const Options& options, std::span<const GpuModel* cons
     return {};
 }
 
-Result<void> run_isa(const Options& options) {
+Result<void> run_isa(const IsaArguments& options) {
     const auto models = models_of(options);
     if (!models) return models.error();
     if (options.open.capture.empty()) {
@@ -197,7 +198,7 @@ Result<void> run_isa(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_isa(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<IsaArguments>();
     add_options(app, options->open);
     app.get_option("capture")->required(false)->description("a .strata file; without one, the GPU models that are known");
     add_options(app, options->choices);

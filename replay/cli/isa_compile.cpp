@@ -11,12 +11,12 @@
 namespace strata {
 namespace {
 
-struct Options {
+struct IsaCompileArguments {
     std::uint32_t device = 0;
     bool texts = false;
 };
 
-Result<void> compile(const Options& options) {
+Result<void> compile(const IsaCompileArguments& options) {
     const std::string input(std::istreambuf_iterator<char>(std::cin), {});
     const auto requests = pipelines_from_json(input, ShaderLibrary::built_in());
     if (!requests) return requests.error();
@@ -29,7 +29,7 @@ Result<void> compile(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_isa_compile(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<IsaCompileArguments>();
     app.group("");  // no part of the help: strata isa starts it
     app.add_option("--device", options->device, "index of the device");
     app.add_flag("--texts", options->texts, "what was compiled as text, too");

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct ListArguments {
     std::string what;
     bool names = false, scenarios = false, json = false;
 };
@@ -27,7 +27,12 @@ std::string range_text(const Param& param) {
     return fmt::format("{}; default {}", text, param.choices[static_cast<std::size_t>(param.fallback)]);
 }
 
-void print(const Technique& technique, const Options& options) {
+std::string_view model_text(ModelKind kind) {
+    if (kind == ModelKind::paper) return "written from the paper";
+    return "mirrors bit patterns of the shader; the property tests beside it are named in its README";
+}
+
+void print(const Technique& technique, const ListArguments& options) {
     if (options.names) {
         fmt::print("{}\n", technique.name);
         return;
@@ -35,6 +40,7 @@ void print(const Technique& technique, const Options& options) {
     fmt::print("  {:<32}{}. {}\n", technique.name, technique.title, technique.source);
     if (options.what.empty()) return;
     fmt::print("  {:<32}{}\n", "", technique.summary);
+    fmt::print("      model: {}\n", model_text(technique.model_is));
     for (const Param& param : technique.params)
         fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
     for (const std::string_view point : technique.points) fmt::print("      reported also at {}\n", point);
@@ -46,8 +52,13 @@ void print(const Technique& technique, const Options& options) {
 }
 
 ordered_json json_of(const Technique& technique) {
-    ordered_json json{{"name", technique.name},     {"stage", name(technique.stage)}, {"title", technique.title},
-                      {"source", technique.source}, {"summary", technique.summary},   {"parameters", ordered_json::array()}};
+    ordered_json json{{"name", technique.name},
+                      {"stage", name(technique.stage)},
+                      {"title", technique.title},
+                      {"source", technique.source},
+                      {"summary", technique.summary},
+                      {"model_is", name(technique.model_is)},
+                      {"parameters", ordered_json::array()}};
     for (const Param& param : technique.params)
         json["parameters"].push_back({{"name", param.name},
                                       {"low", param.low},
@@ -61,7 +72,7 @@ ordered_json json_of(const Technique& technique) {
     return json;
 }
 
-Result<void> list_scenarios(const Options& options) {
+Result<void> list_scenarios(const ListArguments& options) {
     std::size_t width = 0;
     for (const Scenario& scenario : scenarios()) width = std::max(width, scenario.name.size());
     for (const Scenario& scenario : scenarios())
@@ -70,7 +81,7 @@ Result<void> list_scenarios(const Options& options) {
     return {};
 }
 
-Result<void> list(const Options& options) {
+Result<void> list(const ListArguments& options) {
     if (options.scenarios) return list_scenarios(options);
     bool found = options.what.empty();
     ordered_json json{{"schema", "strata.list"}, {"schema_version", 1}, {"techniques", ordered_json::array()}};
@@ -101,7 +112,7 @@ Result<void> list(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_list(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ListArguments>();
     app.add_option("what,--stage", options->what, "a stage or a technique: then with parameters, counters and views");
     app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows");
     app.add_flag("--names", options->names, "names only, one a line");

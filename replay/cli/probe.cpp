@@ -6,13 +6,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/verb_options.h"
 
 namespace strata {
 namespace {
 
-struct Options {
+struct ProbeArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string at, axis = "log";
@@ -34,7 +34,7 @@ Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
 }
 
 /// "folder/name" of the files, from what was asked for or from the capture and the pixel.
-std::filesystem::path stem_of(const Options& options, PixelAt at) {
+std::filesystem::path stem_of(const ProbeArguments& options, PixelAt at) {
     if (!options.output.empty()) return options.output;
     return fmt::format("{}.f{:04}.x{}.y{}", options.open.capture.stem().string(), options.frame, at.x, at.y);
 }
@@ -52,7 +52,7 @@ Result<void> write_files(const std::filesystem::path& stem, const Probe& made) {
     return {};
 }
 
-Result<void> run_probe(const Options& options) {
+Result<void> run_probe(const ProbeArguments& options) {
     const auto at = pixel_of(options.at, options.sample);
     if (!at) return at.error();
     auto request = request_of(options.choices);
@@ -71,7 +71,7 @@ Result<void> run_probe(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_probe(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ProbeArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--at", options->at, "the pixel: x,y from the left top")->required();

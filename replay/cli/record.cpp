@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/recorder.h"
-#include "capture_format/whole_file.h"
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
@@ -12,7 +12,7 @@
 namespace strata {
 namespace {
 
-struct Options {
+struct RecordArguments {
     std::string scenario, size;
     std::filesystem::path output;
     ScenarioOptions frames;
@@ -20,7 +20,7 @@ struct Options {
     DeviceChoice device;
 };
 
-Result<void> record(const Options& options) {
+Result<void> record(const RecordArguments& options) {
     const auto scenario = find_scenario(options.scenario);
     if (!scenario) return scenario.error();
     ScenarioOptions wanted = options.frames;
@@ -55,7 +55,7 @@ Result<void> record(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_record(CLI::App& app) {
-    const auto options = std::make_shared<Options>();  // lives as long as the parsed command line
+    const auto options = std::make_shared<RecordArguments>();  // lives as long as the parsed command line
     app.add_option("scenario", options->scenario, "see strata list --scenarios")->required();
     app.add_option("-o,--output", options->output, "capture to write; default SCENARIO.strata");
     app.add_option("--frames", options->frames.frames, "how many frames")->check(CLI::Range(1, 100000));

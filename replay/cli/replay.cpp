@@ -6,20 +6,20 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/counted.h"
-#include "replay/expectation_check.h"
-#include "replay/image_io.h"
-#include "replay/repeat.h"
+#include "replay/expectations/expectation_check.h"
+#include "replay/images/image_io.h"
+#include "replay/session/repeat.h"
 
 namespace strata {
 namespace {
 
 using nlohmann::ordered_json;
 
-struct Options {
+struct ReplayArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string frames, until, eye;
@@ -40,7 +40,7 @@ struct Replayed {
 };
 
 /// The picture first: it is what a person waits for.
-Result<void> write_frame(const Request& request, const Replayed& replayed, const Options& options) {
+Result<void> write_frame(const Request& request, const Replayed& replayed, const ReplayArguments& options) {
     const Run& run = replayed.run;
     const std::string base =
         (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
@@ -65,7 +65,7 @@ void print_times(const Run& run) {
 }
 
 /// One run; or with --time as many as asked for after a warm-up, everything executed every time.
-Result<Run> run_once(Session& session, const Request& request, const Options& options) {
+Result<Run> run_once(Session& session, const Request& request, const ReplayArguments& options) {
     if (options.timed == 0) return session.run(request);
     auto runs = session.time(std::span(&request, 1), options.timed);
     if (!runs) return runs.error();
@@ -77,14 +77,14 @@ Result<Run> run_once(Session& session, const Request& request, const Options& op
     return run;
 }
 
-bool expects(const Session& session, const Options& options) {
+bool expects(const Session& session, const ReplayArguments& options) {
     const bool as_recorded = options.eye.empty() && options.shaders.empty();
     return as_recorded && !options.no_expect && options.until.empty() &&
            (options.expect || !session.capture()->expectations().empty());
 }
 
 /// Compared with what is `known` to be expected, where that is not null.
-Result<Replayed> replay_frame(Session& session, const Request& request, const Options& options,
+Result<Replayed> replay_frame(Session& session, const Request& request, const ReplayArguments& options,
                               const std::vector<Expectation>* known) {
     auto run = run_once(session, request, options);
     if (!run) return run.error();
@@ -106,7 +106,7 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Op
 }
 
 /// The command that would make what a frame gave its expectation.
-std::string command_to_accept(const Options& options, std::size_t frame) {
+std::string command_to_accept(const ReplayArguments& options, std::size_t frame) {
     std::string command = fmt::format("strata accept {} --frames {}", shell_word(options.open.capture.string()), frame);
     for (const std::string& use : options.choices.uses) command += fmt::format(" --use {}", use);
     for (const std::string& set : options.choices.sets) command += fmt::format(" --set {}", set);
@@ -117,7 +117,7 @@ std::string command_to_accept(const Options& options, std::size_t frame) {
 }
 
 /// The verdict as what the program ends with.
-Result<void> judge(const Request& request, const Replayed& replayed, const Options& options) {
+Result<void> judge(const Request& request, const Replayed& replayed, const ReplayArguments& options) {
     if (!replayed.verdict) return {};
     const ExpectationVerdict& verdict = *replayed.verdict;
     const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
@@ -166,7 +166,7 @@ void print_summary(const Request& request, const Run& run) {
     }
 }
 
-Result<void> replay(const Options& options) {
+Result<void> replay(const ReplayArguments& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->until = options.until;
@@ -211,7 +211,7 @@ Result<void> replay(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_replay(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReplayArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");

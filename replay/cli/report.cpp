@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
-#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
@@ -14,7 +14,7 @@
 namespace strata {
 namespace {
 
-struct Options {
+struct ReportArguments {
     std::vector<std::filesystem::path> captures;
     OpenOptions open;
     ChoiceOptions choices;
@@ -49,7 +49,7 @@ void show_progress(std::string_view what, double done) {
     std::fflush(stderr);
 }
 
-std::string written(const Options& options, std::span<const Report> made) {
+std::string written(const ReportArguments& options, std::span<const Report> made) {
     if (made.size() == 1) return options.json ? as_json(made[0]) : options.csv ? as_csv(made[0]) : as_text(made[0]);
     const Pool pool = pooled(made);
     if (options.json || options.csv) return options.json ? as_json(made, pool) : as_csv(made, pool);
@@ -58,7 +58,7 @@ std::string written(const Options& options, std::span<const Report> made) {
     return text + as_text(pool);
 }
 
-Result<ReportRequest> request_of(const Options& options) {
+Result<ReportRequest> request_of(const ReportArguments& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
     base->frame = options.frame;
@@ -78,13 +78,13 @@ Result<ReportRequest> request_of(const Options& options) {
     return wanted;
 }
 
-Result<void> write(const Options& options, const std::string& text) {
+Result<void> write(const ReportArguments& options, const std::string& text) {
     if (!options.output.empty()) return write_whole_file(options.output, text);
     fmt::print("{}", text);
     return {};
 }
 
-Result<void> report_hard_cases(const Options& options) {
+Result<void> report_hard_cases(const ReportArguments& options) {
     if (options.csv) return fail(Fault::usage, "--hard-cases writes text or --json");
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
@@ -94,7 +94,7 @@ Result<void> report_hard_cases(const Options& options) {
     return write(options, options.json ? as_json(*made) : as_text(*made));
 }
 
-Result<void> report(const Options& options) {
+Result<void> report(const ReportArguments& options) {
     if (options.hard_cases) return report_hard_cases(options);
     if (options.captures.empty())
         return fail(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
@@ -117,7 +117,7 @@ Result<void> report(const Options& options) {
 }  // namespace
 
 std::function<Result<void>()> declare_report(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReportArguments>();
     CLI::Option* captures =
         app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one");
     CLI::Option* hard_cases =

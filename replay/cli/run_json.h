@@ -3,8 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "replay/expectation_check.h"
-#include "replay/provenance.h"
+#include "replay/expectations/expectation_check.h"
+#include "replay/expectations/provenance.h"
 
 namespace strata {
 

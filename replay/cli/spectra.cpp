@@ -8,15 +8,15 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
-#include "capture_format/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
 
 namespace strata {
 namespace {
 
-struct Options {
+struct SpectraArguments {
     std::vector<std::filesystem::path> captures;
     OpenOptions open;
     ChoiceOptions choices;
@@ -36,13 +36,13 @@ Result<const CostSource*> find_cost_source(const std::string& name) {
     return fail(Fault::usage, "--cost takes {}, not '{}'{}", fmt::join(known, " or "), name, did_you_mean(name, known));
 }
 
-Result<std::unique_ptr<Session>> open_one(const Options& options, const std::filesystem::path& capture) {
+Result<std::unique_ptr<Session>> open_one(const SpectraArguments& options, const std::filesystem::path& capture) {
     OpenOptions one = options.open;
     one.capture = capture;
     return open(one);
 }
 
-Result<std::vector<FrameSpectra>> gather(const Options& options, const Technique& technique, const Request& base) {
+Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const Technique& technique, const Request& base) {
     std::vector<FrameSpectra> gathered;
     std::string why = "nothing is lit";
     for (const std::filesystem::path& capture : options.captures) {
@@ -64,19 +64,19 @@ Result<std::vector<FrameSpectra>> gather(const Options& options, const Technique
 }
 
 /// With a GPU and no word on costs, its compiler's.
-std::string cost_of(const Options& options) {
+std::string cost_of(const SpectraArguments& options) {
     if (!options.cost.empty()) return options.cost;
     return options.gpu_model.empty() ? "weights" : "isa";
 }
 
-Result<const GpuModel*> gpu_of(const Options& options) {
+Result<const GpuModel*> gpu_of(const SpectraArguments& options) {
     if (options.gpu_model.empty()) return nullptr;
     const auto found = find_gpu_model(options.gpu_model);
     if (found && (*found)->family.empty()) return fail(Fault::usage, "RADV does not compile for {}", options.gpu_model);
     return found;
 }
 
-Result<void> spectra(const Options& options) {
+Result<void> spectra(const SpectraArguments& options) {
     const auto source = find_cost_source(cost_of(options));
     if (!source) return source.error();
     const auto gpu = gpu_of(options);
@@ -118,7 +118,7 @@ std::string help_of_costs() {
 }  // namespace
 
 std::function<Result<void>()> declare_spectra(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SpectraArguments>();
     app.add_option("captures", options->captures, ".strata files; every frame of each counts alike")->required();
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");

@@ -7,12 +7,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/picture.h"
 #include "capture_format/nearest_name.h"
-#include "capture_format/picture.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 
 namespace strata {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "replay/session.h"
+#include "replay/session/session.h"
 #include "replay/shell_word.h"
 
 namespace CLI {

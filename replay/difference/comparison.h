@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "replay/difference/compare_images.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "capture_format/srgb.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 
 namespace strata {
 namespace {

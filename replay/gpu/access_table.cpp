@@ -6,7 +6,7 @@
 namespace strata {
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
+using PipelineStage = vk::PipelineStageFlagBits2;
 using Mask = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
 
@@ -16,32 +16,34 @@ struct AccessRow {
 };
 
 // Reads name every shader stage: a plan puts no barrier between equal reads, whichever stages do them.
-constexpr vk::PipelineStageFlags2 shaders =
-    Stage::eVertexShader | Stage::eGeometryShader | Stage::eFragmentShader | Stage::eComputeShader;
-constexpr vk::PipelineStageFlags2 depth_tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+constexpr vk::PipelineStageFlags2 shaders = PipelineStage::eVertexShader | PipelineStage::eGeometryShader |
+                                            PipelineStage::eFragmentShader | PipelineStage::eComputeShader;
+constexpr vk::PipelineStageFlags2 depth_tests = PipelineStage::eEarlyFragmentTests | PipelineStage::eLateFragmentTests;
 
 // `none` waits for everything: what touched the memory before is another run, or is not known.
-constexpr AccessRow rows[] = {
-    {Access::none, {Stage::eAllCommands, Mask::eMemoryRead | Mask::eMemoryWrite, Layout::eUndefined}},
+constexpr AccessRow access_rows[] = {
+    {Access::none, {PipelineStage::eAllCommands, Mask::eMemoryRead | Mask::eMemoryWrite, Layout::eUndefined}},
     {Access::sampled, {shaders, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal}},
     {Access::loaded, {shaders, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eGeneral}},
     {Access::stored, {shaders, Mask::eShaderStorageWrite, Layout::eGeneral}},
     {Access::updated, {shaders, Mask::eShaderStorageRead | Mask::eShaderStorageWrite, Layout::eGeneral}},
     {Access::color_written,
-     {Stage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite, Layout::eColorAttachmentOptimal}},
+     {PipelineStage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite,
+      Layout::eColorAttachmentOptimal}},
     {Access::color_blended,
-     {Stage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite, Layout::eColorAttachmentOptimal}},
+     {PipelineStage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite,
+      Layout::eColorAttachmentOptimal}},
     {Access::depth_tested, {depth_tests, Mask::eDepthStencilAttachmentRead, Layout::eDepthStencilReadOnlyOptimal}},
     {Access::depth_written,
      {depth_tests, Mask::eDepthStencilAttachmentRead | Mask::eDepthStencilAttachmentWrite,
       Layout::eDepthStencilAttachmentOptimal}},
-    {Access::indirect, {Stage::eDrawIndirect, Mask::eIndirectCommandRead, Layout::eUndefined}},
-    {Access::indexed, {Stage::eIndexInput, Mask::eIndexRead, Layout::eUndefined}},
-    {Access::copied_from, {Stage::eAllTransfer, Mask::eTransferRead, Layout::eTransferSrcOptimal}},
-    {Access::copied_to, {Stage::eAllTransfer, Mask::eTransferWrite, Layout::eTransferDstOptimal}},
+    {Access::indirect, {PipelineStage::eDrawIndirect, Mask::eIndirectCommandRead, Layout::eUndefined}},
+    {Access::indexed, {PipelineStage::eIndexInput, Mask::eIndexRead, Layout::eUndefined}},
+    {Access::copied_from, {PipelineStage::eAllTransfer, Mask::eTransferRead, Layout::eTransferSrcOptimal}},
+    {Access::copied_to, {PipelineStage::eAllTransfer, Mask::eTransferWrite, Layout::eTransferDstOptimal}},
 };
-static_assert(std::size(rows) == static_cast<std::size_t>(Access::copied_to) + 1);
-static_assert(std::ranges::is_sorted(rows, {}, &AccessRow::access));
+static_assert(std::size(access_rows) == static_cast<std::size_t>(Access::copied_to) + 1);
+static_assert(std::ranges::is_sorted(access_rows, {}, &AccessRow::access));
 
 vk::ImageLayout layout_of(const AccessRow& row, FormatKind kind) {
     const bool is_sampled_depth = row.access == Access::sampled && kind == FormatKind::depth;
@@ -51,9 +53,9 @@ vk::ImageLayout layout_of(const AccessRow& row, FormatKind kind) {
 }  // namespace
 
 DeviceAccess device_access(AccessSet set, FormatKind kind) {
-    if (set.empty()) return rows[0].device;
+    if (set.empty()) return access_rows[0].device;
     DeviceAccess all{{}, {}, Layout::eUndefined};
-    for (const AccessRow& row : rows) {
+    for (const AccessRow& row : access_rows) {
         if (!set.has(row.access)) continue;
         all.stages |= row.device.stages;
         all.mask |= row.device.mask;

@@ -176,7 +176,7 @@ vk::raii::CommandBuffer OpenedDevice::begin_commands() const {
 }
 
 void OpenedDevice::submit(vk::raii::CommandBuffer& commands) const {
-    // Longer than any frame on a CPU driver; an endless shader loop is stopped by nobody else there (platform.md 1.3).
+    // Longer than any frame on a CPU driver; an endless shader loop is stopped by nobody else there.
     constexpr std::uint64_t patience_ns = std::uint64_t(std::chrono::nanoseconds(std::chrono::minutes(30)).count());
     const vk::raii::Fence fence(device_, vk::FenceCreateInfo());
     const vk::CommandBufferSubmitInfo buffer(*commands);

@@ -13,7 +13,7 @@
 
 #include "passes/graph/plan.h"
 #include "replay/gpu/device.h"
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 

@@ -108,7 +108,7 @@ std::string missing_limit(const vk::raii::PhysicalDevice& device) {
 
 std::string first_missing(const vk::raii::PhysicalDevice& device) {
     const auto properties = device.getProperties();
-    // RADV without a GPU (RADV_FORCE_FAMILY) compiles but crashes at the first memory or command buffer (platform.md 4).
+    // RADV without a GPU (RADV_FORCE_FAMILY) compiles but crashes at the first memory or command buffer (Mesa 22.3).
     if (std::string_view(properties.deviceName).starts_with("Null hardware")) return "hardware: it only compiles";
     if (properties.apiVersion < VK_API_VERSION_1_3) {
         return fmt::format("Vulkan 1.3 (it has {}.{})", VK_API_VERSION_MAJOR(properties.apiVersion),

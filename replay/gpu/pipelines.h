@@ -1,5 +1,5 @@
 // Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once and
-// kept as long as the device: a CPU driver compiles at the first use of each, for up to seconds (platform.md 2.3).
+// kept as long as the device: a CPU driver compiles at the first use of each, for up to seconds.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct BlendRow {
     Op op;
 };
 
-constexpr BlendRow rows[] = {
+constexpr BlendRow blend_rows[] = {
     {Blend::none, VK_FALSE, Factor::eOne, Factor::eZero, Factor::eZero, Op::eAdd},
     {Blend::add, VK_TRUE, Factor::eOne, Factor::eOne, Factor::eOne, Op::eAdd},
     {Blend::multiply, VK_TRUE, Factor::eZero, Factor::eSrcColor, Factor::eSrcAlpha, Op::eAdd},
@@ -26,7 +26,7 @@ constexpr BlendRow rows[] = {
     {Blend::max, VK_TRUE, Factor::eOne, Factor::eOne, Factor::eOne, Op::eMax},
     {Blend::min, VK_TRUE, Factor::eOne, Factor::eOne, Factor::eOne, Op::eMin},
 };
-static_assert(std::ranges::is_sorted(rows, {}, &BlendRow::blend));
+static_assert(std::ranges::is_sorted(blend_rows, {}, &BlendRow::blend));
 
 bool writes_outside(const PlannedStep& planned) {
     return std::ranges::any_of(planned.bindings,
@@ -65,7 +65,7 @@ RasterState raster_state(const PlannedStep& planned, const std::vector<ImageReco
 
 vk::PipelineColorBlendAttachmentState blend_state(const RasterState& state, Blend blend) {
     using Bit = vk::ColorComponentFlagBits;
-    const BlendRow& row = rows[static_cast<std::uint32_t>(blend)];
+    const BlendRow& row = blend_rows[static_cast<std::uint32_t>(blend)];
     const vk::Bool32 enabled = row.enabled || state.keeps_side_effects;
     return {enabled, row.source, row.color, row.op, row.source, row.alpha, row.op, Bit::eR | Bit::eG | Bit::eB | Bit::eA};
 }

@@ -27,7 +27,7 @@ struct RasterState {
 };
 
 /// llvmpipe (22.3 and 25.0) drops what a fragment shader writes to buffers and images where later opaque fragments cover a whole
-/// 64 x 64 tile of a single color attachment without depth (platform.md 8 #1). Blending with factors one and zero prevents it.
+/// 64 x 64 tile of a single color attachment without depth. Blending with factors one and zero prevents it.
 RasterState raster_state(const PlannedStep&, const std::vector<ImageRecord>& images, bool on_llvmpipe);
 
 /// The pipeline's blend state of a color attachment.

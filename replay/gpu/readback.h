@@ -6,7 +6,7 @@
 
 #include "replay/gpu/buffer.h"
 #include "replay/gpu/image.h"
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 

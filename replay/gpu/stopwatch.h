@@ -1,6 +1,5 @@
 // GPU times of steps, and how often their shaders ran. Queries stand outside rendering scopes with a barrier on both sides:
-// inside a scope llvmpipe measures its binning, and without the barriers 22.3.6 shifts the times of dispatches by one
-// (platform.md 2.4).
+// inside a scope llvmpipe measures its binning, and without the barriers 22.3.6 shifts the times of dispatches by one.
 #pragma once
 
 #include <cstdint>

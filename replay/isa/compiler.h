@@ -1,5 +1,5 @@
 // Compiles pipelines and asks the driver what it made of them. Nothing runs: the device may be RADV's for hardware that is not
-// there, which crashes at the first memory and aborts for a name it does not know (platform.md 4). So only a process that has
+// there, which crashes at the first memory and aborts for a name it does not know (Mesa 22.3). So only a process that has
 // nothing to lose calls this: see compile_elsewhere.h.
 #pragma once
 

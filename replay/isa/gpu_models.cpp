@@ -71,7 +71,7 @@ constexpr UnitModel sm_90 = {.called = "multiprocessor",
                              .group_slots = 32};
 
 // Units and clocks are those of the boards' data sheets. The PlayStation 4 has the instructions and registers of gfx7.
-constexpr GpuModel table[] = {
+constexpr GpuModel gpu_model_table[] = {
     {"bonaire", "bonaire", "", "Radeon HD 7790", 14, 1000, &gfx7},
     {"ps4", "bonaire", "", "PlayStation 4, compiled as bonaire", 18, 800, &gfx7},
     {"hawaii", "hawaii", "", "Radeon R9 290X", 44, 1000, &gfx7},
@@ -91,12 +91,12 @@ std::string lower(std::string_view text) {
 
 }  // namespace
 
-std::span<const GpuModel> gpu_models() { return table; }
+std::span<const GpuModel> gpu_models() { return gpu_model_table; }
 
 Result<const GpuModel*> find_gpu_model(std::string_view name) {
     const std::string wanted = lower(name);
     std::vector<std::string_view> known;
-    for (const GpuModel& model : table) {
+    for (const GpuModel& model : gpu_model_table) {
         if (model.name == wanted || (!model.later_family.empty() && model.later_family == wanted)) return &model;
         known.push_back(model.name);
     }
@@ -106,10 +106,10 @@ Result<const GpuModel*> find_gpu_model(std::string_view name) {
 const GpuModel* gpu_model_of(std::string_view device_name) {
     const std::string device = lower(device_name);
     const auto names_it = [&](std::string_view part) { return !part.empty() && device.find(part) != std::string::npos; };
-    const auto found = std::ranges::find_if(table, [&](const GpuModel& model) {
+    const auto found = std::ranges::find_if(gpu_model_table, [&](const GpuModel& model) {
         return names_it(model.name) || names_it(model.family) || names_it(model.later_family);
     });
-    return found == std::end(table) ? nullptr : found;
+    return found == std::end(gpu_model_table) ? nullptr : found;
 }
 
 }  // namespace strata

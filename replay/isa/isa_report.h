@@ -9,7 +9,7 @@
 #include "replay/isa/occupancy.h"
 #include "replay/isa/pipeline_request.h"
 #include "replay/isa/tile_waves.h"
-#include "replay/step_counts.h"
+#include "replay/session/step_counts.h"
 
 namespace strata {
 
@@ -59,7 +59,7 @@ double modelled_ms(const GpuModel&, std::uint64_t invocations, double inverse_th
 struct Counting {
     const Plan& plan;
     const StepCounts& counts;
-    bool device_counts_fragments = false;  ///< not on a CPU driver (platform.md 3)
+    bool device_counts_fragments = false;  ///< not on a CPU driver: its count is wrong
 };
 std::vector<IsaPass> passes_of(const Counting&, const PipelineRequests&);
 

@@ -1,5 +1,5 @@
 // How many waves of a shader a SIMD holds at once, and what keeps it from holding more. Whole groups only: a compiler's own
-// number may be rounded up (RADV's is, platform.md 4), and a difference to it is said.
+// number may be rounded up (RADV's is: replay/isa/README.md), and a difference to it is said.
 #pragma once
 
 #include <array>

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "replay/isa/isa_report.h"
-#include "replay/offering.h"
+#include "replay/session/offering.h"
 
 namespace strata {
 namespace {

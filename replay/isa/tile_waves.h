@@ -9,10 +9,10 @@
 
 #include "passes/technique.h"
 #include "replay/difference/canvas.h"
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 #include "replay/isa/occupancy.h"
 #include "replay/isa/pipeline_request.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 

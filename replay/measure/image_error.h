@@ -9,7 +9,7 @@
 #include <string>
 
 #include "capture_format/result.h"
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 

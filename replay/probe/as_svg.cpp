@@ -5,7 +5,7 @@
 
 #include "passes/transparency/sample_blend.h"
 #include "replay/counted.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "replay/probe/order.h"
 #include "replay/probe/probe.h"
 #include "replay/probe/svg.h"

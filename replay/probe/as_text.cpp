@@ -11,7 +11,7 @@ namespace {
 // Of a longer list the middle is left out: JSON has it.
 constexpr std::size_t listed = 40;
 
-std::string rgb(const glm::dvec3& v) { return fmt::format("{:.3f} {:.3f} {:.3f}", v.x, v.y, v.z); }
+std::string rgb_text(const glm::dvec3& v) { return fmt::format("{:.3f} {:.3f} {:.3f}", v.x, v.y, v.z); }
 
 std::string fragment_lines(const Probe& probe) {
     std::string text = fmt::format("  {:>4}  {:>10}  {:>7}  {:>7}  {:<17}  {:<17}  {:<17}  {:<17}\n", "#", "depth [m]", "submit",
@@ -24,7 +24,7 @@ std::string fragment_lines(const Probe& probe) {
         }
         const Fragment& f = probe.fragments[i];
         text += fmt::format("  {:>4}  {:>10.5g}  {:>7}  {:>7.4f}  {}  {}  {}  {}\n", i + 1, f.depth, f.submission, f.alpha,
-                            rgb(f.transmittance), rgb(f.color), rgb(f.emission), rgb(probe.before_events[i]));
+                            rgb_text(f.transmittance), rgb_text(f.color), rgb_text(f.emission), rgb_text(probe.before_events[i]));
     }
     return text;
 }
@@ -53,7 +53,7 @@ std::string figure_lines(const Probe& probe) {
 
 std::string as_text(const Probe& probe) {
     std::string text = fmt::format("{}: {}, exact T behind them {}\n", place_of(probe),
-                                   counted(probe.fragments.size(), "fragment"), rgb(probe.exact_total));
+                                   counted(probe.fragments.size(), "fragment"), rgb_text(probe.exact_total));
     if (probe.undecided) text += "which fragments there are hangs on rounding: the device may see others\n";
     text += '\n' + fragment_lines(probe);
     text += fmt::format(

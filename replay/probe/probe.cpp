@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "capture_format/nearest_name.h"
+#include "passes/reference/ordering.h"
 #include "passes/registry.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/sample_blend.h"
@@ -318,7 +319,7 @@ Result<Probe> probe(Session& session, const Request& request, PixelAt at, const 
     if (const auto checked = check_pixel(**lists, at); !checked) return checked.error();
     const std::span<const Fragment> fragments = (*lists)->at(at.x, at.y, at.sample);
     const bool undecided = (*lists)->undecided(at.x, at.y, at.sample);
-    const auto range = transparency::transparent_depth_range(*frame);
+    const auto range = transparent_depth_range(*frame);
     auto made = probe(session,
                       {.fragments = {fragments.begin(), fragments.end()},
                        .nearest = double(range.nearest),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "passes/reference/fragments.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 
@@ -26,7 +26,7 @@ struct ProbeOptions {
     double from = 0, to = 0;  ///< metres; 0: around the pixel's fragments. Kept within the frame's range
 };
 
-/// Errors against the exact step function (transparency chapter 9.3), averaged over the color channels.
+/// Errors against the exact step function (docs/algorithms/transparency.md 9.3), averaged over the color channels.
 struct ProbeFigures {
     double l1_logarithmic = 0, l1_linear = 0;  ///< integral of |T^ - T| over the probed range as 0 to 1 in ln z, and in z
     /// The most |T^ - T| farther from every step than 1% of the axis; nothing where steps are everywhere.

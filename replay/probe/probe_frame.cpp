@@ -8,8 +8,8 @@
 namespace strata {
 namespace {
 
-// Fragments that hide less are drawn as light: methods drop them otherwise (transparency chapter 0.2), and with them the slot
-// they take. The light is just above what is dropped and far below what is measured.
+// Fragments that hide less are drawn as light: methods drop them otherwise (docs/algorithms/transparency.md 0.2), and with them
+// the slot they take. The light is just above what is dropped and far below what is measured.
 constexpr double least_alpha = 1e-5;
 constexpr float faint = 2e-6f;
 

@@ -29,7 +29,7 @@ std::vector<std::string> figure_names(std::span<const Report> reports) {
     return names;
 }
 
-std::string counters_text(const Measurement& row) {
+std::string counters_field(const Measurement& row) {
     std::string text;
     for (const CounterRecord& counter : row.counters)
         text += fmt::format("{}{}={}", text.empty() ? "" : " ", counter.name, counter.value);
@@ -47,7 +47,7 @@ std::string line_of(const Measurement& row, std::size_t figures) {
     line += fmt::format(",{},{}", time(&Spread::median), time(&Spread::mad));
     return line + fmt::format(",{},{},{},{},{:d},{:d},{},\n", row.stage_bytes, number(row.bytes_per_pixel),
                               row.invocations ? fmt::format("{}", *row.invocations) : std::string(), number(row.flicker),
-                              row.on_front, row.on_memory_front, csv_field(counters_text(row)));
+                              row.on_front, row.on_memory_front, csv_field(counters_field(row)));
 }
 
 std::string table(std::span<const Report> reports) {

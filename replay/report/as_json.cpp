@@ -19,7 +19,8 @@ ordered_json json_of(const Measurement& row) {
     for (const Figure& figure : errors_of(row))
         json["method_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
     const WorstTexel& worst = row.accuracy.worst;
-    json["implementation_error"] = {{"rmse", row.accuracy.model_rmse},
+    json["implementation_error"] = {{"model_is", name(row.model_is)},
+                                    {"rmse", row.accuracy.model_rmse},
                                     {"worst", row.accuracy.model_worst},
                                     {"worst_texel",
                                      {{"image", worst.image},
@@ -30,6 +31,7 @@ ordered_json json_of(const Measurement& row) {
                                       {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z}}}},
                                     {"compared", row.accuracy.compared},
                                     {"undecided", row.accuracy.undecided}};
+    if (!row.accuracy.incomparable.empty()) json["incomparable"] = row.accuracy.incomparable;
     json["stage_ms"] = json_of(row.stage_ms);
     if (row.time) json["time"] = json_of(*row.time);
     json["frame_ms"] = json_of(row.frame_ms);

@@ -1,6 +1,7 @@
 // Reports for a terminal: what ranks techniques. Everything else that was measured is in JSON and CSV.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "replay/counted.h"
 #include "replay/report/pooled.h"
@@ -90,15 +91,24 @@ std::string counters_text(const Report& report) {
     return text.empty() ? "" : "\ncounted\n" + text;
 }
 
+/// The techniques whose models repeat bit patterns of the shader that they judge.
+std::string mirrors_text(const Report& report) {
+    std::set<std::string> mirrors;
+    for (const Measurement& row : report.rows)
+        if (row.model_is == ModelKind::mirror) mirrors.insert(below_stage(row.technique));
+    std::string names;
+    for (const std::string& technique : mirrors) names += (names.empty() ? "" : ", ") + technique;
+    return names.empty() ? "" : fmt::format("models that mirror bit patterns of the shader: {}\n", names);
+}
+
 /// GPU against model: one sentence, or one for each row that has a bug.
 std::string implementation_text(const Report& report) {
     double worst = 0;
     std::string wrong;
     for (const Measurement& row : report.rows) {
         worst = std::max(worst, row.accuracy.model_rmse);
-        if (row.accuracy.model_rmse > row.tolerance)
-            wrong += fmt::format("! {} is {:.1e} from its own model, {:.1e} is tolerated: a bug, or this driver's rounding\n",
-                                 short_label(row), row.accuracy.model_rmse, row.tolerance);
+        if (const std::string doubt = implementation_doubt(row); !doubt.empty())
+            wrong += fmt::format("! {} {}\n", short_label(row), doubt);
     }
     return wrong.empty() ? fmt::format("implementations: all within tolerance of their models, rmse {:.1e} at most\n", worst)
                          : wrong;
@@ -122,11 +132,21 @@ std::string heading(const Report& report) {
 
 }  // namespace
 
+std::string implementation_doubt(const Measurement& row) {
+    const Accuracy& accuracy = row.accuracy;
+    if (!accuracy.incomparable.empty()) return fmt::format("cannot be compared: {}", accuracy.incomparable);
+    const bool on_average = accuracy.model_rmse > row.tolerance;
+    if (!on_average && accuracy.model_worst <= row.tolerated_worst) return {};
+    return fmt::format("is {:.1e} from its own model{}, {:.1e} is tolerated: a bug, or this driver's rounding",
+                       on_average ? accuracy.model_rmse : accuracy.model_worst, on_average ? "" : " in one texel",
+                       on_average ? row.tolerance : row.tolerated_worst);
+}
+
 std::string as_text(const Report& report) {
     const std::string text = heading(report);
     if (!report.skipped.empty()) return text;
     return text + "\n" + as_text(table_of(report)) + "\n" + std::string(legend) + implementation_text(report) +
-           best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report);
+           mirrors_text(report) + best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report);
 }
 
 std::string as_text(const Pool& pool) {

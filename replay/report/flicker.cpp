@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/reference/fragments.h"
-#include "passes/reference/shade.h"
 #include "passes/registry.h"
+#include "passes/scene/draw_lists.h"
+#include "passes/scene/view_space.h"
 
 namespace strata {
 namespace {
@@ -17,7 +17,7 @@ constexpr double dolly_share = .05;
 std::optional<glm::dvec2> depth_range(const Frame& frame, std::span<const std::uint32_t> listed) {
     glm::dvec2 range(HUGE_VAL, -HUGE_VAL);
     const auto add = [&](const glm::dvec3& world) {
-        const double depth = to_view(frame, world).z;
+        const double depth = in_view_space(frame.view, world).z;
         if (depth > double(frame.view.near)) range = {std::min(range.x, depth), std::max(range.y, depth)};
     };
     for (const std::uint32_t index : listed) {
@@ -71,7 +71,8 @@ void Flicker::add_frame(const ReferenceImage& got, const ReferenceImage& truth) 
 double Flicker::mean() const { return steps_ == 0 ? 0 : sum_ / double(steps_) / double(error_.size()); }
 
 std::optional<double> default_dolly(const Frame& frame) {
-    for (const auto& listed : {transparent_draws(frame), opaque_draws(frame)})
+    const DrawLists lists = draw_lists(frame);
+    for (const auto& listed : {lists.transparent, lists.opaque})
         if (const auto range = depth_range(frame, listed)) return dolly_share * (range->x + range->y) / 2;
     return {};
 }

@@ -10,7 +10,7 @@
 
 #include "captures/hard_cases.h"
 #include "replay/report/variants.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

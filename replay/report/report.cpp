@@ -71,6 +71,7 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     if (!model) return model.error();
     accuracy->model_rmse = model->model_rmse;
     accuracy->model_worst = model->model_worst;
+    if (accuracy->incomparable.empty()) accuracy->incomparable = model->incomparable;
     return accuracy;
 }
 
@@ -197,7 +198,9 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         const Variant& variant = (*all)[i];
         report.rows.push_back({.technique = std::string(variant.technique->name),
                                .settings = variant.settings,
-                               .tolerance = variant.technique->tolerance.rmse});
+                               .tolerance = variant.technique->tolerance.rmse,
+                               .tolerated_worst = variant.technique->tolerance.worst,
+                               .model_is = variant.technique->model_is});
         tell(label(variant.technique->name, variant.settings), .1 + .3 * double(i) / double(all->size()));
         auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);
         if (!accuracy) return accuracy.error();

@@ -2,11 +2,12 @@
 // flicker and counters, and what is on the Pareto fronts.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "replay/report/ranking.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 
@@ -36,7 +37,9 @@ struct ReportRequest {
 struct Measurement {
     std::string technique, settings;  ///< settings: "falloff=20 weight=w9", only what differs from the defaults
     Accuracy accuracy;
-    double tolerance = 0;  ///< of the technique, for accuracy.model_rmse
+    double tolerance = 0;               ///< of the technique, for accuracy.model_rmse
+    double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
+    ModelKind model_is = ModelKind::paper;
     Spread stage_ms, frame_ms;
     std::optional<Spread> time;  ///< stage_ms as multiples of the time unit's, turn by turn
     std::uint64_t stage_bytes = 0;
@@ -70,6 +73,10 @@ std::vector<Standing> standings(std::span<const Measurement>);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
 std::vector<Figure> errors_of(const Measurement&);
+
+/// What is wrong with a technique's implementation, as a sentence without its subject: "is 2e-02 from its own model, ..."; empty
+/// where it is within its tolerance.
+std::string implementation_doubt(const Measurement&);
 
 std::string as_text(const Report&);
 std::string as_json(const Report&);

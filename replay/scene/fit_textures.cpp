@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "capture_format/texture_bytes.h"
+#include "capture_format/codec/texture_bytes.h"
 
 namespace strata {
 namespace {

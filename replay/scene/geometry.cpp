@@ -1,26 +1,23 @@
 // Meshes and particles as vertices, indices, draws and indirect commands. Meshes are stored once however many draws use them;
-// particles become camera-facing quads in view space, in the corner order of passes/reference/fragments.h.
+// particles become camera-facing quads in view space, in the corner order that passes/reference/fragments.h states.
 #include <cmath>
 #include <numeric>
 #include <span>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/culling/opaque_draws.h"
-#include "passes/reference/bounds.h"
-#include "passes/reference/fragments.h"
-#include "passes/reference/shade.h"
-#include "passes/transparency/object_order.h"
+#include "passes/scene/object_order.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/scene/view_space.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
 namespace {
 
 /// Where a mesh or an emitter lies in the vertex and index buffers.
-struct Place {
+struct MeshRange {
     std::uint32_t first_index = 0, index_count = 0;
     std::int32_t vertex_offset = 0;
-    Box box = {};  ///< of a mesh
 };
 
 template <typename T>
@@ -28,11 +25,10 @@ T element(const std::vector<T>& stream, std::size_t i, T missing) {
     return stream.empty() ? missing : stream[i];
 }
 
-Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
-    const Place place{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
-                      .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
-                      .vertex_offset = static_cast<std::int32_t>(scene.vertices.size()),
-                      .box = bounding_box(mesh.positions)};
+MeshRange add_mesh(const Mesh& mesh, SceneRecords& scene) {
+    const MeshRange range{.first_index = static_cast<std::uint32_t>(scene.indices.size()),
+                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                          .vertex_offset = static_cast<std::int32_t>(scene.vertices.size())};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         scene.vertices.push_back({
             .position = mesh.positions[i],
@@ -46,21 +42,21 @@ Place add_mesh(const Mesh& mesh, SceneRecords& scene) {
         });
     }
     scene.indices.insert(scene.indices.end(), mesh.indices.begin(), mesh.indices.end());
-    return place;
+    return range;
 }
 
 /// The same triangles turned around. View space is left-handed, so a transform into it that mirrors keeps a right-handed
 /// object's front counter-clockwise on screen; for one that does not mirror the winding is turned here.
-std::uint32_t add_reversed(const Place& place, SceneRecords& scene) {
+std::uint32_t add_reversed(const MeshRange& range, SceneRecords& scene) {
     const auto first = static_cast<std::uint32_t>(scene.indices.size());
-    for (std::uint32_t i = 0; i + 2 < place.index_count; i += 3)
-        for (const std::uint32_t corner : {0u, 2u, 1u}) scene.indices.push_back(scene.indices[place.first_index + i + corner]);
+    for (std::uint32_t i = 0; i + 2 < range.index_count; i += 3)
+        for (const std::uint32_t corner : {0u, 2u, 1u}) scene.indices.push_back(scene.indices[range.first_index + i + corner]);
     return first;
 }
 
 void add_particle(const Frame& frame, const Particle& p, SceneRecords& scene) {
     constexpr glm::dvec2 corners[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    const glm::dvec3 center = to_view(frame, p.center);
+    const glm::dvec3 center = in_view_space(frame.view, p.center);
     const double c = std::cos(double(p.rotation)), s = std::sin(double(p.rotation));
     for (const glm::dvec2 corner : corners) {
         const glm::dvec2 turned(c * corner.x - s * corner.y, s * corner.x + c * corner.y);
@@ -99,10 +95,9 @@ glm::dmat4 motion_in_view(const Draw& draw, const glm::dmat4& view) {
     return moved;  // as its origin has
 }
 
-DrawRecord draw_record(const Frame& frame, const Draw& draw, const Box& box) {
+DrawRecord draw_record(const Frame& frame, const Draw& draw, const BoundingSphere& bound) {
     const glm::dmat4 view = glm::translate(glm::dmat4(frame.view.to_view), -frame.view.origin);
     const glm::dmat4 to_view = view * draw.to_world;
-    const Sphere bound = bounding_sphere(frame, draw, box);
     const glm::dmat3 linear(to_view);
     return {
         .to_view = glm::mat4(to_view),
@@ -141,22 +136,23 @@ CommandRange add_commands(std::span<const std::uint32_t> listed, std::span<const
 
 }  // namespace
 
-void add_geometry(const Frame& frame, SceneRecords& scene) {
-    std::vector<Place> meshes;
+void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
+    const Frame& frame = facts.frame();
+    std::vector<MeshRange> meshes;
     for (const Mesh& mesh : frame.meshes) meshes.push_back(add_mesh(mesh, scene));
 
     std::vector<DrawCommand> submitted, sorted;
     std::vector<std::uint32_t> reversed(meshes.size(), no_index);
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
         const Draw& draw = frame.draws[i];
-        const Place& place = meshes[draw.mesh];
-        std::uint32_t first = place.first_index;
+        const MeshRange& range = meshes[draw.mesh];
+        std::uint32_t first = range.first_index;
         if (glm::determinant(frame.view.to_view * glm::dmat3(draw.to_world)) > 0) {
-            if (reversed[draw.mesh] == no_index) reversed[draw.mesh] = add_reversed(place, scene);
+            if (reversed[draw.mesh] == no_index) reversed[draw.mesh] = add_reversed(range, scene);
             first = reversed[draw.mesh];
         }
-        scene.draws.push_back(draw_record(frame, draw, place.box));
-        submitted.push_back({place.index_count, 1, first, place.vertex_offset, i});
+        scene.draws.push_back(draw_record(frame, draw, facts.bounds().spheres[i]));
+        submitted.push_back({range.index_count, 1, first, range.vertex_offset, i});
     }
     sorted = submitted;
     for (std::size_t e = 0; e < frame.emitters.size(); ++e) {
@@ -173,9 +169,9 @@ void add_geometry(const Frame& frame, SceneRecords& scene) {
     }
     for (std::uint32_t i = 0; i < scene.draws.size(); ++i) scene.draws[i].submission = i;
 
-    scene.opaque = add_commands(opaque_draws(frame), submitted, scene);
-    scene.casters = add_commands(caster_draws(frame), submitted, scene);
-    scene.transparent = add_commands(transparent_draws(frame), submitted, scene);
+    scene.opaque = add_commands(facts.lists().opaque, submitted, scene);
+    scene.casters = add_commands(facts.lists().casters, submitted, scene);
+    scene.transparent = add_commands(facts.lists().transparent, submitted, scene);
     scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
 }
 

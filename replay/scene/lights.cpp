@@ -1,6 +1,6 @@
 // The view, the lights and their shadow maps as records.
-#include "passes/lighting/light_records.h"
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/light_records.h"
+#include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
@@ -52,10 +52,11 @@ ViewRecord view_record(const Frame& frame) {
 
 }  // namespace
 
-void add_lights(const Frame& frame, SceneRecords& scene) {
+void add_lights(const SceneFacts& facts, SceneRecords& scene) {
+    const Frame& frame = facts.frame();
     static_cast<LightRecords&>(scene) = light_records(frame);
     std::uint32_t shadowed = 0;
-    const std::vector<ShadowView> views = shadow_views(frame);
+    const std::vector<ShadowView>& views = facts.shadow_views(Allocation::own);
     for (const ShadowView& view : views) {
         LightRecord& light = scene.lights[view.light];
         if (light.shadow == no_index) {
@@ -65,18 +66,19 @@ void add_lights(const Frame& frame, SceneRecords& scene) {
         ++light.shadow_slots;
         scene.shadows.push_back(record(view));
     }
-    for (const ShadowView& view : shadow_views(frame, Allocation::need)) scene.shadows.push_back(record(view));
+    for (const ShadowView& view : facts.shadow_views(Allocation::need)) scene.shadows.push_back(record(view));
     scene.view = view_record(frame);
     scene.view.light_count = static_cast<uint>(scene.lights.size());
     scene.view.shadow_count = static_cast<uint>(views.size());
 }
 
-SceneRecords scene_records(const Frame& frame) {
+SceneRecords scene_records(const SceneFacts& facts) {
+    const Frame& frame = facts.frame();
     SceneRecords scene;
-    add_geometry(frame, scene);
+    add_geometry(facts, scene);
     add_materials(frame, scene);
     add_textures(frame, scene);
-    add_lights(frame, scene);
+    add_lights(facts, scene);
     return scene;
 }
 

@@ -6,7 +6,8 @@
 
 #include "capture_format/frame.h"
 #include "passes/graph/graph.h"
-#include "passes/lighting/light_records.h"
+#include "passes/scene/light_records.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/shaders/scene.shared.h"
 
 namespace strata {
@@ -36,12 +37,12 @@ struct SceneRecords : LightRecords {
     CommandRange opaque, casters, transparent, back_to_front;
 };
 
-SceneRecords scene_records(const Frame&);
+SceneRecords scene_records(const SceneFacts&);
 
 // The parts, each in its own file.
-void add_geometry(const Frame&, SceneRecords&);   // geometry.cpp: vertices, indices, draws, commands
-void add_materials(const Frame&, SceneRecords&);  // materials.cpp
+void add_geometry(const SceneFacts&, SceneRecords&);  // geometry.cpp: vertices, indices, draws, commands
+void add_materials(const Frame&, SceneRecords&);      // materials.cpp
 void add_textures(const Frame&, SceneRecords&);
-void add_lights(const Frame&, SceneRecords&);  // lights.cpp: lights and what stops them, shadows, view
+void add_lights(const SceneFacts&, SceneRecords&);  // lights.cpp: lights and what stops them, shadows, view
 
 }  // namespace strata

@@ -1,6 +1,6 @@
-// What a tile costs by the mode that shades it, as a compiler estimates it for a GPU that need not be there (lighting
-// chapter 3.5): the technique's shader of every mode is taken from the plan of a frame that has these modes, compiled, and priced
-// by its cycles for a tile's pixels times the penalty for the waves it leaves no room for.
+// What a tile costs by the mode that shades it, as a compiler estimates it for a GPU that need not be there
+// (docs/algorithms/lighting.md 3.5): the technique's shader of every mode is taken from the plan of a frame that has these modes,
+// compiled, and priced by its cycles for a tile's pixels times the penalty for the waves it leaves no room for.
 #include <algorithm>
 #include <cmath>
 #include <map>

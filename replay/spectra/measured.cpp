@@ -1,5 +1,5 @@
-// What a tile costs by the mode that shades it, timed (lighting chapter 3.5). The technique runs with the full mode alone,
-// T(full), and with the full mode and one other, T(m): what is different is what the k tiles save whose spectra m serves,
+// What a tile costs by the mode that shades it, timed (docs/algorithms/lighting.md 3.5). The technique runs with the full mode
+// alone, T(full), and with the full mode and one other, T(m): what is different is what the k tiles save whose spectra m serves,
 //     T(full) - T(m) = k (c(full) - c(m)),   c(full) = T(full) / all tiles,   so   c(m) = c(full) - (T(full) - T(m)) / k.
 // That takes the saving from the very tiles that m will have, however much heavier others are. Culling is part of T and the same
 // for every mode; of the second dispatch the savings pay already. All modes are timed in turn, so that a busy machine cancels.

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <set>
 
-#include "replay/offering.h"
+#include "replay/session/offering.h"
 
 namespace strata {
 namespace {

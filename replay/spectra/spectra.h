@@ -1,4 +1,4 @@
-// The feature spectra of captures and the shading modes that serve them best (lighting chapter 3.4 to 3.7).
+// The feature spectra of captures and the shading modes that serve them best (docs/algorithms/lighting.md 3.4 to 3.7).
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 #include "replay/isa/gpu_models.h"
 #include "replay/isa/pipeline_request.h"
 #include "replay/report/report.h"
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

@@ -1,5 +1,5 @@
 // Bulk bytes: stored once, found by what they are, decompressed when asked for.
-#include "capture_format/blob_store.h"
+#include "capture_format/container/blob_store.h"
 
 #include <cstring>
 #include <optional>

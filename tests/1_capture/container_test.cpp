@@ -1,5 +1,5 @@
 // What a capture file is: a header, sections, a directory.
-#include "capture_format/container.h"
+#include "capture_format/container/container.h"
 
 #include <gmock/gmock.h>
 
@@ -83,6 +83,22 @@ TEST(Container, ADamagedDirectoryIsRebuiltByScanning) {
     ASSERT_TRUE(container && container->damage());
     EXPECT_EQ(container->sections().size(), 3u);
     EXPECT_THAT(container->damage()->sentence, HasSubstr("section 3"));
+}
+
+TEST(Container, WithoutADirectoryEveryByteOfASectionsHeaderCounts) {
+    const TemporaryFile file;
+    std::vector<std::byte> bytes = write_three(file.path());
+    const auto finished = Container::open(file.path());
+    const std::uint64_t offset = finished->sections()[1].offset;
+    bytes.resize(finished->sections()[3].offset);
+    ASSERT_EQ(Container::open(bytes, "whole.strata")->sections().size(), 3u);
+    for (std::uint64_t at = offset; at < offset + 48; ++at) {
+        std::vector<std::byte> damaged = bytes;
+        damaged[at] ^= std::byte{1};
+        const auto container = Container::open(damaged, "damaged.strata");
+        EXPECT_EQ(container->sections().size(), 1u) << at - offset;
+        EXPECT_THAT(container->damage()->sentence, HasSubstr("section 1 ")) << at - offset;
+    }
 }
 
 TEST(Container, AFinishedFileIsExtendedByAppending) {

@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/encode_frame.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "tests/1_capture/sample_frames.h"

@@ -1,12 +1,12 @@
 // Draws come and go; those that stay are told by what changed.
-#include "capture_format/draw_runs.h"
+#include "capture_format/codec/draw_runs.h"
 
 #include <algorithm>
 #include <random>
 
 #include <gmock/gmock.h>
 
-#include "capture_format/encode_frame.h"
+#include "capture_format/codec/encode_frame.h"
 #include "tests/1_capture/sample_frames.h"
 
 namespace strata {

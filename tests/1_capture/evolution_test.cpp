@@ -6,9 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include "capture_format/codec/upgrade.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
-#include "capture_format/upgrade.h"
 #include "tests/1_capture/frame_fields.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"

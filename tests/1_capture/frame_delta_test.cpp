@@ -1,5 +1,5 @@
 // A frame told by what changed: every bit comes back, what goes straight on or turns costs next to nothing, lies are refused.
-#include "capture_format/frame_delta.h"
+#include "capture_format/codec/frame_delta.h"
 
 #include <bit>
 #include <cfenv>

@@ -4,13 +4,13 @@
 
 #include <gmock/gmock.h>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/decode_frame.h"
-#include "capture_format/encode_frame.h"
+#include "capture_format/codec/decode_frame.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/codec/upgrade.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
-#include "capture_format/upgrade.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/1_capture/temporary_file.h"
 

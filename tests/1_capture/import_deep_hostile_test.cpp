@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Result<ImportedDeep> imported(std::string_view file, const DeepOptions& options = {}) {
+Result<ImportedDeep> imported_deep_text(std::string_view file, const DeepOptions& options = {}) {
     return import_deep(bytes_of(file), "test.exr", options);
 }
 
@@ -37,22 +37,22 @@ std::size_t first_block(const std::string& file, std::size_t lines) {
 }
 
 TEST(DeepImportOfDamage, RefusesWhatIsNoDeepImage) {
-    EXPECT_THAT(sentence(imported("")), HasSubstr("test.exr: it is no OpenEXR file"));
-    EXPECT_THAT(sentence(imported("this is no picture at all, whatever its name says")), HasSubstr("no OpenEXR file"));
-    EXPECT_THAT(sentence(imported(flat_file(4, 4))), HasSubstr("none of its parts is deep"));
+    EXPECT_THAT(sentence(imported_deep_text("")), HasSubstr("test.exr: it is no OpenEXR file"));
+    EXPECT_THAT(sentence(imported_deep_text("this is no picture at all, whatever its name says")), HasSubstr("no OpenEXR file"));
+    EXPECT_THAT(sentence(imported_deep_text(flat_file(4, 4))), HasSubstr("none of its parts is deep"));
 }
 
 TEST(DeepImportOfDamage, RefusesAnImageWithoutDepth) {
     DeepSource source{.channels = {"A", "left.Z"}};
     source.pixels = {{{1, 2}}};
-    EXPECT_THAT(sentence(imported(deep_file(source))), HasSubstr("no channel Z; its channels are A left.Z"));
+    EXPECT_THAT(sentence(imported_deep_text(deep_file(source))), HasSubstr("no channel Z; its channels are A left.Z"));
 }
 
 TEST(DeepImportOfDamage, RefusesAFileCutShortWhereverItIsCut) {
     for (const DeepLayout layout : {DeepLayout::lines, DeepLayout::tiles}) {
         const std::string whole = small_image(layout, DeepPacking::zips);
         for (std::size_t size = 0; size < whole.size(); ++size) {
-            const auto result = imported(std::string_view(whole).substr(0, size));
+            const auto result = imported_deep_text(std::string_view(whole).substr(0, size));
             ASSERT_FALSE(result) << size << " of " << whole.size() << " bytes";
             EXPECT_EQ(result.error().fault, Fault::bad_input);
         }
@@ -66,14 +66,14 @@ TEST(DeepImportOfDamage, SurvivesEveryByteOverwritten) {
             for (const char byte : {'\0', '\x7f', '\xff'}) {
                 std::string damaged = whole;
                 damaged[at] = byte;
-                const auto result = imported(damaged, {.most_samples = 10000});
+                const auto result = imported_deep_text(damaged, {.most_samples = 10000});
                 EXPECT_THAT(sentence(result), testing::AnyOf("imported", testing::StartsWith("test.exr: ")));
             }
     }
 }
 
 TEST(DeepImportOfDamage, RefusesMoreSamplesThanItMayRead) {
-    const auto result = imported(small_image(DeepLayout::lines, DeepPacking::zips), {.most_samples = 59});
+    const auto result = imported_deep_text(small_image(DeepLayout::lines, DeepPacking::zips), {.most_samples = 59});
     EXPECT_THAT(sentence(result), HasSubstr("there are 60 samples; 59 are the most"));
 }
 
@@ -84,11 +84,11 @@ TEST(DeepImportOfDamage, RefusesCountsThatTheBlockCannotHold) {
     // Line, bytes of the table, bytes of the samples packed and unpacked, then running sums: 2, 4, ... 12.
     const std::uint32_t many = 0x01000000;
     std::memcpy(file.data() + block + 28 + 5 * 4, &many, 4);
-    EXPECT_THAT(sentence(imported(file)), HasSubstr("counts 16777216 samples of 20 bytes but claims 240 bytes"));
+    EXPECT_THAT(sentence(imported_deep_text(file)), HasSubstr("counts 16777216 samples of 20 bytes but claims 240 bytes"));
     const std::uint64_t claim = std::uint64_t{many} * 20;
     std::memcpy(file.data() + block + 20, &claim, 8);
-    EXPECT_THAT(sentence(imported(file)), HasSubstr("there are 16777264 samples"));
-    EXPECT_THAT(sentence(imported(file, {.most_samples = std::uint64_t{1} << 40})),
+    EXPECT_THAT(sentence(imported_deep_text(file)), HasSubstr("there are 16777264 samples"));
+    EXPECT_THAT(sentence(imported_deep_text(file, {.most_samples = std::uint64_t{1} << 40})),
                 HasSubstr("claims 335544320 bytes of samples in 240"));
 }
 
@@ -96,7 +96,7 @@ TEST(DeepImportOfDamage, RefusesVolumesThatOverlapTooOften) {
     DeepSource source{.channels = {"A", "Z", "ZBack"}};
     auto& pixel = source.pixels.emplace_back();
     for (int i = 0; i < 40000; ++i) pixel.push_back({.001f, 1 + float(i), 1e9f});
-    EXPECT_THAT(sentence(imported(deep_file(source))), HasSubstr("overlap too often"));
+    EXPECT_THAT(sentence(imported_deep_text(deep_file(source))), HasSubstr("overlap too often"));
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/codec/texture_mips.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/reader.h"
-#include "capture_format/texture_mips.h"
 #include "tests/support/gltf_text.h"
 
 namespace strata {

@@ -9,9 +9,9 @@
 
 #include <gmock/gmock.h>
 
-#include "capture_format/container.h"
-#include "capture_format/decode_frame.h"
-#include "capture_format/encode_frame.h"
+#include "capture_format/codec/decode_frame.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/container/container.h"
 #include "capture_format/reader.h"
 #include "tests/1_capture/frame_fields.h"
 #include "tests/1_capture/sample_frames.h"

@@ -34,7 +34,7 @@ Texture floats() {
     return texture;
 }
 
-Mesh triangle() {
+Mesh triangle_mesh() {
     Mesh mesh = named<Mesh>("triangle");
     mesh.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.normals = {{0, 0, -1}, {0, 0, -1}, {0, 0, odd_nan}};
@@ -104,7 +104,7 @@ Frame rich_frame() {
     frame.index = 1ull << 40;
     frame.seed = ~0ull;
     frame.textures = {checker(), floats()};
-    frame.meshes.push_back(triangle());
+    frame.meshes.push_back(triangle_mesh());
     frame.materials.push_back(glass());
     frame.draws.push_back(
         {.name = "pane", .mesh = 1, .material = 1, .mobility = Mobility::moving, .sort_priority = -3, .layer = 2});

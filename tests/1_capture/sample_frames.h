@@ -1,4 +1,4 @@
-// Small frames for the chapter.
+// Small frames for the tests of captures.
 #pragma once
 
 #include "capture_format/frame.h"

@@ -1,5 +1,5 @@
 // Files that are written whole or not at all. What a signal does to them is shown with the program itself, in tests/7_tool.
-#include "capture_format/whole_file.h"
+#include "capture_format/container/whole_file.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// What the tests of this chapter are made of: shaders that exist by description alone, and plans turned into short sentences.
+// What the tests of this folder are made of: shaders that exist by description alone, and plans turned into short sentences.
 #pragma once
 
 #include <string>

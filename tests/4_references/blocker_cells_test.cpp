@@ -1,5 +1,5 @@
-// Why a tile may believe what it is told of blockers (lighting chapter 2.3, 2.4, 2.10): classes never contradict the test of a
-// point, in float, over random tiles. tests/5_techniques/blocker_cells_test.cpp asks a device about the same tiles.
+// Why a tile may believe what it is told of blockers (docs/algorithms/lighting.md 2.3, 2.4, 2.10): classes never contradict the
+// test of a point, in float, over random tiles. tests/5_techniques/blocker_cells_test.cpp asks a device about the same tiles.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,7 +24,7 @@ std::size_t points_stopped(const BlockerCases& cases, std::size_t index, glm::uv
     }));
 }
 
-TEST(BlockerCells, WhatATileLeavesToTestIsTheSameAsTestingEverything) {  // T2.0
+TEST(BlockerCells, WhatATileLeavesToTestIsTheSameAsTestingEverything) {  // docs/algorithms/lighting.md T2.0
     constexpr std::size_t count = 60000;
     const BlockerCases cases = blocker_cases(count, 20);
     std::size_t killed = 0, tests = 0, left = 0, dark = 0;
@@ -86,10 +86,10 @@ BlockerCases one_case(const BlockerRecord& blocker, const glm::vec3& light, cons
 
 Reach class_of(const BlockerCases& cases) { return classes(cases, 0).blockers[0]; }
 
-constexpr lighting::TileRays<float> middle{-.05f, .05f, -.05f, .05f};
+constexpr lighting::TileRays<float> middle_tile{-.05f, .05f, -.05f, .05f};
 
 TEST(BlockerCells, ATileBehindABlockerIsFullBesideItNoneAndAcrossItsEdgePartial) {
-    const Cell<float> cell = lighting::cell_between(middle, 4.f, 6.f);
+    const Cell<float> cell = lighting::cell_between(middle_tile, 4.f, 6.f);
     BlockerRecord blocker{.normal = {0, 0, -1}, .half_u = 1, .center = {0, 0, 2}, .half_v = 1, .u = {1, 0, 0}, .one_sided = 0};
     EXPECT_EQ(class_of(one_case(blocker, {0, 0, 1}, cell)), Reach::full);
     blocker.center.x = 1;
@@ -115,7 +115,7 @@ TEST(BlockerCells, ATilePlaneProvesWhatNoShadowPlaneCan) {
     EXPECT_EQ(class_of(one_case(board, {-.1f, 0, 0}, cell)), Reach::partial) << "now its corner's shadow enters the tile";
 }
 
-TEST(BlockerCells, GrazingLightsNeverProveMoreThanIsTrue) {  // N1
+TEST(BlockerCells, GrazingLightsNeverProveMoreThanIsTrue) {  // docs/algorithms/lighting.md N1
     std::mt19937 random(1);
     std::uniform_real_distribution<float> within(-1, 1), height(.0205f, .2f);
     std::size_t full = 0, partial = 0;
@@ -143,7 +143,7 @@ TEST(BlockerCells, GrazingLightsNeverProveMoreThanIsTrue) {  // N1
     EXPECT_GT(partial, 200u);
 }
 
-TEST(BlockerCells, NothingChangesWhereTheEyeIsInABlocker) {  // N4
+TEST(BlockerCells, NothingChangesWhereTheEyeIsInABlocker) {  // docs/algorithms/lighting.md N4
     std::mt19937 random(4);
     std::uniform_real_distribution<float> within(-1, 1);
     for (const float offset : {-.01f, 0.f, .01f})
@@ -204,7 +204,7 @@ struct Halves {
     }
 };
 
-TEST(BlockerCells, TwoBlockersThatShareAnEdgeLeaveNoCrack) {  // T2.9
+TEST(BlockerCells, TwoBlockersThatShareAnEdgeLeaveNoCrack) {  // docs/algorithms/lighting.md T2.9
     std::mt19937 random(29);
     std::size_t cracks = 0, bare_cracks = 0;
     for (int i = 0; i < 500; ++i) {
@@ -232,7 +232,7 @@ struct ClosedBox {
     }
 };
 
-TEST(BlockerCells, NoLightLeavesAClosedBox) {  // T2.10
+TEST(BlockerCells, NoLightLeavesAClosedBox) {  // docs/algorithms/lighting.md T2.10
     const ClosedBox box;
     const LightBlockers all = light_blockers(box.frame, box.light);
     const glm::dvec4 from = light_point(box.frame, box.light);
@@ -249,7 +249,7 @@ TEST(BlockerCells, NoLightLeavesAClosedBox) {  // T2.10
     }
 }
 
-TEST(BlockerCells, TilesBehindAFaceOfAClosedBoxLoseTheLight) {  // T2.10
+TEST(BlockerCells, TilesBehindAFaceOfAClosedBoxLoseTheLight) {  // docs/algorithms/lighting.md T2.10
     const ClosedBox box;
     const LightBlockers all = light_blockers(box.frame, box.light);
     const auto edge = [](int i) { return float(i) / 22.5f; };

@@ -1,5 +1,5 @@
-// Why the reference of light blockers and portals can be believed (lighting chapter 2.10 and 7). The eye is at the origin and
-// looks along +z, so that world and view are one.
+// Why the reference of light blockers and portals can be believed (docs/algorithms/lighting.md 2.10 and 7). The eye is at the
+// origin and looks along +z, so that world and view are one.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -49,7 +49,7 @@ struct Wall {
 
 Portal window(float half) { return {.half_u = half, .half_v = half}; }
 
-TEST(Blockers, AShadowGrowsWithTheDistanceBehindTheBlocker) {  // T2.1
+TEST(Blockers, AShadowGrowsWithTheDistanceBehindTheBlocker) {  // docs/algorithms/lighting.md T2.1
     const Wall wall;
     EXPECT_FALSE(wall.lit({1.9999, 1.9999, -1}));
     EXPECT_TRUE(wall.lit({2.0002, 0, -1}));
@@ -58,7 +58,7 @@ TEST(Blockers, AShadowGrowsWithTheDistanceBehindTheBlocker) {  // T2.1
     EXPECT_NEAR(wall.dark_area(-3), 64, 1e-9);
 }
 
-TEST(Blockers, APortalIsAHoleInTheShadow) {  // T2.1
+TEST(Blockers, APortalIsAHoleInTheShadow) {  // docs/algorithms/lighting.md T2.1
     Wall wall;
     wall.cut(window(.25f));
     EXPECT_NEAR(wall.dark_area(-1), 15, 1e-9);
@@ -66,7 +66,7 @@ TEST(Blockers, APortalIsAHoleInTheShadow) {  // T2.1
     EXPECT_FALSE(wall.lit({.5001, 0, -1}));
 }
 
-TEST(Blockers, AShelfShadesTheGroundUnderAHighLight) {  // T2.2
+TEST(Blockers, AShelfShadesTheGroundUnderAHighLight) {  // docs/algorithms/lighting.md T2.2
     Wall shelf;
     shelf.frame.blockers[0] = {.center = {0, 2, 10}, .u = {1, 0, 0}, .v = {0, 0, 1}};
     shelf.light.position = {0, 5, 10};
@@ -80,7 +80,7 @@ TEST(Blockers, AShelfShadesTheGroundUnderAHighLight) {  // T2.2
     EXPECT_FALSE(shelf.lit({.8334, 0, 10}));
 }
 
-TEST(Blockers, ADirectionalLightsShadowIsAPrism) {  // T2.3
+TEST(Blockers, ADirectionalLightsShadowIsAPrism) {  // docs/algorithms/lighting.md T2.3
     Wall roof;
     roof.light.type = LightType::directional;
     roof.light.direction = {0, 0, -1};
@@ -92,7 +92,7 @@ TEST(Blockers, ADirectionalLightsShadowIsAPrism) {  // T2.3
     EXPECT_TRUE(roof.lit({.99, 0, -2}));
 }
 
-TEST(Blockers, LightAndPointMayChangePlaces) {  // T2.4
+TEST(Blockers, LightAndPointMayChangePlaces) {  // docs/algorithms/lighting.md T2.4
     std::mt19937 random(24);
     std::uniform_real_distribution<double> within(-2, 2);
     Wall wall;
@@ -108,7 +108,7 @@ TEST(Blockers, LightAndPointMayChangePlaces) {  // T2.4
     EXPECT_GT(dark, 10000);
 }
 
-TEST(Blockers, APortalAsLargeAsItsBlockerOpensAllOfIt) {  // T2.8
+TEST(Blockers, APortalAsLargeAsItsBlockerOpensAllOfIt) {  // docs/algorithms/lighting.md T2.8
     Wall wall;
     wall.cut(window(1));
     EXPECT_EQ(wall.dark_area(-1), 0) << "but for the boundary, which no middle of a square is on";
@@ -117,7 +117,7 @@ TEST(Blockers, APortalAsLargeAsItsBlockerOpensAllOfIt) {  // T2.8
     EXPECT_TRUE(wall.lit({2, 2, -1})) << "not even the boundary";
 }
 
-TEST(Blockers, APortalWithoutAreaOpensNothing) {  // T2.8, N5
+TEST(Blockers, APortalWithoutAreaOpensNothing) {  // docs/algorithms/lighting.md T2.8, N5
     Wall wall;
     wall.cut({.half_u = 1, .half_v = 0});
     EXPECT_NEAR(wall.dark_area(-1), 16, 1e-9);
@@ -132,7 +132,7 @@ TEST(Blockers, ABlockerWithoutAreaStopsNothing) {
     EXPECT_TRUE(wall.blockers().blockers.empty());
 }
 
-TEST(Blockers, APortalOffThePlaneIsProjectedOntoItAndItsPartOutsideIgnored) {  // N5
+TEST(Blockers, APortalOffThePlaneIsProjectedOntoItAndItsPartOutsideIgnored) {  // docs/algorithms/lighting.md N5
     Wall wall;
     wall.cut({.center = {.9, 0, .3}, .half_u = .5f, .half_v = .25f});
     EXPECT_TRUE(wall.lit({.81, 0, -1})) << "from .4 of the blocker on";
@@ -162,7 +162,7 @@ TEST(Blockers, PortalsThatAbutLeaveNoLineBetweenThem) {
     EXPECT_FALSE(wall.lit({.0002, 0, -1})) << "a tenth of a millimetre is not a gap, two are";
 }
 
-TEST(Blockers, APortalOpensNoBlockerButItsOwn) {  // N16
+TEST(Blockers, APortalOpensNoBlockerButItsOwn) {  // docs/algorithms/lighting.md N16
     Wall wall;
     wall.frame.blockers.push_back(wall.frame.blockers[0]);
     wall.frame.blockers[1].center.z = -.001;
@@ -174,7 +174,7 @@ TEST(Blockers, APortalOpensNoBlockerButItsOwn) {  // N16
     EXPECT_FALSE(wall.lit({1.1, 0, -1}));
 }
 
-TEST(Blockers, ALightInThePlaneIsNotStopped) {  // N2, 2.6
+TEST(Blockers, ALightInThePlaneIsNotStopped) {  // docs/algorithms/lighting.md N2, 2.6
     Wall wall;
     for (const double side : {1., -1.}) {
         wall.light.position = {0, 0, .0199 * side};
@@ -189,14 +189,14 @@ TEST(Blockers, ALightInThePlaneIsNotStopped) {  // N2, 2.6
     EXPECT_FALSE(wall.lit({.1 / 1.1e-3, 0, -.1}));
 }
 
-TEST(Blockers, APointOnTheLightsSideIsLit) {  // N3
+TEST(Blockers, APointOnTheLightsSideIsLit) {  // docs/algorithms/lighting.md N3
     const Wall wall;
     EXPECT_TRUE(wall.lit({0, 0, 3})) << "the light is between it and the blocker";
     EXPECT_TRUE(wall.lit({0, 0, .5}));
     EXPECT_TRUE(wall.lit({0, 0, 0}));
 }
 
-TEST(Blockers, FacesOnABlockersPlaneAreLitFromTheirOwnSide) {  // N6
+TEST(Blockers, FacesOnABlockersPlaneAreLitFromTheirOwnSide) {  // docs/algorithms/lighting.md N6
     Wall wall;
     for (const double side : {1., -1.}) {
         wall.light.position = {0, 0, side};
@@ -247,7 +247,7 @@ TEST(Blockers, OutOfReachOnesAreLeftOut) {
     EXPECT_EQ(wall.blockers().blockers.size(), 1u) << "the emitter comes nearer than its center";
 }
 
-TEST(Blockers, TheSmallestOf33IsDroppedAndCounted) {  // N17
+TEST(Blockers, TheSmallestOf33IsDroppedAndCounted) {  // docs/algorithms/lighting.md N17
     Wall wall;
     wall.frame.blockers.clear();
     wall.light.blockers.clear();

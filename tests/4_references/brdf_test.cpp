@@ -1,5 +1,5 @@
-// Why the lighting models of the reference can be believed: the numbers of the lighting chapter (T0.6 to T0.8), white furnaces,
-// reciprocity.
+// Why the lighting models of the reference can be believed: the numbers of docs/algorithms/lighting.md T0.6 to T0.8, white
+// furnaces, reciprocity.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,11 +13,11 @@
 namespace strata {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const glm::dvec3 axis(0, 0, -1);  // the normal of every surface here, or the fibre
 
 constexpr std::array<double, 4> cosines = {1, 0.7, 0.4, 0.1}, alphas = {0.1, 0.25, 0.5, 1};
-// T0.7 by alpha, then cosine of the eye.
+// docs/algorithms/lighting.md T0.7 by alpha, then cosine of the eye.
 constexpr std::array<std::array<double, 4>, 4> ggx_albedos = {{{.98832, .98143, .95690, .88345},
                                                                {.91581, .88534, .84427, .89162},
                                                                {.68785, .68295, .71636, .86011},
@@ -247,6 +247,23 @@ TEST(Brdf, SkinIsLitFromBehindAsFarAsRedWraps) {
     // For an eye straight above: what the lobe of 0.75 times the roughness lets in, times max(cos + w, 0) / (1 + w)^2 / pi.
     const double wrap = 0.4, entering = 1 - 0.028 * fitted_ggx_albedo(1, std::pow(0.75 * 0.5, 2));
     EXPECT_NEAR(lit(-0.2).x, entering * (wrap - 0.2) / std::pow(1 + wrap, 2) / pi, 1e-12);
+}
+
+TEST(Brdf, SkinShinesBy85PercentOfASharpLobeAnd15PercentOfAWideOne) {
+    // Unreal Engine's subsurface profile: GGX lobes of .75 and 1.3 times the roughness, here .45 and .78, F0 = .028. Black skin
+    // shows nothing else.
+    SurfacePoint surface = white(LightingModel::skin, 0.6);
+    surface.base_color = glm::dvec3(0);
+    const auto shine = [&](double cosine) {
+        return brdf(surface, toward(cosine, 0), axis).x * brdf_cosine(surface, toward(cosine, 0));
+    };
+    // Straight above D V is 1 / (4 pi alpha^2): .028 (.85 / (4 pi .2025^2) + .15 / (4 pi .6084^2)) = .028 (1.649525 + .032248).
+    EXPECT_NEAR(shine(1), 0.0470897, 1e-7);
+    // Light at 60 degrees, n.h = cos 30: D V of the lobes are .0803964 and .1725624, F is .0280420.
+    EXPECT_NEAR(shine(0.5), (0.85 * 0.0803964 + 0.15 * 0.1725624) * 0.5 * 0.0280420, 1e-8);
+    // 1.3 times the roughness ends at 1: lobes of .75 and 1.
+    surface.roughness = 1;
+    EXPECT_NEAR(shine(1), 0.028 / (4 * pi) * (0.85 / std::pow(0.5625, 2) + 0.15), 1e-12);
 }
 
 TEST(Brdf, SkinReflectsEveryColorAsMuch) {

@@ -1,4 +1,5 @@
-// Feature spectra and the search for modes against the lighting chapter's numbers (3.4, 3.5, 3.7) and against exhaustive search.
+// Feature spectra and the search for modes against the numbers of docs/algorithms/lighting.md 3.4, 3.5, 3.7 and against
+// exhaustive search.
 #include <algorithm>
 #include <bit>
 #include <random>
@@ -200,7 +201,8 @@ TEST(FeatureSpectra, ASetOfModesDoesNotDependOnTheOrderOfScenesAndIsOrderedByCos
 
 TEST(FeatureSpectra, AModeMoreIsNotTakenWhenItSavesLessThanItsDispatch) {
     ModeProblem problem = problem_of(16);
-    // What the best set of one mode more saves, from the optima of T3.2: 9118.65, 3428.45, 1071.6, 600.6, 175, 60.
+    // What the best set of one mode more saves, from the optima of docs/algorithms/lighting.md T3.2: 9118.65, 3428.45, 1071.6,
+    // 600.6, 175, 60.
     const std::pair<double, std::size_t> counts[] = {{0, 7},   {59, 7},  {61, 6},   {174, 6},
                                                      {176, 5}, {601, 4}, {1072, 3}, {9200, 1}};
     for (const auto& [dispatch, modes] : counts) {
@@ -222,7 +224,7 @@ TEST(FeatureSpectra, TheWorstSceneDecidesWhereItIsAimedAt) {
 }
 
 TEST(FeatureSpectra, AModeThatLeavesNoMoreWavesThanALargerOneIsDiscarded) {
-    // By T3.2's optimum of 4: soft shadows or areas halve the waves, anything else leaves ten.
+    // By the optimum of 4 of docs/algorithms/lighting.md T3.2: soft shadows or areas halve the waves, anything else leaves ten.
     ModeProblem problem = problem_of(16);
     problem.waves = [](std::uint32_t features) { return (features & (F | E)) != 0 ? 4u : 10u; };
     const ModeSet best = best_modes(problem);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr tiny::PixelRect everywhere = {.left = -4, .top = -4, .right = 12, .bottom = 12};
 
-// Nearest first, later submissions nearer at equal depth; then front to back (transparency chapter 1).
+// Nearest first, later submissions nearer at equal depth; then front to back (docs/algorithms/transparency.md 1).
 glm::dvec3 composite(std::span<const Fragment> list, glm::dvec3 behind) {
     std::vector<Fragment> sorted(list.begin(), list.end());
     std::sort(sorted.begin(), sorted.end(), [](const Fragment& a, const Fragment& b) {
@@ -62,7 +62,8 @@ TEST(TransparentFragments, CoverageDimsEmissionBehindItR4) {
 }
 
 TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
-    // The oracle of transparency chapter 0.4: f = 0.8 and s = 0.1 at the card; the black background arrives fogged as 0.3.
+    // The oracle of docs/algorithms/transparency.md 0.4: f = 0.8 and s = 0.1 at the card; the black background arrives fogged as
+    // 0.3.
     Frame frame = tiny::frame(8, 8);
     frame.fog.density = static_cast<float>(-std::log(0.8) / 2);
     frame.fog.color = glm::vec3(0.5f);
@@ -198,7 +199,7 @@ TEST(TransparentFragments, FaintEventsAreDroppedButLayersOfOnePercentAreNot) {
     const FragmentLists lists = transparent_fragments(frame, tiny::no_depth(frame));
     EXPECT_EQ(lists.deepest(), 200u);
     EXPECT_EQ(lists.total(), 200u * 64);
-    EXPECT_NEAR(composite(middle(lists), glm::dvec3(0)).x, 0.8660203251, 1e-7);  // R5
+    EXPECT_NEAR(composite(middle(lists), glm::dvec3(0)).x, 0.8660203251, 1e-7);  // docs/algorithms/transparency.md R5
 }
 
 TEST(TransparentFragments, NotANumberBecomesNothing) {

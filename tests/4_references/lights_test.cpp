@@ -1,21 +1,22 @@
-// Why the lights of the reference can be believed: the numbers of lighting chapter 0.4 and 7, and the truth against sums by hand.
+// Why the lights of the reference can be believed: the numbers of docs/algorithms/lighting.md 0.4 and 7, and the truth against
+// sums by hand.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "passes/lighting/light_features.h"
 #include "passes/reference/cubature.h"
 #include "passes/reference/lights.h"
+#include "passes/scene/light_features.h"
+#include "passes/scene/shadow_views.h"
 #include "passes/shaders/light_features.shared.h"
-#include "passes/shadows/shadow_views.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const ExactOptions tight = {.visible = {}, .tolerance = 1e-8, .most = 400'000};
 constexpr std::array area_types = {LightType::tube, LightType::sphere, LightType::disc, LightType::rectangle};
 
@@ -318,8 +319,8 @@ TEST(Lights, WithoutRangeOrIntensityAreNotSubmittedN7) {
     Light moon = lamp(LightType::directional, 0);
     moon.range = 0;
     frame.lights = {dead, dark, spot, moon};
-    ASSERT_EQ(shadow_lights(frame).size(), 2u);
-    EXPECT_EQ(shadow_lights(frame)[1].type, LightType::directional);
+    ASSERT_EQ(light_list(frame).size(), 2u);
+    EXPECT_EQ(light_list(frame)[1].type, LightType::directional);
     ASSERT_EQ(shadow_views(frame).size(), 1u);
     EXPECT_EQ(shadow_views(frame)[0].light, 0u) << "in the order of the lights that are there";
     EXPECT_EQ(reflected(frame, white(), dead), glm::dvec3(0));

@@ -1,4 +1,4 @@
-// The table of linearly transformed cosines against the lobe it stands for (lighting chapter 0.4, T0.7).
+// The table of linearly transformed cosines against the lobe it stands for (docs/algorithms/lighting.md 0.4, T0.7).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace strata {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 glm::dmat3 matrix(const Ltc& ltc) {
     return {glm::dvec3(ltc.m11, 0, ltc.m31), glm::dvec3(0, ltc.m22, 0), glm::dvec3(ltc.m13, 0, ltc.m33)};

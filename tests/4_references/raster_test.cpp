@@ -80,7 +80,7 @@ TEST(Raster, TotalCoverageIsTheArea) {
         area += 0.5 * std::abs(glm::cross(pixels[1] - pixels[0], pixels[2] - pixels[0]).z);
         covered += double(points_of(frame).size()) / 4;
     }
-    // 200 triangles of about 175 pixels; a triangle's own error is below half a pixel rms (deferred chapter 0.5).
+    // 200 triangles of about 175 pixels; a triangle's own error is below half a pixel rms (docs/algorithms/deferred.md 0.5).
     EXPECT_NEAR(covered / area, 1, 2e-3);
 }
 

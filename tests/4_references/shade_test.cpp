@@ -1,4 +1,5 @@
-// Why the light of the reference can be believed: the numbers of the lighting chapter (T0.1, T0.2) and of deferred chapter 2.2.
+// Why the light of the reference can be believed: the numbers of docs/algorithms/lighting.md T0.1, T0.2 and of
+// docs/algorithms/deferred.md 2.2.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +14,7 @@
 namespace strata {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct PositionOracle {
     glm::dvec2 pixel;

@@ -1,11 +1,11 @@
-// transparency/weighted_additive on a device: the chapter's table of layers (3.2), and the mask of tiles.
+// transparency/weighted_additive on a device: the table of layers of docs/algorithms/transparency.md 3.2, and the mask of tiles.
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -1,5 +1,5 @@
-// NaN and infinity of one particle reach nobody else's pixels (transparency chapter 0.2), and the check can fail: without the
-// sanitizing function of the shaders they do.
+// NaN and infinity of one particle reach nobody else's pixels (docs/algorithms/transparency.md 0.2), and the check can fail:
+// without the sanitizing function of the shaders they do.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,10 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "replay/frame_plan.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "replay/scene/device_scene.h"
+#include "replay/session/frame_plan.h"
 #include "tests/support/device.h"
+#include "tests/support/file_text.h"
 #include "tests/support/glsl.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/session.h"
@@ -24,7 +25,8 @@ Frame bad_frame() { return scenario_frames("nan_particles").front(); }
 
 void zero_unless_finite(float& value) { value = std::isfinite(value) ? value : 0; }
 
-/// What the chapter makes of bad numbers, made beforehand: no coverage where alpha is none, no light in a channel that is none.
+/// What docs/algorithms/transparency.md 0.2 makes of bad numbers, made beforehand: no coverage where alpha is none, no light in a
+/// channel that is none.
 Frame without_bad_numbers() {
     Frame frame = bad_frame();
     for (Emitter& emitter : frame.emitters) {
@@ -70,14 +72,9 @@ TEST(BadNumbers, LeaveEveryPictureAsItIsWithoutThem) {
     }
 }
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The source with its includes in place, and without its #version: glsl() writes one.
 std::string with_includes(const std::filesystem::path& path) {
-    std::istringstream source(text_of(path));
+    std::istringstream source(file_text(path));
     std::string text, line;
     while (std::getline(source, line)) {
         if (line.starts_with("#include \""))
@@ -105,10 +102,12 @@ const ShaderLibrary& without_sanitizing() {
 
 HostImage color_of(const Frame& frame, const Technique& technique, const ShaderLibrary& library) {
     DeviceScene scene(shared_executor());
-    scene.upload(scene_records(frame));
+    const SceneFacts facts(frame);
+    scene.upload(scene_records(facts));
     const Features features = frame_features(frame);
     Graph graph;
-    FrameImages images{.recorded = &frame, .features = &features, .extent = {frame.view.width, frame.view.height, 1}};
+    FrameImages images{
+        .recorded = &frame, .features = &features, .facts = &facts, .extent = {frame.view.width, frame.view.height, 1}};
     scene.import_into(graph, images);
     const std::vector<std::string> uses{std::string(technique.name)};
     const auto declared = must(declare_frame(graph, images, must(choose(frame, uses, {})), shared_device().info().capabilities));

@@ -1,14 +1,14 @@
-// Two systems that know nothing of each other on one shadow (lighting chapter 6.6, T6.7): a light with a blocker, and the same
-// light with a shadow map of a quad where the blocker is. They may differ within 1.5 texels of the shadow's edge alone: bilinear
-// comparisons reach less than a texel in either direction, 1.41 along the diagonal, and what a map has drawn is exact at the
-// centers of its texels.
+// Two systems that know nothing of each other on one shadow (docs/algorithms/lighting.md 6.6, T6.7): a light with a blocker, and
+// the same light with a shadow map of a quad where the blocker is. They may differ within 1.5 texels of the shadow's edge alone:
+// bilinear comparisons reach less than a texel in either direction, 1.41 along the diagonal, and what a map has drawn is exact at
+// the centers of its texels.
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "passes/reference/shade.h"
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/shadow_views.h"
 #include "tests/5_techniques/light_scenes.h"
 
 namespace strata {

@@ -29,7 +29,7 @@ constexpr std::string_view shader = R"(
     layout(set = 0, binding = 2, scalar) writeonly buffer Results { Found found[]; };
     layout(constant_id = 0) const uint points_per_case = 1u;
 
-    // Lighting chapter 2.4, P2 to P5, for one light; x blockers and y portals left to test, z: the light is killed.
+    // docs/algorithms/lighting.md 2.4, P2 to P5, for one light; x blockers and y portals left to test, z: the light is killed.
     uvec3 left_to_test(LightRecord light, Cell cell, inout Found f) {
         uint open = 0u;
         uvec3 left = uvec3(0u);
@@ -90,7 +90,7 @@ std::uint32_t packed(const std::vector<Reach>& classes) {
     return bits;
 }
 
-TEST(BlockerCellsOnDevice, AreThoseOfTheCpuAndContradictNoPoint) {  // T2.0
+TEST(BlockerCellsOnDevice, AreThoseOfTheCpuAndContradictNoPoint) {  // docs/algorithms/lighting.md T2.0
     constexpr std::size_t count = 20000;
     const BlockerCases cases = blocker_cases(count, 20);
     const std::vector<Found> found = on_device(cases);
@@ -114,7 +114,8 @@ TEST(BlockerCellsOnDevice, AreThoseOfTheCpuAndContradictNoPoint) {  // T2.0
     EXPECT_LE(other_classes, count / 2000);
 }
 
-TEST(BlockersOnDevice, HoldLightOffTransparentSurfacesAsTheModelSays) {  // 2.8; that they matter there: 4_references
+// docs/algorithms/lighting.md 2.8; that they matter there: 4_references.
+TEST(BlockersOnDevice, HoldLightOffTransparentSurfacesAsTheModelSays) {
     Request request = on_scenario("blocker_rooms");
     const Technique& technique = *must(find_technique("transparency/sorted_lists"));
     request.uses = {std::string(technique.name)};

@@ -1,5 +1,5 @@
-// Four rays through known fragments (transparency chapter 9.3): the area between T(z) of a method and the exact steps, on the
-// device through a probe and in double by the method's model.
+// Four rays through known fragments (docs/algorithms/transparency.md 9.3): the area between T(z) of a method and the exact steps,
+// on the device through a probe and in double by the method's model.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ constexpr MethodOfTable table[] = {
     {"transparency/wavelet rank=3 correction=none storage=single", {.0234, .0355, .0300, .0257}},
     {"transparency/wavelet rank=4 correction=none storage=single", {.0098, .0148, .0150, .0152}},
 };
-constexpr double tolerance = 2e-3;  // the chapter's
+constexpr double tolerance = 2e-3;  // docs/algorithms/transparency.md 9.3
 
 ProbedStack stack_of(const Ray& ray) {
     ProbedStack stack{.nearest = nearest, .farthest = farthest};

@@ -1,5 +1,5 @@
 // A weight that is the same over a whole scene is a plain average in disguise: the counter `weights differ` says so of a replay
-// (transparency chapter 3.1).
+// (docs/algorithms/transparency.md 3.1).
 #include <algorithm>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,9 @@
 // What a technique says about itself is complete and consistent. Loops over the list; needs no device.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -8,6 +11,7 @@
 
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "tests/support/file_text.h"
 #include "tests/support/print.h"
 
 namespace strata {
@@ -15,9 +19,8 @@ namespace {
 
 class Description : public testing::TestWithParam<Technique> {};
 
-std::string test_name(const testing::TestParamInfo<Technique>& info) { return as_identifier(std::string(info.param.name)); }
-
-INSTANTIATE_TEST_SUITE_P(Techniques, Description, testing::ValuesIn(techniques().begin(), techniques().end()), test_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, Description, testing::ValuesIn(techniques().begin(), techniques().end()),
+                         technique_test_name);
 
 template <typename Rows>
 void expect_distinct_and_explained(const Rows& rows) {
@@ -115,6 +118,74 @@ TEST_P(Description, HasAToleranceWithAReason) {
     EXPECT_FALSE(technique.tolerance.because.empty());
     EXPECT_GE(technique.tolerance.worst, technique.tolerance.rmse);
     EXPECT_LT(technique.tolerance.rmse, 0.05) << "a tolerance, not a licence";
+    for (const ToleranceException& row : technique.tolerance.exceptions) {
+        EXPECT_FALSE(row.because.empty()) << row.settings << " " << row.scenario;
+        EXPECT_TRUE(std::ranges::count(info(technique.stage).scenarios, row.scenario)) << row.scenario;
+        EXPECT_TRUE(row.rmse > technique.tolerance.rmse || row.worst > technique.tolerance.worst) << "is no exception";
+    }
+}
+
+/// The technique's own files whose names match, with their text.
+std::vector<std::string> texts_in_folder(const Technique& technique, const std::regex& names) {
+    std::vector<std::string> texts;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(STRATA_SOURCE_DIR) / "passes" / technique.name))
+        if (std::regex_match(entry.path().filename().string(), names)) texts.push_back(file_text(entry.path()));
+    return texts;
+}
+
+/// Whatever the first group of the expression finds in the texts.
+std::set<std::string> found_in(const std::vector<std::string>& texts, const std::regex& expression) {
+    std::set<std::string> found;
+    for (const std::string& text : texts)
+        for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match)
+            found.insert((*match)[1]);
+    return found;
+}
+
+/// Every test of the folder's *_property_test.cpp, "Suite.Name".
+std::set<std::string> property_tests_of(const Technique& technique) {
+    std::set<std::string> tests;
+    for (const std::string& text : texts_in_folder(technique, std::regex(".*_property_test\\.cpp")))
+        for (const std::string& pair : found_in({text}, std::regex(R"(\nTEST\((\w+, \w+)\) \{)"))) {
+            const std::size_t comma = pair.find(", ");
+            tests.insert(pair.substr(0, comma) + "." + pair.substr(comma + 2));
+        }
+    return tests;
+}
+
+/// What the README's paragraph that begins with "Property tests:" names in backquotes.
+std::set<std::string> named_property_tests(const Technique& technique) {
+    const std::string readme = file_text(std::filesystem::path(STRATA_SOURCE_DIR) / "passes" / technique.name / "README.md");
+    const std::size_t first = readme.find("\nProperty tests:");
+    if (first == std::string::npos) return {};
+    const std::string paragraph = readme.substr(first, readme.find("\n\n", first + 1) - first);
+    return found_in({paragraph}, std::regex("`(\\w+\\.\\w+)`"));
+}
+
+// A mirror has the shader's mistakes. What holds it to anything are tests that do not know how it is done: those of the files
+// named *_property_test.cpp beside it, all of which its README names, and no others.
+TEST_P(Description, WithAModelThatIsAMirrorNamesThePropertyTestsBesideIt) {
+    const Technique& technique = GetParam();
+    const std::set<std::string> tests = property_tests_of(technique), named = named_property_tests(technique);
+    EXPECT_EQ(named, tests) << "the README's paragraph 'Property tests:' and the tests in *_property_test.cpp";
+    EXPECT_EQ(tests.empty(), technique.model_is == ModelKind::paper);
+    // What C++ and GLSL both compile is what such a test is to find wrong.
+    const std::set<std::string> shared = found_in(texts_in_folder(technique, std::regex(".*_property_test\\.cpp")),
+                                                  std::regex("#include \"([^\"]+\\.shared\\.h)\""));
+    EXPECT_TRUE(shared.empty()) << "a property test includes " << *shared.begin();
+}
+
+TEST_P(Description, WithAModelThatRunsTheShadersFunctionsSaysThatItIsAMirror) {
+    const Technique& technique = GetParam();
+    bool shares = !texts_in_folder(technique, std::regex(".*_mirror\\.cpp")).empty();
+    const std::vector<std::string> models = texts_in_folder(technique, std::regex("(.*_)?model\\.(cpp|h)"));
+    for (const std::string& path : found_in(models, std::regex("#include \"([^\"]+\\.shared\\.h)\""))) {
+        const std::string text = file_text(std::filesystem::path(STRATA_SOURCE_DIR) / path);
+        ASSERT_FALSE(text.empty()) << path;
+        shares |= text.find("\ninline ") != std::string::npos;  // functions are declared so for C++
+    }
+    EXPECT_EQ(shares, technique.model_is == ModelKind::mirror);
 }
 
 TEST_P(Description, AddsSomething) { EXPECT_NE(GetParam().add, nullptr); }

@@ -1,4 +1,5 @@
-// Materials that distort what is behind them (transparency chapter 6.13): every method sees the background sum d T(z) away.
+// Materials that distort what is behind them (docs/algorithms/transparency.md 6.13): every method sees the background sum d T(z)
+// away.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 #include "captures/cards.h"
 #include "passes/registry.h"
 #include "passes/transparency/truth.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -89,11 +90,11 @@ std::vector<std::string_view> methods() {
     return names;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string_view>& info) {
+std::string bending_method_name(const testing::TestParamInfo<std::string_view>& info) {
     return std::string(info.param.substr(info.param.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Distortion, testing::ValuesIn(methods()), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, Distortion, testing::ValuesIn(methods()), bending_method_name);
 
 /// Offsets are summed with the T(z) of their fragments: .02 behind t = .5 and .04 before it.
 TEST(DistortionTruth, SumsOffsetsByTransmittance) {

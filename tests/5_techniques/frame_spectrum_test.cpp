@@ -1,8 +1,10 @@
-// What the host expects of a frame's lighting against what its tiles need (lighting chapter 3.6).
+// What the host expects of a frame's lighting against what its tiles need (docs/algorithms/lighting.md 3.6).
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/spectra.h"
+#include "passes/scene/frame_spectrum.h"
 #include "passes/shaders/light_features.shared.h"
 #include "replay/spectra/spectra.h"
 #include "tests/support/session.h"
@@ -17,7 +19,7 @@ TEST(FrameSpectrum, T3_4_HoldsEveryBitThatATileOfAnyLightingScenarioNeeds) {
         Session& session = session_of_scenarios();
         const Request request = on_scenario(scenario);
         const auto gathered = must(gather_spectra(session, technique, request, std::array{request.frame}));
-        const std::uint32_t expected = lighting::frame_spectrum(must(session.frame(request.frame)));
+        const std::uint32_t expected = frame_spectrum(must(session.frame(request.frame)));
         std::uint32_t needed = 0;
         for (const FrameSpectra& frame : gathered.frames)
             for (const auto& [spectrum, tiles] : frame.tiles) needed |= spectrum;
@@ -27,15 +29,28 @@ TEST(FrameSpectrum, T3_4_HoldsEveryBitThatATileOfAnyLightingScenarioNeeds) {
     EXPECT_NE(seen, 0u);
 }
 
-Frame room() { return scenario_frames("lights_room").front(); }
+TEST(FrameSpectrum, KnowsEverySpectrumThatATileOfAnyLightingScenarioHas) {
+    const Technique& technique = *must(technique_of_spectra({}));
+    for (const std::string_view scenario : info(technique.stage).scenarios) {
+        Session& session = session_of_scenarios();
+        const Request request = on_scenario(scenario);
+        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.frame}));
+        const auto possible = possible_spectra(must(session.frame(request.frame)), every_light_feature);
+        for (const FrameSpectra& frame : gathered.frames)
+            for (const auto& [spectrum, tiles] : frame.tiles)
+                EXPECT_EQ(std::ranges::count(possible, spectrum), 1) << scenario << ' ' << lighting::spectrum_text(spectrum);
+    }
+}
+
+Frame lights_room() { return scenario_frames("lights_room").front(); }
 
 /// The room with one light of the type, a metre to the right and so far ahead of the eye.
 std::uint32_t spectrum_of_a_light(LightType type, double ahead, float range) {
-    Frame frame = room();
+    Frame frame = lights_room();
     frame.sun.irradiance = glm::vec3(0);
     const glm::dmat3 to_world = glm::transpose(frame.view.to_view);
     frame.lights = {{.type = type, .position = frame.view.origin + to_world * glm::dvec3(1, 0, ahead), .range = range}};
-    return lighting::frame_spectrum(frame);
+    return frame_spectrum(frame);
 }
 
 TEST(FrameSpectrum, LacksWhatLightsNeedWhoseRangeDoesNotMeetTheView) {
@@ -47,29 +62,46 @@ TEST(FrameSpectrum, LacksWhatLightsNeedWhoseRangeDoesNotMeetTheView) {
 }
 
 TEST(FrameSpectrum, HasTheModelsOfOpaqueSurfacesInView) {
-    Frame frame = room();
+    Frame frame = lights_room();
     frame.sun.irradiance = glm::vec3(0);
     frame.lights.clear();
-    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+    EXPECT_EQ(frame_spectrum(frame), 0u);
     for (Material& material : frame.materials) material.lighting_model = LightingModel::cloth;
-    EXPECT_EQ(lighting::frame_spectrum(frame), std::uint32_t(feature_cloth));
+    EXPECT_EQ(frame_spectrum(frame), std::uint32_t(feature_cloth));
     for (Material& material : frame.materials) material.alpha_mode = AlphaMode::blend;
-    EXPECT_EQ(lighting::frame_spectrum(frame), 0u) << "transparent surfaces are lit elsewhere";
+    EXPECT_EQ(frame_spectrum(frame), 0u) << "transparent surfaces are lit elsewhere";
     for (Material& material : frame.materials) material = {.lighting_model = LightingModel::hair};
     for (Draw& draw : frame.draws) draw.to_world[3] += glm::dvec4(0, 1e4, 0, 0);
-    EXPECT_EQ(lighting::frame_spectrum(frame), 0u) << "ten kilometres up";
+    EXPECT_EQ(frame_spectrum(frame), 0u) << "ten kilometres up";
 }
 
 TEST(FrameSpectrum, HasTapVisibilityWhereAVolumesLightStopsAtBlockers) {
-    Frame frame = room();
+    Frame frame = lights_room();
     frame.sun.irradiance = glm::vec3(0);
     frame.lights.clear();
     frame.light_volumes = {{.occlusion = VolumeOcclusion::axial}};
-    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+    EXPECT_EQ(frame_spectrum(frame), 0u);
     frame.blockers.emplace_back();
-    EXPECT_EQ(lighting::frame_spectrum(frame), std::uint32_t(feature_gi_tap_visibility));
+    EXPECT_EQ(frame_spectrum(frame), std::uint32_t(feature_gi_tap_visibility));
     frame.light_volumes[0].occlusion = VolumeOcclusion::fuzzy_geometry;
-    EXPECT_EQ(lighting::frame_spectrum(frame), 0u);
+    EXPECT_EQ(frame_spectrum(frame), 0u);
+}
+
+TEST(FrameSpectrum, OfATileHasShadowsOnlyWithTheLightThatCastsThem) {
+    Frame frame = lights_room();
+    frame.sun.irradiance = glm::vec3(0);
+    for (Material& material : frame.materials) material.lighting_model = LightingModel::lambert;
+    Light lamp{.type = LightType::omni, .position = frame.view.origin, .range = 5};
+    Light tube{.type = LightType::tube, .position = frame.view.origin, .range = 5};
+    lamp.shadow.casts = true;
+    frame.lights = {lamp, tube};
+    const std::uint32_t omni = feature_omni, shadows = feature_shadows, tubes = feature_tube;
+    auto spectra = possible_spectra(frame, every_light_feature);
+    std::ranges::sort(spectra);
+    std::vector<std::uint32_t> expected = {0, omni, omni | shadows, tubes, tubes | omni, tubes | omni | shadows};
+    std::ranges::sort(expected);
+    EXPECT_EQ(spectra, expected);
+    EXPECT_EQ(possible_spectra(frame, omni | tubes).size(), 4u) << "without shadows";
 }
 
 }  // namespace

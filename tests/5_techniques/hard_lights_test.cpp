@@ -1,4 +1,5 @@
-// Lights and places that break a careless renderer, through every technique of the stage (lighting chapter 7: N7, N18, N21).
+// Lights and places that break a careless renderer, through every technique of the stage (docs/algorithms/lighting.md 7: N7, N18,
+// N21).
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +32,7 @@ Light lamp(LightType type, const glm::dvec3& position) {
     return light;
 }
 
-TEST_P(HardLights, ThatReachNothingAddNothing) {  // N7
+TEST_P(HardLights, ThatReachNothingAddNothing) {  // docs/algorithms/lighting.md N7
     const Frame without = room();
     Frame with = without;
     const glm::dvec3 middle = to_world(without, {0, 0, 5});
@@ -50,7 +51,7 @@ TEST_P(HardLights, ThatReachNothingAddNothing) {  // N7
     EXPECT_GT(lit_texels(dark), 500u) << "nothing to compare";
 }
 
-TEST_P(HardLights, WithoutAnExtentAddNothing) {  // N7: radiance of no area
+TEST_P(HardLights, WithoutAnExtentAddNothing) {  // docs/algorithms/lighting.md N7: radiance of no area
     const Frame without = room();
     Frame with = without;
     for (const LightType type : {LightType::tube, LightType::sphere, LightType::disc, LightType::rectangle})
@@ -58,7 +59,7 @@ TEST_P(HardLights, WithoutAnExtentAddNothing) {  // N7: radiance of no area
     EXPECT_EQ(differing_texels(lit_by(with), lit_by(without)), 0u);
 }
 
-TEST_P(HardLights, OnSmoothSurfacesAreNumbersThatAHalfFloatHolds) {  // N21
+TEST_P(HardLights, OnSmoothSurfacesAreNumbersThatAHalfFloatHolds) {  // docs/algorithms/lighting.md N21
     Frame frame = room();
     for (Material& material : frame.materials) material.lighting_model = LightingModel::ggx, material.roughness = 0;
     const Mesh& mesh = frame.meshes[frame.draws[0].mesh];
@@ -97,7 +98,7 @@ Frame moved(Frame frame, const glm::dvec3& by) {
     return frame;
 }
 
-TEST_P(HardLights, TenKilometresFromTheOriginAreLitTheSame) {  // N18: within 1e-3
+TEST_P(HardLights, TenKilometresFromTheOriginAreLitTheSame) {  // docs/algorithms/lighting.md N18: within 1e-3
     for (const std::string_view scenario : {"blocker_rooms", "light_types"}) {
         const Frame here = at_most_96(scenario, 1);
         const ReferenceImage near = in_double(lit_by(here).images.at("light"));

@@ -1,4 +1,4 @@
-// What the transparency chapter supposes of methods (9.7) and of the hard case H12, held against the device's pictures.
+// The hypotheses of docs/algorithms/transparency.md 9.7, and its hard case H12, held against the device's pictures.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -7,7 +7,7 @@
 
 #include "captures/cards.h"
 #include "captures/hard_cases.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "replay/probe/probe.h"
 #include "tests/support/session.h"
 
@@ -57,8 +57,8 @@ Frame layers_within(double nearest, double farthest) {
     return frame;
 }
 
-// (i). Cells lie at whole numbers from 0 to n - 1 over the range of depth, slices' centers half a slice further in: of a range
-// that is half a slice larger at both ends the two are the same.
+// docs/algorithms/transparency.md 9.7 (i). Cells lie at whole numbers from 0 to n - 1 over the range of depth, slices' centers
+// half a slice further in: of a range that is half a slice larger at both ends the two are the same.
 TEST(Hypotheses, AWaveletOfRankFourIsAVolumeOf32SlicesReadOneSliceInFront) {
     const Way wavelet{"transparency/wavelet", {"rank=4", "storage=single", "correction=none", "accumulation=single"}};
     const double half_slice = std::pow(50., .5 / 31);
@@ -75,7 +75,7 @@ TEST(Hypotheses, AWaveletOfRankFourIsAVolumeOf32SlicesReadOneSliceInFront) {
     EXPECT_GT(apart("bits=32", "shift=0"), .01);  // read two slices in front
 }
 
-/// Ray C of the chapter's 9.3: the area between T(z) of voxels and the exact steps of a hundred layers.
+/// Ray C of docs/algorithms/transparency.md 9.3: the area between T(z) of voxels and the exact steps of a hundred layers.
 double area_on_even_smoke(std::uint32_t slices, std::uint32_t bits) {
     ProbedStack stack{.nearest = 1, .farthest = 50};
     const double alpha = -std::expm1(-.03);
@@ -88,7 +88,7 @@ double area_on_even_smoke(std::uint32_t slices, std::uint32_t bits) {
     return made.curves.front().figures.l1_logarithmic;
 }
 
-// (ii)
+// docs/algorithms/transparency.md 9.7 (ii)
 TEST(Hypotheses, OfThinLayersEightBitsLoseMoreThanFewSlices) {
     EXPECT_NEAR(area_on_even_smoke(32, 8), .1058, 2e-3);
     EXPECT_NEAR(area_on_even_smoke(128, 8), .0946, 2e-3);
@@ -99,7 +99,7 @@ TEST(Hypotheses, OfThinLayersEightBitsLoseMoreThanFewSlices) {
     EXPECT_LT(area_on_even_smoke(32, 16), .2 * left);
 }
 
-// (iv)
+// docs/algorithms/transparency.md 9.7 (iv)
 TEST(Hypotheses, WhatIsTakenOutOfItsOwnEventRemovesNineTenthsOfTheErrorOfACardBehindSmoke) {
     const auto cases = hard_cases();
     const auto h14b = std::ranges::find_if(cases, [](const HardCase& c) { return c.name.starts_with("H14b"); });

@@ -1,4 +1,4 @@
-// Interfaces in front of the world, layer by layer, whatever the depth of their surfaces (transparency chapter 6.13).
+// Interfaces in front of the world, layer by layer, whatever the depth of their surfaces (docs/algorithms/transparency.md 6.13).
 #include <algorithm>
 #include <array>
 

@@ -81,9 +81,7 @@ std::vector<Technique> of_the_stage() {
     return found;
 }
 
-std::string test_name(const testing::TestParamInfo<Technique>& info) { return as_identifier(std::string(info.param.name)); }
-
-INSTANTIATE_TEST_SUITE_P(Techniques, ShuffledLayers, testing::ValuesIn(of_the_stage()), test_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, ShuffledLayers, testing::ValuesIn(of_the_stage()), technique_test_name);
 
 }  // namespace
 }  // namespace strata

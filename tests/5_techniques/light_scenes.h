@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/session.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -73,12 +73,12 @@ TEST_P(LowResolution, ShadesAQuarterOfTheFragments) {
     EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
 }
 
-std::string test_name(const testing::TestParamInfo<std::size_t>& info) {
+std::string merging_method_name(const testing::TestParamInfo<std::size_t>& info) {
     const std::string_view name = merging()[info.param].technique;
     return std::string(name.substr(name.find('/') + 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, LowResolution, testing::Range(std::size_t{0}, merging().size()), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, LowResolution, testing::Range(std::size_t{0}, merging().size()), merging_method_name);
 
 /// Smoke is soft: what half resolution costs a method that is exact otherwise is small, and seen.
 TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {

@@ -1,5 +1,6 @@
 // Every technique against its stage's truth, recorded in baseline.csv. An error here is a property of the method: it may be
-// large, but it may not grow unnoticed, and a better method deserves a better record.
+// large, but it may not grow unnoticed, and a better method deserves a better record. The same run is held against the model,
+// too: an error there is a bug.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "tests/support/accept.h"
+#include "tests/support/agreement.h"
 #include "tests/support/truths.h"
 
 namespace strata {
@@ -77,13 +79,15 @@ std::vector<const Technique*> techniques_on(std::string_view scenario) {
     return found;
 }
 
-/// Nothing where the technique cannot do the scenario.
+/// Nothing where the technique cannot do the scenario. Expects on the way that the result is what the model says.
 std::vector<Figure> judged(const Technique& technique, const Key& key) {
     Request request = on_scenario(key.scenario, key.samples);
     const ImageSet& truth = truth_of(technique.stage, request);
     request.uses = {key.technique};
-    const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::truth, &truth));
-    return accuracy.not_supported.empty() ? accuracy.method : std::vector<Figure>{};
+    const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model_and_truth, &truth));
+    if (!accuracy.not_supported.empty()) return {};
+    expect_within_tolerance(accuracy, technique, request, key.scenario);
+    return accuracy.method;
 }
 
 /// "rmse is .02, worse than the recorded .01", or nothing.

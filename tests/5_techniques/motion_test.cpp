@@ -1,4 +1,4 @@
-// How far what functions of depth show has moved (transparency chapter 6.13).
+// How far what functions of depth show has moved (docs/algorithms/transparency.md 6.13).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "passes/culling/judge.h"
 #include "passes/culling/truth.h"
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -1,13 +1,15 @@
 // A technique writes only the frame's images that its stage owns (StageInfo::outputs). Found from the declared steps; needs no
 // device.
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
-#include "replay/frame_plan.h"
+#include "passes/scene/scene_facts.h"
+#include "replay/session/frame_plan.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
 
@@ -17,6 +19,7 @@ namespace {
 /// A declared frame whose scene is nothing but names: enough to see who writes what.
 struct Sketch {
     Frame recorded;
+    std::optional<SceneFacts> facts;  ///< of `recorded`
     Features features;
     Graph graph;
     FrameImages images;
@@ -34,12 +37,13 @@ void sketch(Sketch& s, const Technique& technique, std::string_view scenario, st
     for (const Feature feature : all_features()) s.features.set(feature, "every stage is wanted here");
     s.images = {.recorded = &s.recorded,
                 .features = &s.features,
+                .facts = &s.facts.emplace(s.recorded),
                 .extent = {s.recorded.view.width, s.recorded.view.height, 1},
                 .samples = samples};
-    s.images.all_opaque = s.images.opaque = draws_of(s.graph, 2, opaque_draws(s.recorded).size());
-    s.images.casters = draws_of(s.graph, 3, opaque_draws(s.recorded).size());
-    s.images.transparent = draws_of(s.graph, 4, transparent_draws(s.recorded).size());
-    s.images.back_to_front = draws_of(s.graph, 5, transparent_draws(s.recorded).size());
+    s.images.all_opaque = s.images.opaque = draws_of(s.graph, 2, s.facts->lists().opaque.size());
+    s.images.casters = draws_of(s.graph, 3, s.facts->lists().opaque.size());
+    s.images.transparent = draws_of(s.graph, 4, s.facts->lists().transparent.size());
+    s.images.back_to_front = draws_of(s.graph, 5, s.facts->lists().transparent.size());
     Choices choices = must(choose(s.recorded, {}, {}));
     choices[technique.stage] = {&technique, Settings(technique.params)};
     s.frame = must(declare_frame(s.graph, s.images, choices, technique.needs));
@@ -93,9 +97,7 @@ TEST_P(Ownership, ATechniqueWritesOnlyWhatItsStageOwns) {
         }
 }
 
-std::string test_name(const testing::TestParamInfo<Technique>& info) { return as_identifier(std::string(info.param.name)); }
-
-INSTANTIATE_TEST_SUITE_P(Techniques, Ownership, testing::ValuesIn(techniques().begin(), techniques().end()), test_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, Ownership, testing::ValuesIn(techniques().begin(), techniques().end()), technique_test_name);
 
 TEST(Trespassing, IsSeenInStepsAndInHandles) {
     const auto trespass = [](Graph& graph, FrameImages& frame, const Settings&) {

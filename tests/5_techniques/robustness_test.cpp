@@ -8,7 +8,7 @@
 
 #include "captures/scenarios.h"
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/session.h"
 

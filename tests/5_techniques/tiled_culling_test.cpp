@@ -1,5 +1,5 @@
 // What tiled lighting's culling wrote on the device, tile by tile, against its mirror on the CPU: the same lights, the same masks
-// of blockers and portals, the same spectra (lighting chapter 9, step 3).
+// of blockers and portals, the same spectra (docs/algorithms/lighting.md 9, step 3).
 #include <array>
 #include <map>
 
@@ -17,10 +17,9 @@ namespace {
 
 using namespace lighting;
 
-const std::string tiled = "lighting/tiled";
-
 CullScene scene_of(const Frame& frame) {
-    const SceneRecords records = scene_records(frame);
+    const SceneFacts facts(frame);
+    const SceneRecords records = scene_records(facts);
     return {records, records.view, feature_shadows};
 }
 
@@ -61,7 +60,7 @@ using Lists = std::map<std::uint32_t, std::vector<ListedLight>>;  // by tile
 
 /// From the two tables, whose rows are the same lights.
 Lists lists_of(const Run& run) {
-    const auto &blockers = run.tables.at(tiled + ":lists").rows, &portals = run.tables.at(tiled + ":portals").rows;
+    const auto &blockers = run.tables.at("lighting/tiled:lists").rows, &portals = run.tables.at("lighting/tiled:portals").rows;
     EXPECT_EQ(blockers.size(), portals.size());
     const auto mask = [](const std::vector<double>& row) {
         return static_cast<std::uint32_t>(row[2]) | static_cast<std::uint32_t>(row[3]) << 16;
@@ -74,9 +73,9 @@ Lists lists_of(const Run& run) {
 }
 
 Run culled(const Frame& frame, std::vector<std::string> sets) {
-    Request request{.uses = {tiled}, .sets = std::move(sets)};
+    Request request{.uses = {"lighting/tiled"}, .sets = std::move(sets)};
     request.outputs = {"light", "edges", "surface_normal", "surface_material"};
-    for (const char* table : {":lists", ":portals", ":spectra"}) request.outputs.push_back(tiled + table);
+    for (const char* table : {":lists", ":portals", ":spectra"}) request.outputs.push_back(std::string("lighting/tiled") + table);
     return must(session_of_scenarios().run(frame, std::span(&request, 1))).front();
 }
 
@@ -138,7 +137,7 @@ void expect_counted(const Run& run, const Totals& totals) {
     }
     std::map<std::uint32_t, std::uint64_t> spectra;
     double before = INFINITY;
-    for (const std::vector<double>& row : run.tables.at(tiled + ":spectra").rows) {
+    for (const std::vector<double>& row : run.tables.at("lighting/tiled:spectra").rows) {
         spectra[static_cast<std::uint32_t>(row[0])] += static_cast<std::uint64_t>(row[1]);
         EXPECT_LE(row[1], before) << "most tiles first";
         before = row[1];
@@ -146,7 +145,7 @@ void expect_counted(const Run& run, const Totals& totals) {
     EXPECT_EQ(spectra, totals.spectra);
 }
 
-TEST(TiledCulling, FindsWhatItsMirrorFindsInEveryScenario) {
+TEST(ExhaustiveTiledCulling, FindsWhatItsMirrorFindsInEveryScenario) {
     for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
             SCOPED_TRACE(fmt::format("{} at {} samples", scenario, samples));

@@ -1,5 +1,5 @@
 // Tiled lighting on the device: whatever is culled, listed, batched, classified and compiled away, the picture is that of a loop
-// over all lights to the last bit (lighting chapter 1.9, 2.10, 3.5 and 7).
+// over all lights to the last bit (docs/algorithms/lighting.md 1.9, 2.10, 3.5 and 7).
 #include <array>
 #include <numbers>
 
@@ -11,18 +11,19 @@
 namespace strata {
 namespace {
 
-const std::string tiled = "lighting/tiled", brute_force = "lighting/brute_force";
+const std::string tiled_lighting = "lighting/tiled", brute_force_lighting = "lighting/brute_force";
 
 void expect_same(const Run& a, const Run& b, const std::string& what) {
     EXPECT_EQ(differing_texels(a, b), 0u) << what;
     EXPECT_GT(lit_texels(b), 20u) << what << ": nothing to compare";
 }
 
-TEST(TiledLighting, IsALoopOverAllLightsInEveryScenario) {
+TEST(ExhaustiveTiledLighting, IsALoopOverAllLightsInEveryScenario) {
     for (const std::string_view scenario : lit_scenarios())
         for (const std::uint32_t samples : {1u, 4u}) {
             const Frame frame = at_most_96(scenario, samples);
-            expect_same(lit(frame, tiled), lit(frame, brute_force), fmt::format("{} at {} samples", scenario, samples));
+            expect_same(lit(frame, tiled_lighting), lit(frame, brute_force_lighting),
+                        fmt::format("{} at {} samples", scenario, samples));
         }
 }
 
@@ -30,7 +31,7 @@ TEST(TiledLighting, IsALoopOverAllLightsHoweverManyReachATile) {
     for (const std::string_view scenario : {"hall_of_lights_1", "hall_of_lights_64", "hall_of_lights_65", "hall_of_lights_512",
                                             "hall_of_lights_4096", "agents_hq", "pair_overflow"}) {
         const Frame frame = at_most_96(scenario, 1);
-        const auto all = lit(frame, brute_force), listed = lit(frame, tiled);
+        const auto all = lit(frame, brute_force_lighting), listed = lit(frame, tiled_lighting);
         expect_same(listed, all, std::string(scenario));
         EXPECT_LE(count_of(listed, "evaluations"), count_of(all, "evaluations")) << scenario;
         EXPECT_EQ(count_of(listed, "samples_shaded"), count_of(all, "samples_shaded")) << scenario;
@@ -42,9 +43,9 @@ TEST(TiledLighting, DoesAnyNumberOfLights) {
         Frame frame = dark_frame("lights_room");
         RandomLights random(static_cast<unsigned>(n));
         random.add_lights(frame, n, n < 64 ? 20 : 4);
-        const auto all = lit(frame, brute_force);
+        const auto all = lit(frame, brute_force_lighting);
         for (const char* prefilter : {"prefilter=off", "prefilter=on"})
-            expect_same(lit(frame, tiled, {prefilter}), all, fmt::format("{} lights, {}", n, prefilter));
+            expect_same(lit(frame, tiled_lighting, {prefilter}), all, fmt::format("{} lights, {}", n, prefilter));
     }
 }
 
@@ -55,13 +56,30 @@ TEST(TiledLighting, DroppingLosesOneOf65LightsAndBatchesLoseNone) {
     lamp.intensity = glm::vec3(4);
     frame.lights.assign(65, lamp);
     frame.lights.back().intensity = {0, 64, 0};
-    const auto all = lit(frame, brute_force), batches = lit(frame, tiled), dropped = lit(frame, tiled, {"overflow=drop"});
+    const auto all = lit(frame, brute_force_lighting), batches = lit(frame, tiled_lighting),
+               dropped = lit(frame, tiled_lighting, {"overflow=drop"});
     expect_same(batches, all, "batches");
     EXPECT_EQ(count_of(batches, "tiles over lights"), count_of(batches, "tiles") - count_of(batches, "empty tiles"));
     EXPECT_EQ(count_of(dropped, "tiles over lights"), count_of(batches, "tiles over lights"));
     EXPECT_EQ(count_of(dropped, "lights touching") - count_of(dropped, "lights kept"), count_of(dropped, "tiles over lights"));
     frame.lights.pop_back();
-    expect_same(dropped, lit(frame, brute_force), "without the last of 65");
+    expect_same(dropped, lit(frame, brute_force_lighting), "without the last of 65");
+}
+
+TEST(TiledLighting, CountsATileAsFullBeyond64LightsAndNotAt64) {
+    Frame frame = dark_frame("lights_room");
+    RandomLights random(64);
+    const Light lamp = random.light(frame, LightType::omni, 1000);
+    for (const std::size_t n : {63, 64, 65}) {
+        frame.lights.assign(n, lamp);
+        for (const char* set : {"overflow=batch", "overflow=drop"}) {
+            const auto run = lit(frame, tiled_lighting, {set});
+            const std::uint64_t tiles = count_of(run, "tiles") - count_of(run, "empty tiles");
+            ASSERT_GT(tiles, 0u);
+            EXPECT_EQ(count_of(run, "tiles over lights"), n > 64 ? tiles : 0) << n << " lights, " << set;
+            EXPECT_EQ(count_of(run, "most lights"), n) << set;
+        }
+    }
 }
 
 TEST(TiledLighting, Of4096CoincidentLightsIsThatOfOne) {
@@ -70,10 +88,10 @@ TEST(TiledLighting, Of4096CoincidentLightsIsThatOfOne) {
     Light lamp = random.light(frame, LightType::omni, 30);
     lamp.intensity = glm::vec3(64);
     frame.lights = {lamp};
-    const ReferenceImage one = in_double(lit(frame, tiled).images.at("light"));
+    const ReferenceImage one = in_double(lit(frame, tiled_lighting).images.at("light"));
     lamp.intensity /= 4096.f;
     frame.lights.assign(4096, lamp);
-    const ReferenceImage many = in_double(lit(frame, tiled).images.at("light"));
+    const ReferenceImage many = in_double(lit(frame, tiled_lighting).images.at("light"));
     // 4096 roundings of a float are 2.4e-4, and a half float rounds by 4.9e-4; below 6e-5 it is denormal.
     for (std::size_t i = 0; i < one.texels.size(); ++i)
         EXPECT_NEAR(many.texels[i].x, one.texels[i].x, 1e-3 * one.texels[i].x + 1e-7) << i;
@@ -87,12 +105,12 @@ Frame blocked_frame(unsigned seed, std::uint32_t samples) {
     return frame;
 }
 
-TEST(TiledLighting, OfBlockersIsTheSameWithAndWithoutTheirCulling) {
+TEST(ExhaustiveTiledLighting, OfBlockersIsTheSameWithAndWithoutTheirCulling) {
     std::uint64_t killed = 0, tests_left = 0, tests = 0;
     for (unsigned seed = 1; seed <= 24; ++seed) {
         const Frame frame = blocked_frame(seed, seed % 4 == 0 ? 4 : 1);
-        const auto all = lit(frame, tiled, {"classify=off"}), culled = lit(frame, tiled, {"classify=on"});
-        const auto loop = lit(frame, brute_force);
+        const auto all = lit(frame, tiled_lighting, {"classify=off"}), culled = lit(frame, tiled_lighting, {"classify=on"});
+        const auto loop = lit(frame, brute_force_lighting);
         EXPECT_EQ(differing_texels(culled, all), 0u) << seed;
         EXPECT_EQ(differing_texels(culled, loop), 0u) << seed;
         EXPECT_EQ(count_of(all, "lights killed"), 0u);
@@ -105,48 +123,57 @@ TEST(TiledLighting, OfBlockersIsTheSameWithAndWithoutTheirCulling) {
 
 TEST(TiledLighting, WithMorePairsThanFitIsTheSamePicture) {
     const Frame frame = at_most_96("pair_overflow", 1);
-    const auto culled = lit(frame, tiled), all = lit(frame, tiled, {"classify=off"});
+    const auto culled = lit(frame, tiled_lighting), all = lit(frame, tiled_lighting, {"classify=off"});
     expect_same(culled, all, "272 pairs");
     EXPECT_GT(count_of(culled, "tiles over blocker pairs"), 0u);
     EXPECT_GT(count_of(culled, "most blocker pairs"), 256u);
 }
 
-TEST(TiledLighting, WithoutPixelTestsDarkensWholeTilesOrNothing) {
+TEST(ExhaustiveTiledLighting, WithoutPixelTestsDarkensWholeTilesOrNothing) {
     const Frame frame = blocked_frame(3, 1);
-    const ReferenceImage pixels = in_double(lit(frame, tiled).images.at("light"));
-    const ReferenceImage tiles = in_double(lit(frame, tiled, {"blockers=tile_only"}).images.at("light"));
-    const ReferenceImage none = in_double(lit(frame, tiled, {"blockers=off"}).images.at("light"));
+    const ReferenceImage pixels = in_double(lit(frame, tiled_lighting).images.at("light"));
+    const ReferenceImage tiles = in_double(lit(frame, tiled_lighting, {"blockers=tile_only"}).images.at("light"));
+    const ReferenceImage none = in_double(lit(frame, tiled_lighting, {"blockers=off"}).images.at("light"));
     for (std::size_t i = 0; i < none.texels.size(); ++i) {
         EXPECT_LE(pixels.texels[i].x, tiles.texels[i].x) << i;
         EXPECT_LE(tiles.texels[i].x, none.texels[i].x) << i;
     }
 }
 
-TEST(ShadingModes, OfAnyNumberGiveTheSamePicture) {
+TEST(ExhaustiveShadingModes, OfAnyNumberGiveTheSamePicture) {
     for (const char* scenario : {"agents_hq", "lights_room", "materials"}) {
         const Frame frame = at_most_96(scenario, 1);
-        const auto one = lit(frame, tiled, {"modes=1"});
+        const auto one = lit(frame, tiled_lighting, {"modes=1"});
         for (const char* set : {"modes=2", "modes=4", "modes=16", "force=65535", "branches=uniform"})
-            expect_same(lit(frame, tiled, {set}), one, fmt::format("{} {}", scenario, set));
+            expect_same(lit(frame, tiled_lighting, {set}), one, fmt::format("{} {}", scenario, set));
     }
 }
 
 TEST(ShadingModes, HaveEveryTileThatIsNotEmptyOnce) {
     for (const std::string_view scenario : lit_scenarios()) {
-        const auto run = lit(at_most_96(scenario, 1), tiled, {}, {"modes", "spectra"});
+        const auto run = lit(at_most_96(scenario, 1), tiled_lighting, {}, {"modes", "spectra"});
         double in_modes = 0, in_spectra = 0;
         std::uint64_t used = 0;
-        for (const auto& row : run.tables.at(tiled + ":modes").rows) in_modes += row[2], used += row[2] > 0;
-        for (const auto& row : run.tables.at(tiled + ":spectra").rows) in_spectra += row[1];
+        for (const auto& row : run.tables.at(tiled_lighting + ":modes").rows) in_modes += row[2], used += row[2] > 0;
+        for (const auto& row : run.tables.at(tiled_lighting + ":spectra").rows) in_spectra += row[1];
         EXPECT_EQ(in_modes + double(count_of(run, "empty tiles")), double(count_of(run, "tiles"))) << scenario;
         EXPECT_EQ(in_spectra, in_modes) << scenario;
         EXPECT_EQ(used, count_of(run, "modes used")) << scenario;
+        EXPECT_EQ(count_of(run, "tiles unserved"), 0u) << scenario;
     }
 }
 
+TEST(ShadingModes, ThatNoTileOfAFrameMayChooseAreNotCompiled) {
+    const Frame frame = at_most_96("lights_room", 1);
+    const auto run = lit(frame, tiled_lighting);
+    EXPECT_EQ(count_of(run, "modes compiled"), 1u) << "mode 2 serves the room's shadows, spots and omni lights";
+    EXPECT_EQ(count_of(run, "modes used"), 1u);
+    expect_same(run, lit(frame, tiled_lighting, {"modes=1"}), "a mode of all features");
+}
+
 TEST(ShadingModes, ThatAreForcedAreThoseOfAllFeatures) {
-    const auto run = lit(at_most_96("lights_room", 1), tiled, {"force=65535"}, {"spectra"});
-    const auto& rows = run.tables.at(tiled + ":spectra").rows;
+    const auto run = lit(at_most_96("lights_room", 1), tiled_lighting, {"force=65535"}, {"spectra"});
+    const auto& rows = run.tables.at(tiled_lighting + ":spectra").rows;
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0], (std::vector<double>{65535, double(count_of(run, "tiles") - count_of(run, "empty tiles")), 0, 0}));
 }
@@ -157,7 +184,7 @@ TEST(TiledLighting, OfTheSkyShadesNothing) {
     // Away from everything.
     frame.view.to_view = glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)) * frame.view.to_view;
     frame.view.origin += glm::transpose(frame.view.to_view) * glm::dvec3(0, 0, 500);
-    const auto run = lit(frame, tiled);
+    const auto run = lit(frame, tiled_lighting);
     EXPECT_EQ(count_of(run, "tiles"), 4u * 3);
     EXPECT_EQ(count_of(run, "empty tiles"), 4u * 3);
     EXPECT_EQ(count_of(run, "modes used"), 0u);
@@ -168,24 +195,24 @@ TEST(TiledLighting, OfTheSkyShadesNothing) {
 TEST(TiledLighting, IsTheSameOnEveryRun) {
     const Frame frame = at_most_96("agents_hq", 1);
     const std::vector<std::string> inside = {"lists", "portals", "spectra", "modes"};
-    const auto first = lit(frame, tiled, {}, inside);
+    const auto first = lit(frame, tiled_lighting, {}, inside);
     session_of_scenarios().forget_memo();
-    const auto second = lit(frame, tiled, {}, inside);
+    const auto second = lit(frame, tiled_lighting, {}, inside);
     expect_same(second, first, "again");
     for (const auto& [name, table] : first.tables) EXPECT_EQ(second.tables.at(name).rows, table.rows) << name;
 }
 
 TEST(TiledLighting, WithTwoCellsPerTileListsFewerLightsForTheSamePicture) {
     const Frame frame = at_most_96("agents_hq", 1);
-    const auto one = lit(frame, tiled, {"half_z=off"}), two = lit(frame, tiled, {"half_z=on"});
+    const auto one = lit(frame, tiled_lighting, {"half_z=off"}), two = lit(frame, tiled_lighting, {"half_z=on"});
     expect_same(two, one, "half-Z");
     EXPECT_LT(count_of(two, "lights touching"), count_of(one, "lights touching"));
 }
 
-TEST(TiledLighting, FiltersShadowsItselfAsTheShadowStageDoes) {
+TEST(ExhaustiveTiledLighting, FiltersShadowsItselfAsTheShadowStageDoes) {
     const Frame frame = at_most_96("spot_and_box", 1);
-    const ReferenceImage image = in_double(lit(frame, tiled).images.at("light"));
-    const ReferenceImage itself = in_double(lit(frame, tiled, {"shadows=inline"}).images.at("light"));
+    const ReferenceImage image = in_double(lit(frame, tiled_lighting).images.at("light"));
+    const ReferenceImage itself = in_double(lit(frame, tiled_lighting, {"shadows=inline"}).images.at("light"));
     double brightest = 0, sum = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         brightest = std::max(brightest, image.texels[i].x);

@@ -45,7 +45,7 @@ TEST(TintOnTheDevice, IsTheChaptersOfASingleGlassOverAnExactBackground) {
         expect_near(seen(*session, 1, tint) - seen(*session, 0, tint), {.2, .8, .2}, 1e-6);
 }
 
-TEST(TintOnTheDevice, IsWhatTheModelSays) {
+TEST(ExhaustiveTintOnTheDevice, IsWhatTheModelSays) {
     const Technique& technique = *must(find_technique(voxel));
     const std::vector<std::string> settings[] = {
         {"tint=skew"},

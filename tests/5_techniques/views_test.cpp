@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -57,13 +57,13 @@ std::vector<std::string_view> with_views() {
     return names;
 }
 
-std::string test_name(const testing::TestParamInfo<std::string_view>& info) {
+std::string viewed_technique_name(const testing::TestParamInfo<std::string_view>& info) {
     std::string name(info.param);
     name[name.find('/')] = '_';
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, Views, testing::ValuesIn(with_views()), test_name);
+INSTANTIATE_TEST_SUITE_P(Techniques, Views, testing::ValuesIn(with_views()), viewed_technique_name);
 
 }  // namespace
 }  // namespace strata

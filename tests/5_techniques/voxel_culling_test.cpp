@@ -9,7 +9,9 @@
 #include "passes/transparency/function_model.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/volume.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -17,7 +19,6 @@ namespace {
 
 using namespace transparency;
 
-const std::string voxel = "transparency/voxel";
 constexpr const char* cullings[] = {"culling=quads_16", "culling=quads_32", "culling=full_screen"};
 
 Run run_of(Session& session, Request request, std::vector<std::string> sets, const char* culling) {
@@ -51,7 +52,7 @@ std::uint64_t expect_equal(Session& session, const Request& request, const std::
     return least;
 }
 
-TEST(VoxelCulling, ChangesNoPixelOfAnyScenario) {
+TEST(ExhaustiveVoxelCulling, ChangesNoPixelOfAnyScenario) {
     const std::string_view samplings[] = {"point", "linear", "bicubic"}, resolutions[] = {"full", "quarter"};
     const std::span<const std::string_view> scenarios = info(Stage::transparency).scenarios;
     ASSERT_GE(scenarios.size(), 12u);
@@ -98,7 +99,7 @@ std::vector<Request> camera_path() {
     return places;
 }
 
-TEST(VoxelCulling, ChangesNoPixelAlongACameraPath) {
+TEST(ExhaustiveVoxelCulling, ChangesNoPixelAlongACameraPath) {
     const auto session = dense_smoke(1);
     std::uint64_t unshaded = 0;
     for (const Request& request : camera_path()) {
@@ -108,7 +109,7 @@ TEST(VoxelCulling, ChangesNoPixelAlongACameraPath) {
     EXPECT_GT(unshaded, 0u);
 }
 
-TEST(VoxelSkipping, ChangesNoPixelAlongACameraPath) {
+TEST(ExhaustiveVoxelSkipping, ChangesNoPixelAlongACameraPath) {
     const auto session = dense_smoke(1);
     for (const Request& request : camera_path()) {
         SCOPED_TRACE(request.eye.dolly);
@@ -124,7 +125,7 @@ Request prepared(const char* when, std::vector<std::string> sets = {}) {
     return {.uses = {voxel}, .sets = std::move(sets), .outputs = {"color", "depth_layers"}};
 }
 
-TEST(VoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThrough) {
+TEST(ExhaustiveVoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThrough) {
     for (const std::uint32_t samples : {1u, 4u}) {
         const auto session = dense_smoke(samples);
         const ReferenceImage after = in_double(must(session->run(prepared("prepared=after_opaque"))).images.at("color"));
@@ -140,7 +141,7 @@ TEST(VoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThroug
     }
 }
 
-TEST(VoxelPreparedBeforeOpaque, IsWhatTheModelSays) {
+TEST(ExhaustiveVoxelPreparedBeforeOpaque, IsWhatTheModelSays) {
     const Technique& technique = *must(find_technique(voxel));
     const auto session = dense_smoke(4);
     for (const char* resolution : {"resolution=full", "resolution=quarter"}) {

@@ -1,15 +1,14 @@
-// transparency/voxel over frames: a coarser volume is held, so that slices do not pop (transparency chapter 6.11).
+// transparency/voxel over frames: a coarser volume is held, so that slices do not pop (docs/algorithms/transparency.md 6.11).
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
-
-const std::string voxel = "transparency/voxel";
 
 // 32 slices; an inch for each is where the curve begins to be logarithmic.
 constexpr double nearest = 1, linear = 32 * .0254;

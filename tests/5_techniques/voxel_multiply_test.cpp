@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "passes/transparency/voxel/factors.h"
+#include "passes/transparency/voxel/factors_model.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
 namespace strata {
 namespace {
-
-const std::string voxel = "transparency/voxel";
 
 Run multiplied_run(Session& session, std::vector<std::string> sets = {}) {
     sets.push_back("splat=multiply");
@@ -21,7 +20,7 @@ Run multiplied_run(Session& session, std::vector<std::string> sets = {}) {
 }
 
 /// What comes through a geometry shader is interpolated with other roundings: a factor here and there is a code off, of 255.
-TEST(VoxelMultiply, IsTheSameWhicheverShaderChoosesTheLayer) {
+TEST(ExhaustiveVoxelMultiply, IsTheSameWhicheverShaderChoosesTheLayer) {
     for (const char* scenario : {"smoke_grenade", "glass_and_smoke", "interpenetrating_panes"}) {
         const auto session = scenario_session(scenario, 4);
         const auto without =
@@ -79,7 +78,7 @@ TEST(VoxelMultiply, RoundsEveryBlendAsTheModelDoes) {
 }
 
 /// Particles face the eye, so a triangle has one depth.
-TEST(VoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
+TEST(ExhaustiveVoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
     const Technique& technique = *must(find_technique(voxel));
     for (const char* scenario : {"smoke_grenade", "particle_storm", "explosion"})
         for (const char* bits : {"bits=8", "bits=16", "bits=32"}) {
@@ -92,7 +91,7 @@ TEST(VoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
         }
 }
 
-TEST(VoxelMultiply, IsWhatTheModelSaysInCombinations) {
+TEST(ExhaustiveVoxelMultiply, IsWhatTheModelSaysInCombinations) {
     const Technique& technique = *must(find_technique(voxel));
     const std::vector<std::string> combinations[] = {
         {"slices=37", "bits=16", "sampling=point"},

@@ -1,13 +1,13 @@
-// Thick events of transparency/voxel on a device (transparency chapter 6.5, last line).
+// Thick events of transparency/voxel on a device (docs/algorithms/transparency.md 6.5, thick objects).
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-const std::string voxel = "transparency/voxel";
 const char* const soft_scenarios[] = {"smoke_grenade", "glass_and_smoke", "explosion", "interface_layers"};
 
 Request thick(std::string_view scenario, std::vector<std::string> sets, std::uint32_t samples = 1) {
@@ -21,7 +21,7 @@ std::vector<std::byte> color_of(const Request& request) {
     return must(session_of_scenarios().run(request)).images.at("color").texels;
 }
 
-TEST(VoxelSegmentOnDevice, IsWhatTheModelSays) {
+TEST(ExhaustiveVoxelSegmentOnDevice, IsWhatTheModelSays) {
     const Technique& technique = *must(find_technique(voxel));
     const std::vector<std::string> combinations[] = {
         {"sampling=linear"},
@@ -38,7 +38,7 @@ TEST(VoxelSegmentOnDevice, IsWhatTheModelSays) {
         }
 }
 
-TEST(VoxelSegmentOnDevice, IsCoveredAndKeptWhereItReaches) {
+TEST(ExhaustiveVoxelSegmentOnDevice, IsCoveredAndKeptWhereItReaches) {
     for (const char* scenario : soft_scenarios)
         for (const char* splatting : {"splatting=linear", "splatting=point"}) {
             const std::vector<std::string> sets = {splatting, "sampling=bicubic", "slices=200", "resolution=half"};

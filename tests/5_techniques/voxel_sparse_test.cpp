@@ -5,8 +5,10 @@
 
 #include "passes/registry.h"
 #include "passes/transparency/function_prepass.h"
-#include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/dimensions.h"
+#include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/sparse.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -14,7 +16,6 @@ namespace {
 
 using namespace transparency;
 
-const std::string voxel = "transparency/voxel";
 constexpr std::uint64_t voxels_per_block = 64 * 4;  // with 8 bits
 
 using Sets = std::vector<std::string>;
@@ -64,7 +65,7 @@ TEST(VoxelSparse, IsADenseVolumeOfAllItsVirtualSlices) {
     EXPECT_GE(compared, 5u);
 }
 
-TEST(VoxelSparse, IsADenseVolumeInEveryFormat) {
+TEST(ExhaustiveVoxelSparse, IsADenseVolumeInEveryFormat) {
     const Sets combinations[] = {
         {"resolution=half", "sampling=bicubic"},
         {"resolution=quarter", "splatting=point", "sampling=point", "channels=rgb"},
@@ -78,7 +79,7 @@ TEST(VoxelSparse, IsADenseVolumeInEveryFormat) {
         EXPECT_TRUE(expect_dense(scenarios[i % 3], both(unbent, combinations[i]), {"slices=64", "thinnest=0.01"})) << i;
 }
 
-TEST(VoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
+TEST(ExhaustiveVoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
     std::size_t halved = 0;
     for (const std::string_view scenario : sparse_scenarios()) {
         const Sets sets = both(unbent, {"thinnest=0.002", "channels=rgb"});
@@ -93,7 +94,7 @@ TEST(VoxelSparse, HalvesItsSlicesUntilThePoolSuffices) {
     EXPECT_GE(halved, 3u);
 }
 
-TEST(VoxelSparse, NeverTakesMoreThanThePool) {
+TEST(ExhaustiveVoxelSparse, NeverTakesMoreThanThePool) {
     const char* const splattings[] = {"splatting=linear", "splatting=point"};
     std::size_t turn = 0;  // either splatting with every pool, on every other scenario
     for (const std::string_view scenario : sparse_scenarios())
@@ -117,7 +118,7 @@ TEST(VoxelSparse, TakesNothingOfThePoolWhereNothingIsSeen) {
     EXPECT_EQ(counted(away, "drawn"), 0u);
 }
 
-TEST(VoxelSparse, HalvesAsOftenAsTheModel) {
+TEST(ExhaustiveVoxelSparse, HalvesAsOftenAsTheModel) {
     const Settings settings(must(find_technique(voxel))->params);
     for (const std::string_view scenario : sparse_scenarios())
         for (const std::uint32_t pool : {1u, 4u, 16u}) {
@@ -136,7 +137,7 @@ TEST(VoxelSparse, HalvesAsOftenAsTheModel) {
         }
 }
 
-TEST(VoxelSparse, IsWhatTheModelSaysInCombinations) {
+TEST(ExhaustiveVoxelSparse, IsWhatTheModelSaysInCombinations) {
     const Technique& technique = *must(find_technique(voxel));
     const Sets combinations[] = {
         {"pool=1"},
@@ -174,7 +175,7 @@ TEST(VoxelSparse, IsTheSameInEveryRun) {
     }
 }
 
-TEST(VoxelSparse, IsCulledWithoutChangingAPixel) {
+TEST(ExhaustiveVoxelSparse, IsCulledWithoutChangingAPixel) {
     for (const std::string_view scenario : sparse_scenarios())
         for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
             const auto all = sparse_run(scenario, {resolution, "culling=off"});

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-const std::string voxel = "transparency/voxel";
 constexpr std::uint32_t extent = 8;
 
 Frame cards_at(std::initializer_list<double> depths, float alpha = .5f) {
@@ -51,8 +51,9 @@ double summed(const std::vector<std::vector<double>>& rows, std::size_t column) 
     return sum;
 }
 
-// Transparency chapter 6.7: linear samples one slice in front read up to a quarter of the fragment itself, two in front nothing.
-TEST(VoxelViews, SelfOcclusionIsWhatAFragmentReadsOfItself) {
+// docs/algorithms/transparency.md 6.7: linear samples one slice in front read up to a quarter of the fragment itself, two in
+// front nothing.
+TEST(ExhaustiveVoxelViews, SelfOcclusionIsWhatAFragmentReadsOfItself) {
     double most = 0;
     for (int i = 0; i < 16; ++i) {
         const Frame frame = cards_at({5 + .03 * i, 9});
@@ -65,7 +66,7 @@ TEST(VoxelViews, SelfOcclusionIsWhatAFragmentReadsOfItself) {
     EXPECT_NEAR(most, .25 * std::log(2.), .01);
 }
 
-TEST(VoxelViews, SelfOcclusionIsWhereAColumnHoldsMoreThanAPixel) {
+TEST(ExhaustiveVoxelViews, SelfOcclusionIsWhereAColumnHoldsMoreThanAPixel) {
     const std::vector<Card> slanted{{.center = {0, 0, 5}, .half = 2, .color = {1, 1, 1, .9f}, .tilt = .8}};
     const Frame frame = frame_of_cards(slanted, 64);
     EXPECT_EQ(self_occlusion(frame, {}), (Range{0, 0}));

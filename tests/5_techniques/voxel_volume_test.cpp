@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
-
-const std::string voxel = "transparency/voxel";
 
 Run run_of(Session& session, std::vector<std::string> sets, std::vector<std::string> outputs = {"color"}) {
     session.forget_memo();
@@ -48,7 +47,7 @@ TEST(VoxelVolume, IntegratesAnOverflowAsIfItSaturated) {
 }
 
 /// Numbers that fit nothing, and settings that meet only here.
-TEST(VoxelVolume, IsWhatTheModelSaysInCombinations) {
+TEST(ExhaustiveVoxelVolume, IsWhatTheModelSaysInCombinations) {
     const Technique& technique = *must(find_technique(voxel));
     const std::vector<std::string> combinations[] = {
         {"slices=37", "bits=16", "splatting=point", "sampling=bicubic", "shift=0.5"},
@@ -104,8 +103,8 @@ void expect_nothing_missed(std::string_view scenario, std::uint32_t samples, std
         << scenario << " " << testing::PrintToString(request.sets);
 }
 
-// V10 of transparency chapter 6.17. What is not cleared holds whatever other images left there.
-TEST(VoxelVolume, LeavesOutOnlyWhatNobodyReads) {
+// V10 of docs/algorithms/transparency.md 6.17. What is not cleared holds whatever other images left there.
+TEST(ExhaustiveVoxelVolume, LeavesOutOnlyWhatNobodyReads) {
     const std::vector<std::string> combinations[] = {
         {"resolution=quarter", "sampling=bicubic", "slices=70"},
         {"resolution=half", "volume=dense", "shift=2", "bits=16"},
@@ -119,7 +118,7 @@ TEST(VoxelVolume, LeavesOutOnlyWhatNobodyReads) {
     }
 }
 
-TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
+TEST(ExhaustiveVoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
     for (const std::string_view scenario : info(Stage::transparency).scenarios)
         for (const char* splatting : {"splatting=linear", "splatting=point"}) {
             Request request = on_scenario(scenario, 4);
@@ -128,7 +127,7 @@ TEST(VoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
         }
 }
 
-// (v) of transparency chapter 9.7: a curve that the number of slices does not bend.
+// (v) of docs/algorithms/transparency.md 9.7: a curve that the number of slices does not bend.
 TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
     std::size_t finer = 0;
     for (const std::string_view scenario : info(Stage::transparency).scenarios) {

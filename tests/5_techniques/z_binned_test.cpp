@@ -8,8 +8,8 @@
 #include "captures/scenarios.h"
 #include "passes/lighting/z_binned/z_bins.h"
 #include "passes/reference/shade.h"
-#include "passes/shadows/shadow_views.h"
-#include "replay/image_io.h"
+#include "passes/scene/shadow_views.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -51,7 +51,7 @@ double farthest_apart(const ReferenceImage& a, const ReferenceImage& b) {
 // One step of a half float: lights are summed by depth here and by number there.
 constexpr double half_step = 1.0 / 1024;
 
-// Lighting chapter 7, N10.
+// docs/algorithms/lighting.md 7, N10.
 TEST(ZBinned, IsEveryLightWhateverTheirNumber) {
     for (const std::uint32_t lights : {1u, 31u, 32u, 33u, 63u, 64u, 65u, 255u, 256u, 257u, 4095u, 4096u}) {
         const Frame frame = hall(lights);
@@ -75,7 +75,7 @@ TEST(ZBinned, ABinHoldsAtLeastTheLightsThatReachItsDepths) {
     const auto& rows = run.tables.at(z_binned + ":bins").rows;
     ASSERT_EQ(rows.size(), 256u);
     std::vector<lighting::DepthReach> reaches;
-    for (const Light& light : shadow_lights(frame)) {
+    for (const Light& light : light_list(frame)) {
         if (light.type == LightType::round_spot) continue;  // theirs are tighter than their range
         const float z = float(to_view(frame, light.position).z);
         reaches.push_back({z - light.range, z + light.range});

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/srgb.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/plain_flip.h"
 
 namespace strata {

@@ -11,7 +11,7 @@
 namespace strata {
 namespace {
 
-Technique some_technique() {
+Technique technique_with_variants() {
     return {
         .stage = Stage::lighting, .name = "lighting/some", .variants = {.constant = "mode", .view = "numbers", .table = "modes"}};
 }
@@ -29,7 +29,7 @@ HostImage numbers_of(std::initializer_list<float> numbers) {
 }
 
 struct Joined {
-    Technique technique = some_technique();
+    Technique technique = technique_with_variants();
     strata::Run run;
     IsaOfGpu gpu{.name = "bonaire", .model = &bonaire()};
     PipelineRequests requests;

@@ -9,9 +9,9 @@
 #include "capture_format/import/deep.h"
 #include "passes/registry.h"
 #include "passes/transparency/truth.h"
-#include "replay/deep_image.h"
-#include "replay/flatten_deep.h"
-#include "replay/loaded_frame.h"
+#include "replay/deep/deep_image.h"
+#include "replay/deep/flatten_deep.h"
+#include "replay/session/loaded_frame.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/support/deep_exr.h"
 #include "tests/support/session.h"
@@ -28,7 +28,7 @@ struct ReplayedFragments {
     explicit ReplayedFragments(std::string_view scenario, std::uint32_t samples = 1) {
         Request request = on_scenario(scenario, samples);
         Session& session = session_of_scenarios();
-        frame = must(load_frame(must(session.frame(request.frame)), variant_of(request))).frame;
+        frame = must(load_frame(must(session.frame(request.frame)), variant_of(request)))->frame;
         truth = must(session.truth(request, Stage::transparency)).at("color");
         ReferenceImage depth(truth.width, truth.height, truth.layers);
         for (const ActImages& act : must(session.act_images(request))) {

@@ -4,8 +4,8 @@
 
 #include "capture_format/expectation_writer.h"
 #include "capture_format/recorder.h"
-#include "replay/expectation_check.h"
-#include "replay/image_io.h"
+#include "replay/expectations/expectation_check.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

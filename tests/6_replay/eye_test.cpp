@@ -7,7 +7,7 @@
 
 #include "captures/scenarios/frame_builder.h"
 #include "captures/scenarios/shapes.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "passes/frame_images.h"
-#include "replay/image_io.h"
-#include "replay/memo.h"
+#include "replay/images/image_io.h"
+#include "replay/session/memo.h"
 #include "tests/support/device.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
@@ -16,11 +16,9 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t mib = 1 << 20;
 
-std::string picture(Session& session) { return hash_of(must(session.run({})).images.at("display")); }
-
 TEST(Failure, WhileAFrameIsRecordedLeavesTheSessionAsItWas) {
     const auto session = scenario_session("glass_and_smoke");
-    const std::string before = picture(*session);
+    const std::string before = display_hash(*session);
     const auto planned = must(session->plan({}));
     std::size_t failed = 0;
     for (const ImageRecord& image : planned.plan.images) {
@@ -31,15 +29,15 @@ TEST(Failure, WhileAFrameIsRecordedLeavesTheSessionAsItWas) {
         if (++failed == 3) break;
     }
     ASSERT_GT(failed, 0u);
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
     session->forget_memo();
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
 }
 
 TEST(Failure, OfAShaderThatNeedsWhatTheDeviceLacksEndsWithTheShader) {
     const ShaderFolder folder;
     const auto session = scenario_session("three_panes");
-    const std::string before = picture(*session);
+    const std::string before = display_hash(*session);
     const std::string source = "passes/combine/hi_lo/film.comp";
     folder.change(source, "sum / float(samples)", "vec3(dvec3(sum) / double(samples))");  // no baseline has shaderFloat64
     must(session->reload_shaders(folder.path()));
@@ -49,9 +47,9 @@ TEST(Failure, OfAShaderThatNeedsWhatTheDeviceLacksEndsWithTheShader) {
     EXPECT_THAT(run.error().sentence, HasSubstr("the validation layer says"));
     folder.restore(source);
     must(session->reload_shaders(folder.path()));
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
     session->forget_memo();
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
 }
 
 /// A cleared image of so many bytes, kept.

@@ -1,7 +1,7 @@
 // Textures that exceed what a device binds.
 #include <gtest/gtest.h>
 
-#include "capture_format/texture_bytes.h"
+#include "capture_format/codec/texture_bytes.h"
 #include "replay/scene/fit_textures.h"
 
 namespace strata {

@@ -1,5 +1,5 @@
 // Whole frames against golden images: what a change to any part of the chain changes. By tolerance and not by hash: another
-// class of CPU rounds the last bits differently (platform.md 2.5).
+// class of CPU rounds the last bits differently.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <glm/gtc/packing.hpp>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/accept.h"
 #include "tests/support/session.h"
 

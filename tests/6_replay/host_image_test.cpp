@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 namespace {

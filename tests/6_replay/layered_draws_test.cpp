@@ -88,11 +88,12 @@ struct LayeredFrame : TestFrame {
 
 class LayeredDraw : public testing::TestWithParam<LayerFrom> {};
 
-std::string name_of(const testing::TestParamInfo<LayerFrom>& tested) {
+std::string layer_source_name(const testing::TestParamInfo<LayerFrom>& tested) {
     return tested.param == LayerFrom::vertex_shader ? "ChosenByTheVertexShader" : "ChosenByTheGeometryShader";
 }
 
-INSTANTIATE_TEST_SUITE_P(Triangles, LayeredDraw, testing::Values(LayerFrom::vertex_shader, LayerFrom::geometry_shader), name_of);
+INSTANTIATE_TEST_SUITE_P(Triangles, LayeredDraw, testing::Values(LayerFrom::vertex_shader, LayerFrom::geometry_shader),
+                         layer_source_name);
 
 TEST_P(LayeredDraw, PutsEachTriangleIntoItsLayerAndIntoNoOther) {
     LayeredFrame frame(GetParam());

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

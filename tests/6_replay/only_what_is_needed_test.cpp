@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

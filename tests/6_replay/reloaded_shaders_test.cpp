@@ -8,7 +8,7 @@
 
 #include "passes/graph/shader_sources.h"
 #include "replay/glsl/compile_glsl.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
 
@@ -22,8 +22,6 @@ using testing::Not;
 
 // The last shader of a frame: it makes the picture and nothing else.
 const std::string film = "combine/hi_lo/film.comp", film_source = "passes/combine/hi_lo/film.comp";
-
-std::string picture(Session& session) { return hash_of(must(session.run({})).images.at("display")); }
 
 void darken(const ShaderFolder& folder) { folder.change(film_source, "sum / float(samples)", "sum * 0.5 / float(samples)"); }
 
@@ -58,7 +56,7 @@ TEST(ReloadedShaders, ChangeThePictureAndGivenBackGiveItBackBitByBit) {
     EXPECT_THAT(dark.notes, ElementsAre(HasSubstr("1 shader replaced")));
     folder.restore(film_source);
     EXPECT_THAT(must(session->reload_shaders(folder.path())).replaced, IsEmpty());
-    EXPECT_EQ(picture(*session), hash_of(before));
+    EXPECT_EQ(display_hash(*session), hash_of(before));
 }
 
 TEST(ReloadedShaders, HaveOnlyWhatDependsOnThemCompiledAndExecutedAgain) {
@@ -80,16 +78,16 @@ TEST(ReloadedShaders, ThatAreWrongAreSaidWithTheirPlaceAndTheLastGoodOnesStay) {
     const auto session = scenario_session("three_panes");
     darken(folder);
     must(session->reload_shaders(folder.path()));
-    const std::string dark = picture(*session);
+    const std::string dark = display_hash(*session);
     const auto file = folder.change(film_source, "0.5", "nothing_known");
     const auto refused = session->reload_shaders(folder.path());
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::bad_input);
     EXPECT_THAT(refused.error().sentence, HasSubstr(fmt::format("{}:{}: 'nothing_known'", file.string(),
                                                                 line_of(folder.text(film_source), "nothing_known"))));
-    EXPECT_EQ(picture(*session), dark);
+    EXPECT_EQ(display_hash(*session), dark);
     session->forget_memo();
-    EXPECT_EQ(picture(*session), dark);
+    EXPECT_EQ(display_hash(*session), dark);
 }
 
 TEST(ReloadedShaders, SayAWrongIncludeOnceForAllThatIncludeIt) {
@@ -109,14 +107,14 @@ TEST(ReloadedShaders, SayAWrongIncludeOnceForAllThatIncludeIt) {
 TEST(ReloadedShaders, WhoseInterfaceNoLongerFitsAreRefusedInTheGraphsWords) {
     const ShaderFolder folder;
     const auto session = scenario_session("three_panes");
-    const std::string before = picture(*session);
+    const std::string before = display_hash(*session);
     folder.change(film_source, "sampler2DArray color", "sampler2DArray colour");
     folder.change(film_source, "(color, ", "(colour, ");
     const Request shown;
     const auto refused = session->reload_shaders(folder.path(), std::span(&shown, 1));
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().sentence, HasSubstr(film + " uses no 'color'; did you mean colour?"));
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
     // Who shows nothing is told when running.
     must(session->reload_shaders(folder.path()));
     const auto run = session->run(shown);
@@ -124,7 +122,7 @@ TEST(ReloadedShaders, WhoseInterfaceNoLongerFitsAreRefusedInTheGraphsWords) {
     EXPECT_EQ(run.error().sentence, refused.error().sentence);
     folder.restore(film_source);
     must(session->reload_shaders(folder.path()));
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
 }
 
 TEST(ReloadedShaders, ThatCppReadsAsWellNeedABuild) {

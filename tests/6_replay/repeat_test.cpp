@@ -1,7 +1,7 @@
 // Equal runs give equal bits, and every step of every plan can be looked at.
 #include <gtest/gtest.h>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/support/session.h"
 
 namespace strata {

@@ -1,22 +1,20 @@
 // What takes long can be stopped from outside, and what was stopped leaves a session that works.
 #include <gtest/gtest.h>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "replay/report/report.h"
 #include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-std::string picture(Session& session) { return hash_of(must(session.run({})).images.at("display")); }
-
 TEST(Stopped, EveryCallEndsAtOnceUntilThereIsAnotherToken) {
     const auto session = scenario_session("three_panes");
-    const std::string before = picture(*session);
+    const std::string before = display_hash(*session);
     session->forget_memo();
     std::stop_source stop;
     session->stop_when(stop.get_token());
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
     session->forget_memo();
     stop.request_stop();
     const Request request;
@@ -31,12 +29,12 @@ TEST(Stopped, EveryCallEndsAtOnceUntilThereIsAnotherToken) {
     EXPECT_TRUE(is_stopped(session->pixel_steps(request, {})));
     EXPECT_TRUE(is_stopped(session->transparent_fragments(request)));
     session->stop_when({});
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
 }
 
 TEST(Stopped, AReportEndsAtTheRowThatIsBeingMade) {
     const auto session = scenario_session("three_panes");
-    const std::string before = picture(*session);
+    const std::string before = display_hash(*session);
     const std::string second(techniques_of(Stage::transparency)[1]->name);
     std::stop_source stop;
     session->stop_when(stop.get_token());
@@ -49,7 +47,7 @@ TEST(Stopped, AReportEndsAtTheRowThatIsBeingMade) {
     EXPECT_EQ(report.error().fault, Fault::stopped);
     EXPECT_TRUE(told.back().starts_with(second)) << told.back();
     session->stop_when({});
-    EXPECT_EQ(picture(*session), before);
+    EXPECT_EQ(display_hash(*session), before);
 }
 
 TEST(Stopped, TimingTellsHowFarItIsAndEndsBetweenRuns) {

@@ -6,9 +6,9 @@
 
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/capture_tables.h"
-#include "ui/counter_rows.h"
-#include "ui/outline.h"
+#include "ui/frame/capture_tables.h"
+#include "ui/frame/counter_rows.h"
+#include "ui/picture/outline.h"
 
 namespace strata::ui {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/changed_regions.h"
+#include "ui/window/changed_regions.h"
 
 namespace strata::ui {
 namespace {

@@ -6,14 +6,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
-#include "ui/compare_numbers.h"
-#include "ui/compare_side.h"
-#include "ui/flip_colors.h"
-#include "ui/picture_view.h"
+#include "ui/compare/compare_numbers.h"
+#include "ui/compare/compare_side.h"
+#include "ui/compare/flip_colors.h"
+#include "ui/picture/picture_view.h"
 
 namespace strata::ui {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/report_columns.h"
+#include "ui/report/report_columns.h"
 
 namespace strata::ui {
 namespace {
@@ -111,7 +111,7 @@ TEST(ReportBase, KeepsTheOtherStagesChoicesAlone) {
 }
 
 constexpr const char* panel = "Accuracy and cost";
-constexpr strata::Stage measured = strata::Stage::gbuffer;
+constexpr strata::Stage measured_stage = strata::Stage::gbuffer;
 
 /// A stage with few methods, measured once in the panel.
 Desk& measured_desk() {
@@ -119,7 +119,7 @@ Desk& measured_desk() {
     desk.model().select_frame(frame_of("one_sphere"));
     must(desk.player->wait());
     must(desk.player->click(fmt::format("tabs/{}", panel)));
-    must(desk.player->choose(fmt::format("{}/stage", panel), std::string(name(measured))));
+    must(desk.player->choose(fmt::format("{}/stage", panel), std::string(name(measured_stage))));
     must(desk.player->choose(fmt::format("{}/turns", panel), "3 turns"));
     must(desk.player->choose(fmt::format("{}/turns", panel), "1 turn"));
     must(desk.player->click(fmt::format("{}/measure", panel)));
@@ -131,7 +131,7 @@ Desk& measured_desk() {
 const Report& measured_alone() {
     static const Report made = [] {
         const auto session = must(Session::open(small_scenarios(), {.validation = true}));
-        return must(make_report(*session, {.base = {.frame = frame_of("one_sphere")}, .stage = measured, .repeats = 1}));
+        return must(make_report(*session, {.base = {.frame = frame_of("one_sphere")}, .stage = measured_stage, .repeats = 1}));
     }();
     return made;
 }
@@ -155,18 +155,18 @@ TEST(CostPanel, SaysOfEverySettingWhatTheSessionMeasures) {
 
 TEST(CostPanel, AClickOnARowAppliesItInOneStepOfUndo) {
     Desk& desk = measured_desk();
-    const Technique* before = desk.model().choices().at(measured).technique;
+    const Technique* before = desk.model().choices().at(measured_stage).technique;
     const auto other = std::ranges::find_if(measured_alone().rows, [&](const Measurement& each) {
         return each.technique != before->name && each.accuracy.not_supported.empty();
     });
     ASSERT_NE(other, measured_alone().rows.end());
     must(desk.player->click(fmt::format("{}/table/{}/apply", panel, name_of(*other))));
     must(desk.player->wait());
-    EXPECT_EQ(desk.model().choices().at(measured).technique->name, other->technique);
-    EXPECT_EQ(row_of(measured_alone(), desk.model().choices().at(measured)), other - measured_alone().rows.begin());
+    EXPECT_EQ(desk.model().choices().at(measured_stage).technique->name, other->technique);
+    EXPECT_EQ(row_of(measured_alone(), desk.model().choices().at(measured_stage)), other - measured_alone().rows.begin());
     must(desk.player->key("ctrl+z"));
     must(desk.player->wait());
-    EXPECT_EQ(desk.model().choices().at(measured).technique, before);
+    EXPECT_EQ(desk.model().choices().at(measured_stage).technique, before);
 }
 
 TEST(CostPanel, AReportThatIsCancelledLeavesNothing) {

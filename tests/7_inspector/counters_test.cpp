@@ -6,7 +6,7 @@
 
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/counter_rows.h"
+#include "ui/frame/counter_rows.h"
 
 namespace strata::ui {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "ui/script.h"
+#include "ui/script/script.h"
 
 namespace strata::ui {
 

@@ -7,7 +7,7 @@
 #include "replay/counted.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/timeline.h"
+#include "ui/frame/timeline.h"
 
 namespace strata::ui {
 namespace {
@@ -157,7 +157,7 @@ std::size_t some_step(const Replay& replay) {
 }
 
 /// The desk with this capture's frame measured and everything collapsed.
-Desk& measured_desk() {
+Desk& timed_desk() {
     Desk& desk = Desk::clean();
     must(desk.player->click("Frame/measure"));
     must(desk.player->wait());
@@ -166,7 +166,7 @@ Desk& measured_desk() {
 }
 
 TEST(FramePanel, MarksWhatAChangeHasExecutedAndKeepsTheMarksAfterMeasuring) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     desk.model().select_frame(frame_of("glass_and_smoke"));
     must(desk.player->click("Frame/measure"));
     must(desk.player->wait());
@@ -191,7 +191,7 @@ TEST(FramePanel, MarksWhatAChangeHasExecutedAndKeepsTheMarksAfterMeasuring) {
 }
 
 TEST(FramePanel, TheTimelineSaysWhatIsUnderThePointerAndAClickSelectsIt) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     EXPECT_THAT(desk.said("Frame/timeline"), HasSubstr("0.00 to "));
     must(desk.player->move("Frame/timeline", .999f, .5f));
     const auto replay = desk.replay();
@@ -206,7 +206,7 @@ TEST(FramePanel, TheTimelineSaysWhatIsUnderThePointerAndAClickSelectsIt) {
 }
 
 TEST(FramePanel, TheWheelZoomsTheTimelineAndADoubleClickShowsAllOfIt) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     const std::string all = desk.said("Frame/timeline");
     must(desk.player->move("Frame/timeline", .5f, .5f));
     must(desk.player->wheel(5));
@@ -219,7 +219,7 @@ TEST(FramePanel, TheWheelZoomsTheTimelineAndADoubleClickShowsAllOfIt) {
 }
 
 TEST(FramePanel, CtrlUpAndDownMoveTheSelectedStepThroughThoseThatAreFound) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     const auto replay = desk.replay();
     const std::size_t step = some_step(*replay);
     desk.model().step = step;
@@ -242,7 +242,7 @@ TEST(FramePanel, CtrlUpAndDownMoveTheSelectedStepThroughThoseThatAreFound) {
 }
 
 TEST(FramePanel, CollapsesAndExpandsAllAndByKeysTheActOfTheSelectedStep) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     const auto replay = desk.replay();
     const std::size_t step = some_step(*replay);
     EXPECT_FALSE(has(desk, path_of(*replay, 0)));
@@ -265,7 +265,7 @@ TEST(FramePanel, CollapsesAndExpandsAllAndByKeysTheActOfTheSelectedStep) {
 }
 
 TEST(FramePanel, HasTimeMemoryAndWorkBesideEveryActAndStep) {
-    Desk& desk = measured_desk();
+    Desk& desk = timed_desk();
     must(desk.player->click("Frame/expand all"));
     const auto replay = desk.replay();
     const FrameRows rows = frame_rows(*replay, nullptr);

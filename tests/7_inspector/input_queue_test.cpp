@@ -5,8 +5,8 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "ui/input_queue.h"
-#include "ui/keys.h"
+#include "ui/window/input_queue.h"
+#include "ui/window/keys.h"
 
 namespace strata::ui {
 namespace {

@@ -6,17 +6,17 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "capture_format/whole_file.h"
-#include "replay/image_io.h"
+#include "capture_format/container/whole_file.h"
+#include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
 #include "tests/support/shader_folder.h"
-#include "ui/camera.h"
-#include "ui/go_to_pixel.h"
-#include "ui/keys.h"
-#include "ui/look_bytes.h"
-#include "ui/save_shown.h"
+#include "ui/picture/camera.h"
+#include "ui/picture/go_to_pixel.h"
+#include "ui/picture/look_bytes.h"
+#include "ui/picture/save_shown.h"
+#include "ui/window/keys.h"
 
 namespace strata::ui {
 namespace {

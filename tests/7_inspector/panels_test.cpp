@@ -7,7 +7,7 @@
 #include "captures/scenarios.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/keys_list.h"
+#include "ui/widgets/keys_list.h"
 
 namespace strata::ui {
 namespace {

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/picture_view.h"
+#include "ui/picture/picture_view.h"
 
 namespace strata::ui {
 namespace {

@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "passes/transparency/sample_blend.h"
-#include "replay/drawn_by.h"
+#include "replay/session/drawn_by.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/pixel_history.h"
-#include "ui/pixel_inside.h"
-#include "ui/probe_series.h"
+#include "ui/pixel/pixel_history.h"
+#include "ui/pixel/pixel_inside.h"
+#include "ui/pixel/probe_series.h"
 
 namespace strata::ui {
 namespace {

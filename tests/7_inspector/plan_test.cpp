@@ -7,7 +7,7 @@
 #include "replay/counted.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/plan_chart.h"
+#include "ui/plan/plan_chart.h"
 
 namespace strata::ui {
 namespace {

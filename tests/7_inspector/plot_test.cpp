@@ -4,7 +4,7 @@
 
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
-#include "ui/plot.h"
+#include "ui/widgets/plot.h"
 
 namespace strata::ui {
 namespace {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "capture_format/whole_file.h"
-#include "replay/image_io.h"
+#include "capture_format/container/whole_file.h"
+#include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/accept.h"
 #include "tests/support/session.h"

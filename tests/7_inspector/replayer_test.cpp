@@ -1,5 +1,5 @@
 // The session on its thread: who waits for whom, and what is left after a failure.
-#include "ui/replayer.h"
+#include "ui/replayer/replayer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
-#include "ui/views.h"
+#include "ui/picture/views.h"
 
 namespace strata::ui {
 namespace {

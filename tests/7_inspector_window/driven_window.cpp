@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
 

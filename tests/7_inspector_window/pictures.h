@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 #include "tests/7_inspector_window/driven_window.h"
 
 namespace strata {

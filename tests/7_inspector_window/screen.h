@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "replay/host_image.h"
+#include "replay/images/host_image.h"
 
 namespace strata {
 

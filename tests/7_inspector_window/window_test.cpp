@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_inspector_window/driven_window.h"
 #include "tests/7_inspector_window/drop_file.h"
 #include "tests/7_inspector_window/pictures.h"

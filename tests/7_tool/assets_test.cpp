@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> scenes() {
     return found;
 }
 
-std::string test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
+std::string asset_test_name(const testing::TestParamInfo<std::filesystem::path>& info) {
     std::string name = info.param.parent_path().filename().string();
     for (char& c : name)
         if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
@@ -85,7 +85,7 @@ TEST_P(Asset, IsImportedReplayedAndReportedWithinEveryTolerance) {
     expect_opaque_stages_within_tolerance(folder() / "scene.strata");
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Asset, testing::ValuesIn(scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, Asset, testing::ValuesIn(scenes()), asset_test_name);
 
 }  // namespace
 }  // namespace strata

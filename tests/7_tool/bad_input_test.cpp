@@ -59,9 +59,9 @@ TEST_P(BadFile, RandomBytesAreRefused) {
     }
 }
 
-std::string test_name(const testing::TestParamInfo<FileVerb>& info) { return std::string(info.param.name); }
+std::string verb_test_name(const testing::TestParamInfo<FileVerb>& info) { return std::string(info.param.name); }
 
-INSTANTIATE_TEST_SUITE_P(Verbs, BadFile, testing::ValuesIn(file_verbs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Verbs, BadFile, testing::ValuesIn(file_verbs()), verb_test_name);
 
 class BadCapture : public testing::TestWithParam<FileVerb> {};
 
@@ -107,7 +107,7 @@ TEST_P(BadCapture, AFrameThatDoesNotExistIsAUsageError) {
     EXPECT_EQ(files().size(), 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Verbs, BadCapture, testing::ValuesIn(capture_verbs()), test_name);
+INSTANTIATE_TEST_SUITE_P(Verbs, BadCapture, testing::ValuesIn(capture_verbs()), verb_test_name);
 
 }  // namespace
 }  // namespace strata

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/registry.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/deep_exr.h"
 #include "tests/support/session.h"
@@ -38,7 +38,7 @@ std::map<std::string, double> reported_errors(const std::string& options) {
     return errors;
 }
 
-TEST(DeepReport, IsHowFarEveryMethodIsFromTheExactComposite) {
+TEST(ExhaustiveDeepReport, IsHowFarEveryMethodIsFromTheExactComposite) {
     std::ofstream(folder() / "image.exr", std::ios::binary) << deep_file(two_layers());
     ASSERT_EQ(strata("import --deep image.exr -o image.strata").code, 0);
     const auto errors = reported_errors("--sweep form=average"), of_sums = reported_errors("--sweep form=sum");

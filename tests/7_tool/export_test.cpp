@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "capture_format/container.h"
-#include "capture_format/decode_frame.h"
-#include "capture_format/frame_json.h"
-#include "replay/image_io.h"
+#include "capture_format/codec/decode_frame.h"
+#include "capture_format/codec/frame_json.h"
+#include "capture_format/container/container.h"
+#include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/deep_exr.h"
 #include "tests/support/session.h"

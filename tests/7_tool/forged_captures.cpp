@@ -6,10 +6,10 @@
 
 #include <xxhash.h>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/encode_frame.h"
-#include "capture_format/frame_delta.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/codec/frame_delta.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
 #include "capture_format/recorder.h"
 #include "captures/scenarios.h"
 #include "tests/1_capture/sample_frames.h"

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(HardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
+TEST(ExhaustiveHardCasesVerb, WritesWhatEveryMethodMakesOfEveryCase) {
     const Finished made = strata("report --hard-cases --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/reader.h"
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/7_tool/forged_captures.h"
 #include "tests/7_tool/process.h"

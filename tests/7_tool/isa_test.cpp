@@ -50,7 +50,7 @@ TEST(Isa, TheCompilersOwnWavesAreWhatItsRuleGivesAndOursWhereGroupsStayWhole) {
         for (const json& program : gpu["programs"]) {
             if (program["stage"] != "compute") continue;
             EXPECT_EQ(program["stated_by_compiler"], program["stated_by_rule"]) << gpu["name"] << program;
-            // What is rounded up where groups do not fill a unit, or where they share LDS, is the occupancy chapter's matter.
+            // What is rounded up where groups do not fill a unit, or where they share LDS, is tested in tests/6_measures.
             if (program["occupancy"]["lost_to_whole_groups"] > 0 || program["lds_bytes"] > 0) continue;
             const bool counts_halves = gpu["model"]["unit"] == "work group processor";  // a wave of 64 as two
             const double stated = program["stated_by_compiler"].get<double>() / (counts_halves ? 2 : 1);

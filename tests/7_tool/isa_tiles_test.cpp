@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "replay/image_io.h"
+#include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"
 
@@ -71,7 +71,7 @@ TEST(IsaTiles, ArePaintedWithTheWavesOfTheModeThatShadesThem) {
     EXPECT_NEAR(gpu["tiles"]["mean_waves_per_simd"].get<double>(), sum / 15, 1e-12);
 }
 
-TEST(IsaTiles, AverageToWhatTheSearchForModesPredicted) {
+TEST(ExhaustiveIsaTiles, AverageToWhatTheSearchForModesPredicted) {
     record_room();
     const Finished made = strata("spectra room.strata --modes 4 --gpu-model bonaire --json");
     ASSERT_EQ(made.code, 0) << made.err;

@@ -100,6 +100,22 @@ TEST(Spread, OfARatioIsThatOfTheTurnsSoABusyMachineCancels) {
     EXPECT_EQ(ratio.repeats, 3u);
 }
 
+TEST(Implementations, AreDoubtedByTheirErrorByTheirWorstTexelAndWhereNothingCouldBeCompared) {
+    Measurement measured = row("transparency/one", .1, 1);
+    measured.tolerance = 1e-2;
+    measured.tolerated_worst = .1;
+    measured.accuracy.model_rmse = 1e-2;
+    measured.accuracy.model_worst = .1;
+    EXPECT_EQ(implementation_doubt(measured), "");
+    measured.accuracy.model_worst = .2;
+    EXPECT_THAT(implementation_doubt(measured), HasSubstr("is 2.0e-01 from its own model in one texel, 1.0e-01 is tolerated"));
+    measured.accuracy.model_rmse = 2e-2;
+    EXPECT_THAT(implementation_doubt(measured), HasSubstr("is 2.0e-02 from its own model, 1.0e-02 is tolerated"));
+    measured.accuracy.incomparable = "the result lacks color";
+    EXPECT_EQ(implementation_doubt(measured), "cannot be compared: the result lacks color");
+    EXPECT_THAT(as_text(Report{.rows = {measured}}), HasSubstr("! one cannot be compared: the result lacks color"));
+}
+
 TEST(Percentile, IsTheNearestRank) {
     std::vector<double> values;
     for (int i = 1; i <= 100; ++i) values.push_back(i);

@@ -68,7 +68,7 @@ TEST(SpectraVerb, TheModesItFindsReplayToTheSameImage) {
     EXPECT_DOUBLE_EQ(again["predicted"]["as_replayed"].get<double>(), report["predicted"]["modes"].get<double>());
 }
 
-TEST(SpectraVerb, TimesModesOnSeveralCapturesAndWritesTheJsonBesideTheText) {
+TEST(ExhaustiveSpectraVerb, TimesModesOnSeveralCapturesAndWritesTheJsonBesideTheText) {
     record_room();
     ASSERT_EQ(strata("record lights_room -o other.strata --size 48x27 --frames 2").code, 0);
     const Finished made = strata("spectra room.strata other.strata --cost measured --repeats 2 --aim worst -o spectra.json");

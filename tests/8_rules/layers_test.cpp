@@ -22,7 +22,7 @@ const std::set<std::string> capture_headers_of_passes = {"capture_format/frame.h
                                                          "capture_format/nearest_name.h", "capture_format/result.h"};
 
 // The only folders that know a graphics API.
-constexpr std::string_view vulkan_folders[] = {"replay/gpu/", "replay/isa/", "ui/window", "ui/imgui_layer", "tests/"};
+constexpr std::string_view vulkan_folders[] = {"replay/gpu/", "replay/isa/", "ui/window/", "tests/"};
 
 std::string place(const SourceFile& file, std::size_t line) { return file.path.string() + ":" + std::to_string(line + 1); }
 

@@ -22,7 +22,7 @@ std::vector<std::string> listed_techniques() {
 }
 
 std::vector<std::string> technique_folders() {
-    const std::set<std::string> no_stages = {"graph", "reference", "shaders", "views"};
+    const std::set<std::string> no_stages = {"graph", "reference", "scene", "shaders", "views"};
     const std::filesystem::path passes = std::filesystem::path(STRATA_SOURCE_DIR) / "passes";
     std::vector<std::string> folders;
     for (const auto& stage : std::filesystem::directory_iterator(passes)) {

@@ -9,10 +9,10 @@
 #include <ImfThreading.h>
 #include <benchmark/benchmark.h>
 
-#include "capture_format/file.h"
-#include "capture_format/whole_file.h"
-#include "replay/deep_image.h"
-#include "replay/flatten_deep.h"
+#include "capture_format/container/file.h"
+#include "capture_format/container/whole_file.h"
+#include "replay/deep/deep_image.h"
+#include "replay/deep/flatten_deep.h"
 #include "replay/measure/timing.h"
 #include "tests/support/deep_exr.h"
 #include "tests/support/session.h"

@@ -24,7 +24,7 @@ ColorPlanes scene(double shift) {
 }
 
 template <typename Work>
-double milliseconds(const Work& work) {
+double milliseconds_taken(const Work& work) {
     const auto begin = std::chrono::steady_clock::now();
     benchmark::DoNotOptimize(work());
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -35,8 +35,8 @@ void radiance_flip_against_plain(benchmark::State& state) {
     const ExposureRange range = exposures_of(a, b);
     std::vector<double> fast, plain, ratios;
     for (auto _ : state) {
-        fast.push_back(milliseconds([&] { return radiance_flip(a, b); }));
-        plain.push_back(milliseconds([&] { return plain_radiance_flip(a, b, range); }));
+        fast.push_back(milliseconds_taken([&] { return radiance_flip(a, b); }));
+        plain.push_back(milliseconds_taken([&] { return plain_radiance_flip(a, b, range); }));
         ratios.push_back(plain.back() / fast.back());
     }
     const Spread ratio = spread_of(ratios);

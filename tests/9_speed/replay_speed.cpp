@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "passes/registry.h"
-#include "replay/declaration.h"
+#include "replay/session/declaration.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -13,7 +13,10 @@ constexpr std::string_view small_frame = "three_panes";      // one that every t
 
 void make_scene_records(benchmark::State& state) {
     const Frame frame = scenario_frames("smoke_grenade").front();
-    for (auto _ : state) benchmark::DoNotOptimize(scene_records(frame));
+    for (auto _ : state) {
+        const SceneFacts facts(frame);  // with what they are made of
+        benchmark::DoNotOptimize(scene_records(facts));
+    }
 }
 BENCHMARK(make_scene_records)->Unit(benchmark::kMillisecond);
 
@@ -22,21 +25,22 @@ struct Loaded {
     std::unique_ptr<Device> device = must(Device::open({}));
     std::unique_ptr<Executor> executor = Executor::create(*device);
     DeviceScene scene{*executor};
-    LoadedFrame frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
+    std::unique_ptr<LoadedFrame> frame = must(load_frame(scenario_frames(whole_frame).front(), {}));
 
-    Loaded() { scene.upload(scene_records(frame.frame)); }
-    Sources sources() const { return {frame, scene, device->info(), ShaderLibrary::built_in()}; }
+    Loaded() { scene.upload(scene_records(frame->facts)); }
+    Sources sources() const { return {*frame, scene, device->info(), ShaderLibrary::built_in()}; }
 };
 
 void declare_a_frame(benchmark::State& state) {
     const Loaded loaded;
-    const Choices choices = must(choose(loaded.frame.frame, {}, {}));
+    const Choices choices = must(choose(loaded.frame->frame, {}, {}));
     for (auto _ : state) {
         Graph graph;
-        FrameImages images{.recorded = &loaded.frame.frame,
-                           .features = &loaded.frame.features,
-                           .extent = {loaded.frame.frame.view.width, loaded.frame.frame.view.height, 1},
-                           .samples = loaded.frame.frame.view.samples};
+        FrameImages images{.recorded = &loaded.frame->frame,
+                           .features = &loaded.frame->features,
+                           .facts = &loaded.frame->facts,
+                           .extent = {loaded.frame->frame.view.width, loaded.frame->frame.view.height, 1},
+                           .samples = loaded.frame->frame.view.samples};
         loaded.scene.import_into(graph, images);
         benchmark::DoNotOptimize(must(declare_frame(graph, images, choices, loaded.device->info().capabilities)));
     }

@@ -2,9 +2,9 @@
 // what -merge=1 keeps into corpus/reader.
 #include <cstring>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/encode_frame.h"
-#include "capture_format/whole_file.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/whole_file.h"
 #include "tests/1_capture/sample_frames.h"
 #include "tests/fuzz/sealed_capture.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/frame_delta.h"
+#include "capture_format/codec/frame_delta.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
 
 namespace strata {
 namespace {

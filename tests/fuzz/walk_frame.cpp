@@ -2,13 +2,13 @@
 
 #include <cstdlib>
 
-#include "capture_format/blob_store.h"
-#include "capture_format/container.h"
-#include "capture_format/decode_frame.h"
-#include "capture_format/encode_frame.h"
+#include "capture_format/codec/decode_frame.h"
+#include "capture_format/codec/encode_frame.h"
+#include "capture_format/codec/texture_bytes.h"
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
 #include "capture_format/frame_features.h"
 #include "capture_format/reader.h"
-#include "capture_format/texture_bytes.h"
 
 namespace strata {
 namespace {

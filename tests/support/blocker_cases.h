@@ -34,7 +34,7 @@ struct CaseClasses {
 };
 CaseClasses classes(const BlockerCases&, std::size_t index);
 
-/// What is left to test per pixel after the classes of a tile (lighting chapter 2.4, P2 to P5).
+/// What is left to test per pixel after the classes of a tile (docs/algorithms/lighting.md 2.4, P2 to P5).
 struct CaseMasks {
     std::uint32_t blockers = 0, portals = 0;
     bool killed = false;

@@ -17,4 +17,8 @@ std::string as_identifier(std::string text) {
     return text;
 }
 
+std::string technique_test_name(const testing::TestParamInfo<Technique>& tested) {
+    return as_identifier(std::string(tested.param.name));
+}
+
 }  // namespace strata

@@ -1,6 +1,7 @@
 #include "tests/support/session.h"
 
 #include "captures/scenarios.h"
+#include "replay/images/image_io.h"
 
 namespace strata {
 namespace {
@@ -43,5 +44,7 @@ std::uint64_t counted(const Run& run, std::string_view name) {
         if (counter.technique.starts_with("transparency/") && counter.name == name) return counter.value;
     throw std::runtime_error(fmt::format("no counter {}", name));
 }
+
+std::string display_hash(Session& session) { return hash_of(must(session.run({})).images.at("display")); }
 
 }  // namespace strata

@@ -3,10 +3,11 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "replay/session.h"
+#include "replay/session/session.h"
 
 namespace strata {
 
@@ -23,6 +24,9 @@ Request on_scenario(std::string_view scenario, std::uint32_t samples = 1);
 
 /// What the transparency technique of a run counted under the name.
 std::uint64_t counted(const Run&, std::string_view name);
+
+/// Replays frame 0 as recorded: the hash of what is displayed.
+std::string display_hash(Session&);
 
 /// The value, or a failed test and an abort of it.
 template <typename T>

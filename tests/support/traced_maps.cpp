@@ -1,7 +1,7 @@
 #include "tests/support/traced_maps.h"
 
 #include "passes/reference/rays.h"
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/shadow_views.h"
 
 namespace strata {
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "replay/counted.h"
-#include "ui/capture_tables.h"
-#include "ui/counter_rows.h"
-#include "ui/outline.h"
+#include "ui/frame/capture_tables.h"
+#include "ui/frame/counter_rows.h"
 #include "ui/panel.h"
-#include "ui/theme.h"
+#include "ui/picture/outline.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "ui/compare_canvas.h"
-#include "ui/compare_numbers.h"
-#include "ui/compare_sides.h"
-#include "ui/flip_colors.h"
-#include "ui/theme.h"
+#include "ui/compare/compare_canvas.h"
+#include "ui/compare/compare_numbers.h"
+#include "ui/compare/compare_sides.h"
+#include "ui/compare/flip_colors.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

@@ -6,9 +6,9 @@
 #include "replay/counted.h"
 #include "replay/report/variants.h"
 #include "ui/panel.h"
-#include "ui/report_job.h"
-#include "ui/report_table.h"
-#include "ui/theme.h"
+#include "ui/report/report_job.h"
+#include "ui/report/report_table.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

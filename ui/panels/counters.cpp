@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 
-#include "ui/counter_rows.h"
-#include "ui/find_text.h"
+#include "ui/frame/counter_rows.h"
 #include "ui/panel.h"
-#include "ui/theme.h"
+#include "ui/widgets/find_text.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "replay/counted.h"
-#include "ui/find_text.h"
-#include "ui/frame_columns.h"
+#include "ui/frame/frame_columns.h"
+#include "ui/frame/timeline.h"
 #include "ui/panel.h"
-#include "ui/theme.h"
-#include "ui/timeline.h"
+#include "ui/widgets/find_text.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

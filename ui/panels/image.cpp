@@ -3,15 +3,15 @@
 #include <array>
 
 #include "replay/counted.h"
-#include "ui/asked.h"
-#include "ui/camera.h"
-#include "ui/legend.h"
-#include "ui/outline.h"
-#include "ui/outputs.h"
 #include "ui/panel.h"
-#include "ui/picture_view.h"
-#include "ui/save_shown.h"
-#include "ui/theme.h"
+#include "ui/picture/camera.h"
+#include "ui/picture/legend.h"
+#include "ui/picture/outline.h"
+#include "ui/picture/outputs.h"
+#include "ui/picture/picture_view.h"
+#include "ui/picture/save_shown.h"
+#include "ui/replayer/asked.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

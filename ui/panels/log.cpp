@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "ui/panel.h"
-#include "ui/theme.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

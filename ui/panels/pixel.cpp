@@ -4,8 +4,8 @@
 #include <array>
 
 #include "ui/panel.h"
-#include "ui/pixel_part.h"
-#include "ui/theme.h"
+#include "ui/pixel/pixel_part.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

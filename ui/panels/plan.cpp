@@ -5,8 +5,8 @@
 #include "passes/graph/describe.h"
 #include "replay/counted.h"
 #include "ui/panel.h"
-#include "ui/plan_chart.h"
-#include "ui/theme.h"
+#include "ui/plan/plan_chart.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

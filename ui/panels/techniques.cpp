@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "ui/panel.h"
-#include "ui/param_widget.h"
-#include "ui/theme.h"
+#include "ui/widgets/param_widget.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

@@ -2,10 +2,10 @@
 // that belong to it.
 #include <algorithm>
 
-#include "ui/look_bytes.h"
 #include "ui/panel.h"
-#include "ui/theme.h"
-#include "ui/view_readouts.h"
+#include "ui/picture/look_bytes.h"
+#include "ui/picture/view_readouts.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {

@@ -1,4 +1,5 @@
-// Combine (deferred 8.2, 8.3): emission, reflected light and light from all around, seen through the fog; linear, per sample.
+// Combine (docs/algorithms/deferred.md 8.2, 8.3): emission, reflected light and light from all around, seen through the fog;
+// linear, per sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
@@ -23,7 +24,7 @@ vec3 light_at(ivec3 at) {
     return texelFetch(light, is_plain(at.xy) ? ivec3(at.xy, 0) : at, 0).rgb;
 }
 
-// The material's occlusion and the screen's both multiply (deferred 8.3).
+// The material's occlusion and the screen's both multiply (docs/algorithms/deferred.md 8.3).
 vec3 ambient(MaterialPoint m, ivec3 at) {
     if (m.lighting_model == model_unlit) return vec3(0.0);
     vec3 sum = hemisphere_light(m);

@@ -1,5 +1,5 @@
-// Develops the picture (deferred 8.1, 3.5): every sample is exposed and tone mapped, then the samples are averaged. The other
-// order would let one sample of 100 outweigh three of 0.1.
+// Develops the picture (docs/algorithms/deferred.md 8.1, 3.5): every sample is exposed and tone mapped, then the samples are
+// averaged. The other order would let one sample of 100 outweigh three of 0.1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/scene.glsl"

@@ -1,4 +1,4 @@
-// Facts of combining and developing, on the model: the tone curve of deferred 8.1, the hemisphere of 8.3, fog.
+// Facts of combining and developing, on the model: the tone curve of docs/algorithms/deferred.md 8.1, the hemisphere of 8.3, fog.
 #include <gtest/gtest.h>
 
 #include <cmath>

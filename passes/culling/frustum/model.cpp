@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "passes/culling/draw_command.shared.h"
-#include "passes/culling/opaque_draws.h"
 #include "passes/culling/view_sides.h"
 #include "passes/culling/visible_image.h"
+#include "passes/reference/fragments.h"
 #include "passes/technique.h"
 
 namespace strata::culling {
@@ -12,6 +12,7 @@ namespace strata::culling {
 ImageSet frustum_model(const StageInput& input, const Settings&) {
     const std::vector<std::uint32_t> draws = opaque_draws(input.frame);
     ReferenceImage visible(visible_width, visible_rows(draws.size()), 1, glm::dvec4(0, 0, 0, 1));
+    visible.channels = 1;
     visible.undecided.assign(visible.texels.size(), false);
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Sphere sphere = bounding_sphere(input.frame, draws[i]);

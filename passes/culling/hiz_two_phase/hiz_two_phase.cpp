@@ -4,11 +4,13 @@
 
 #include "passes/culling/draw_command.shared.h"
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
-#include "passes/culling/hiz_two_phase/model.h"
 #include "passes/culling/hiz_two_phase/views.h"
 #include "passes/culling/visible_image.h"
 
 namespace strata::culling {
+
+ImageSet hiz_two_phase_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 constexpr std::string_view phases[] = {"one", "two"};

@@ -10,9 +10,9 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "passes/culling/draw_command.shared.h"
-#include "passes/culling/opaque_draws.h"
 #include "passes/culling/view_sides.h"
 #include "passes/culling/visible_image.h"
+#include "passes/reference/fragments.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/shade.h"
 
@@ -197,6 +197,7 @@ ImageSet hiz_two_phase_model(const StageInput& input, const Settings& settings) 
     const DepthPyramid least(view.width, view.height, picture_depth(frame, drawn.surely).least);
     const DepthPyramid most(view.width, view.height, picture_depth(frame, drawn.perhaps).most);
     ReferenceImage visible(visible_width, visible_rows(draws.size()), 1, glm::dvec4(0, 0, 0, 1));
+    visible.channels = 1;
     visible.undecided.assign(visible.texels.size(), false);
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Sphere sphere = bounding_sphere(frame, draws[i]);

@@ -1,4 +1,4 @@
-// Every pixel is an edge: the baseline that shades each sample alone and can miss nothing (deferred chapter 3).
+// Every pixel is an edge: the baseline that shades each sample alone and can miss nothing (docs/algorithms/deferred.md 3).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

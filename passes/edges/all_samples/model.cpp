@@ -6,7 +6,9 @@ namespace strata::edges {
 ImageSet all_samples_model(const StageInput& input, const Settings&) {
     const View& view = input.frame.view;
     if (view.samples == 1) return {};
-    return {{"edges", ReferenceImage(view.width, view.height, 1, glm::dvec4(1, 0, 0, 1))}};
+    ReferenceImage edges(view.width, view.height, 1, glm::dvec4(1, 0, 0, 1));
+    edges.channels = 1;
+    return {{"edges", edges}};
 }
 
 }  // namespace strata::edges

@@ -1,4 +1,4 @@
-// Decodes layout D of deferred 2.1: octahedral normal codes, log-depth code, material code.
+// Decodes layout D of docs/algorithms/deferred.md 2.1: octahedral normal codes, log-depth code, material code.
 #include "passes/gbuffer/codes.glsl"
 #include "passes/gbuffer/octahedral/octahedral.shared.h"
 

@@ -1,4 +1,5 @@
-// Writes layout D of deferred 2.1 (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
+// Writes layout D of docs/algorithms/deferred.md 2.1 (Cigolle et al., A Survey of Efficient Representations for Independent Unit
+// Vectors, 2014).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/fill.glsl"

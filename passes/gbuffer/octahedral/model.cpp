@@ -1,4 +1,4 @@
-// Layout D of deferred 2.1 in double: attributes of the pixel's center through codes and back.
+// Layout D of docs/algorithms/deferred.md 2.1 in double: attributes of the pixel's center through codes and back.
 #include "passes/gbuffer/octahedral/model.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 namespace strata::gbuffer {
 #endif
 
-// Code of p = 0; -1 is code 0 and 1 is code 61438: 61439 levels, so that 0 is exact (deferred 2.5).
+// Code of p = 0; -1 is code 0 and 1 is code 61438: 61439 levels, so that 0 is exact (docs/algorithms/deferred.md 2.5).
 const float octahedral_center = 30719.0f;
 
 // z = near * far_over_near^(code / 61439). A ratio of 1e5 reaches 10 km from a near plane at 0.1 m with a relative step of

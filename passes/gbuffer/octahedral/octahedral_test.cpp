@@ -1,4 +1,5 @@
-// Facts of the octahedral layout: its codes survive half-float channels, and its errors are those of deferred 2.5.
+// Facts of the octahedral layout: its codes survive half-float channels, and its errors are those of
+// docs/algorithms/deferred.md 2.5.
 #include <gtest/gtest.h>
 
 #include <cmath>

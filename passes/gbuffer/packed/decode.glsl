@@ -1,4 +1,5 @@
-// Decodes layout B of deferred 2.1: n.xy halves with the sign of z in q.x's sign, half-float view z, material code.
+// Decodes layout B of docs/algorithms/deferred.md 2.1: n.xy halves with the sign of z in q.x's sign, half-float view z, material
+// code.
 #include "passes/gbuffer/codes.glsl"
 
 // The sign bit and not q.x < 0: a -0 decodes as it was meant. Rounding may leave |n.xy| above 1 by 2^-10: z is then 0.

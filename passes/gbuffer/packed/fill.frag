@@ -1,4 +1,4 @@
-// Writes layout B of deferred 2.1 (Lobanchikov and Gruen, S.T.A.L.K.E.R.: Clear Sky, 2009).
+// Writes layout B of docs/algorithms/deferred.md 2.1 (Lobanchikov and Gruen, S.T.A.L.K.E.R.: Clear Sky, 2009).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/fill.glsl"

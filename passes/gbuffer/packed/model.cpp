@@ -1,4 +1,5 @@
-// Layout B of deferred 2.1 in double, half floats exact: attributes of the pixel's center, stored and read back.
+// Layout B of docs/algorithms/deferred.md 2.1 in double, half floats exact: attributes of the pixel's center, stored and read
+// back.
 #include "passes/gbuffer/packed/model.h"
 
 #include <algorithm>

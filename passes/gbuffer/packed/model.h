@@ -5,7 +5,7 @@
 
 namespace strata::gbuffer {
 
-/// q of deferred 2.4 as the half floats that are stored.
+/// q of docs/algorithms/deferred.md 2.4 as the half floats that are stored.
 glm::dvec2 packed_halves(const glm::dvec3& normal);
 glm::dvec3 packed_normal(const glm::dvec2& halves);
 

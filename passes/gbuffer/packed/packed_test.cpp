@@ -1,4 +1,5 @@
-// Facts of the Clear Sky packing: the exact halves of deferred 2.4, the errors of 2.5 and the depth steps of 2.3.
+// Facts of the Clear Sky packing: the exact halves of docs/algorithms/deferred.md 2.4, the errors of 2.5 and the depth steps of
+// 2.3.
 #include <gtest/gtest.h>
 
 #include <cmath>

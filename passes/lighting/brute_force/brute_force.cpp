@@ -3,7 +3,7 @@
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/every_light.h"
-#include "passes/lighting/light_features.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -19,7 +19,7 @@ void add(Graph& graph, FrameImages& frame, const Settings&) {
         .samples("visibility", frame.visibility)
         .stores("light", frame.light)
         .fixes("has_visibility", frame.visibility ? 1u : 0u)
-        .fixes("features", light_features(*frame.recorded))
+        .fixes("features", frame.facts->light_features())
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

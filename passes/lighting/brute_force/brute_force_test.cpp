@@ -90,7 +90,7 @@ Frame behind_blocker(double x) {
     return frame;
 }
 
-TEST(BruteForceLighting, ABlockerLetsLightThroughItsPortalAndPastItsEdges) {  // lighting chapter T2.2b
+TEST(BruteForceLighting, ABlockerLetsLightThroughItsPortalAndPastItsEdges) {  // docs/algorithms/lighting.md T2.2b
     for (const glm::dvec2 row :
          {glm::dvec2(0, 0.25), glm::dvec2(0.4, 0.23571651), glm::dvec2(0.6, 0), glm::dvec2(2.1, 0.08200418)})
         EXPECT_NEAR(lit(behind_blocker(row.x), white_wall(1)) * std::numbers::pi, row.y, 1e-7) << row.x << " m aside";

@@ -1,5 +1,5 @@
 // Every light on every sample that needs shading of its own. A plain pixel (edges 0) is shaded once for all its samples, whose
-// G-buffer words are equal (deferred 3.1).
+// G-buffer words are equal (docs/algorithms/deferred.md 3.1).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

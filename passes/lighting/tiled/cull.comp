@@ -1,6 +1,6 @@
 // Which lights a tile of 16 x 16 pixels has, which of their blockers and portals its pixels must ask, and what shading them
-// needs: phases P0 to P6 of the lighting chapter 2.4 (Kircher, Rendering Technology in Agents of Mayhem, GDC 2018; the tiled list
-// is Andersson's, GDC 2011). One group per tile; more than 64 lights are done in batches, each in a record of its own.
+// needs: phases P0 to P6 of docs/algorithms/lighting.md 2.4 (Kircher, Rendering Technology in Agents of Mayhem, GDC 2018; the
+// tiled list is Andersson's, GDC 2011). One group per tile; more than 64 lights are done in batches, each in a record of its own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "passes/lighting/light_records.h"
 #include "passes/lighting/tile_cell.h"
 #include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/scene/light_records.h"
 
 namespace strata::lighting {
 

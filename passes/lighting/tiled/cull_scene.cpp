@@ -1,6 +1,6 @@
 #include "passes/lighting/tiled/cull_scene.h"
 
-#include "passes/lighting/light_records.h"
+#include "passes/scene/light_records.h"
 
 namespace strata::lighting {
 namespace {

@@ -4,14 +4,14 @@
 
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
-#include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/tiled/modes.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata::lighting {
 namespace {
 
-// Below it a tile asks its lights sooner than it reads a list (lighting chapter 1.5: up to 1k).
+// Below it a tile asks its lights sooner than it reads a list (docs/algorithms/lighting.md 1.5: up to 1k).
 constexpr std::size_t lights_worth_a_prefilter = 1024;
 // Of all records. 1080p with 4096 lights in every tile would need 343 MB; what does not fit is shaded without a list.
 constexpr std::uint64_t most_record_bytes = 64u << 20;
@@ -28,6 +28,23 @@ bool is_prefiltered(const FrameImages& frame, const TiledParams& params) {
 std::uint32_t shadow_features(const FrameImages& frame, const TiledParams& params) {
     if (!has_shadows(frame, params)) return 0;
     return params.shadows == shadows_inline ? feature_shadows | feature_soft_shadows : feature_shadows;
+}
+
+/// Features that the shader of a tile may be asked for: of shadows what there is, of blockers what pixels test. Volumes are
+/// looked up elsewhere.
+std::uint32_t shaded_features(const FrameImages& frame, const TiledParams& params) {
+    std::uint32_t unused = feature_gi_tap_visibility;
+    unused |= (feature_shadows | feature_soft_shadows) & ~shadow_features(frame, params);
+    if (params.blockers != blockers_per_pixel) unused |= feature_blockers | feature_portals;
+    return every_light_feature & ~unused;
+}
+
+/// Every spectrum that cull.comp may write. A tile with lights beyond its records is said to need everything.
+std::vector<std::uint32_t> spectra_of_tiles(const FrameImages& frame, const TiledParams& params, const TileMemory& memory) {
+    std::vector<std::uint32_t> spectra =
+        frame.facts->possible_spectra(shaded_features(frame, params));
+    if (!memory.lists_every_light) spectra.push_back(every_light_feature);
+    return spectra;
 }
 
 Buffer candidates_of(Graph& graph, const FrameImages& frame, const TiledParams& params, const TileMemory& memory) {
@@ -60,14 +77,15 @@ TileMemory tile_memory(Extent extent, std::size_t lights) {
     return {.listed_lights = static_cast<std::uint32_t>(listed),
             .spare_records = static_cast<std::uint32_t>(records - tiles),
             .record_bytes = records * sizeof(TileRecord),
-            .candidate_bytes = macro_tiles * (listed + 1) * sizeof(std::uint32_t)};
+            .candidate_bytes = macro_tiles * (listed + 1) * sizeof(std::uint32_t),
+            .lists_every_light = lights <= listed && records == tiles * batches};
 }
 
 CulledTiles cull_tiles(Graph& graph, const FrameImages& frame, const TiledParams& params) {
     const TileMemory memory = tile_memory(frame.extent, light_count(frame));
     CulledTiles culled{.across = ceil_divide(frame.extent.width, tile_size),
                        .down = ceil_divide(frame.extent.height, tile_size),
-                       .order = mode_order(params, frame_spectrum(*frame.recorded))};
+                       .order = mode_order(params, spectra_of_tiles(frame, params, memory))};
     culled.records = graph.create("tiled records", memory.record_bytes);
     culled.statistics = graph.create("tiled statistics", culled.count() * sizeof(TileStatistics));
     culled.dispatches = graph.create("tiled dispatches", most_modes * sizeof(ModeDispatch));
@@ -93,6 +111,7 @@ CulledTiles cull_tiles(Graph& graph, const FrameImages& frame, const TiledParams
         .stores("Dispatches", culled.dispatches)
         .stores("Tiles", culled.tiles)
         .fixes("tile_count", culled.count())
+        .push(culled.order.count)
         .groups({1, 1, 1});
     return culled;
 }

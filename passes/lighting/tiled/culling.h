@@ -24,6 +24,7 @@ struct TileMemory {
     std::uint32_t listed_lights = 0;
     std::uint32_t spare_records = 0;  ///< for tiles with more than 64 lights
     std::uint64_t record_bytes = 0, candidate_bytes = 0;
+    bool lists_every_light = true;  ///< in every tile, however many lights reach it
 };
 TileMemory tile_memory(Extent, std::size_t lights);
 

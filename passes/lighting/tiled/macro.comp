@@ -1,5 +1,5 @@
 // The prefilter: lights that reach a macro tile of 128 x 128 pixels at any depth, in index order, as candidates for its 64 tiles
-// (lighting chapter 1.5 A). Without it every tile asks every light.
+// (docs/algorithms/lighting.md 1.5 A). Without it every tile asks every light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/lighting/tile_cell.glsl"

@@ -11,14 +11,11 @@
 namespace strata::lighting {
 namespace {
 
-/// By number: whether it is the choice for some features of the frame.
-std::vector<bool> chosen_modes(const std::vector<Mode>& modes, std::uint32_t frame_features, std::uint32_t forced) {
+/// By number: whether it is the choice for one of the spectra.
+std::vector<bool> chosen_modes(const std::vector<Mode>& modes, std::span<const std::uint32_t> spectra, std::uint32_t forced) {
     std::vector<bool> chosen(modes.size(), false);
-    // Every subset, down to none.
-    for (std::uint32_t subset = frame_features;; subset = (subset - 1) & frame_features) {
-        chosen[choose(modes, subset | forced)] = true;
-        if (subset == 0) return chosen;
-    }
+    for (const std::uint32_t spectrum : spectra) chosen[choose(modes, spectrum | forced)] = true;
+    return chosen;
 }
 
 }  // namespace
@@ -33,17 +30,16 @@ std::vector<std::uint32_t> mode_features(const TiledParams& p) {
     return features;
 }
 
-ModeOrder mode_order(const TiledParams& params, std::uint32_t frame_features) {
+ModeOrder mode_order(const TiledParams& params, std::span<const std::uint32_t> spectra) {
     std::vector<Mode> modes;
     for (const std::uint32_t features : mode_features(params)) modes.push_back({features, weighted_cost(features)});
-    const std::vector<bool> chosen =
-        chosen_modes(modes, frame_features & every_light_feature, params.force & every_light_feature);
+    ModeOrder order{.force = params.force & every_light_feature};
+    const std::vector<bool> chosen = chosen_modes(modes, spectra, order.force);
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < modes.size(); ++i)
-        if (chosen[i] || choose(modes, every_light_feature) == i) numbers.push_back(i);
+        if (chosen[i]) numbers.push_back(i);
     std::ranges::stable_sort(numbers, {}, [&](std::uint32_t i) { return modes[i].cost; });
-    ModeOrder order{.count = static_cast<std::uint32_t>(numbers.size()), .force = params.force & every_light_feature};
-    for (std::size_t i = 0; i < numbers.size(); ++i) order.modes[i] = modes[numbers[i]].features | numbers[i] << 16;
+    for (const std::uint32_t number : numbers) order.modes[order.count++] = modes[number].features | number << 16;
     return order;
 }
 

@@ -1,7 +1,8 @@
-// The shading modes of tiled lighting: sets of features, each a shader of its own (lighting chapter 3.3).
+// The shading modes of tiled lighting: sets of features, each a shader of its own (docs/algorithms/lighting.md 3.3).
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "passes/lighting/tiled/tiled.shared.h"
@@ -12,10 +13,10 @@ namespace strata::lighting {
 /// have none, so that every spectrum has a mode. At most most_modes.
 std::vector<std::uint32_t> mode_features(const TiledParams&);
 
-/// The modes that tiles of a frame may choose, from cheap to dear (of equal ones the smaller number first), then one of all
-/// features. The first of them with all of a tile's features is the cheapest there is, so that the device needs no table of 65536
-/// spectra, and the order of the settings does not matter. A mode that is the choice for no subset of the frame's features is
-/// left out: it is neither compiled nor dispatched. With branches=uniform there is one mode.
-ModeOrder mode_order(const TiledParams&, std::uint32_t frame_features);
+/// The modes that tiles of a frame may choose, from cheap to dear (of equal ones the smaller number first). The first of them
+/// with all of a tile's features is the cheapest there is, so that the device needs no table of 65536 spectra, and the order of
+/// the settings does not matter. A mode that is the choice for none of the spectra, which must hold the union of all of them, is
+/// left out: it is neither compiled nor dispatched. The last mode serves every spectrum. With branches=uniform there is one mode.
+ModeOrder mode_order(const TiledParams&, std::span<const std::uint32_t> spectra);
 
 }  // namespace strata::lighting

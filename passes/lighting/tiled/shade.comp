@@ -26,7 +26,8 @@ layout(set = 0, binding = 10, scalar) buffer Counters { TiledCounters counters; 
 #include "passes/shaders/shadow_filter.glsl"
 #include "passes/lighting/tiled/tile_lights.glsl"
 
-// 8 x 8 pixels in a row of threads: a wave of 64 is a block, which depth and shadows suit better than rows (chapter 1.8).
+// 8 x 8 pixels in a row of threads: a wave of 64 is a block, which depth and shadows suit better than rows
+// (docs/algorithms/lighting.md 1.8).
 uvec2 lane_pixel() {
     const uint thread = gl_LocalInvocationIndex, block = thread / 64u;
     return 8u * uvec2(block & 1u, block / 2u) + uvec2(thread & 7u, thread / 8u & 7u);

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/lighting/tiled/modes.glsl"
 #include "passes/lighting/tiled/tiled.shared.h"
 #include "passes/shaders/light_features.shared.h"
 
@@ -11,8 +12,6 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) readonly buffer Histogram { uvec4 histogram[]; };
 layout(set = 0, binding = 1, rgba32f) uniform image2DArray numbers;
 layout(push_constant, scalar) uniform Push { ModeOrder order; };
-
-bool serves(uint mode, uint spectrum) { return (spectrum & ~mode & every_light_feature) == 0u; }
 
 vec4 row_of(uint spectrum, uint tiles) {
     uint place = 0u;

@@ -1,4 +1,5 @@
-// Facts of tiles as cells, and of which lights reach them (lighting chapter 1.9), on the CPU's float copy of the shader's code.
+// Facts of tiles as cells, and of which lights reach them (docs/algorithms/lighting.md 1.9), on the CPU's float copy of the
+// shader's code.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -2,6 +2,8 @@
 #ifndef PASSES_LIGHTING_TILED_TILE_HEADER_GLSL
 #define PASSES_LIGHTING_TILED_TILE_HEADER_GLSL
 
+#include "passes/lighting/tiled/modes.glsl"
+
 struct TileSum {
     TileStatistics statistics;
     uint in_first_record;
@@ -33,10 +35,12 @@ void add_batch(inout TileSum sum, uint batch) {
     if (gl_LocalInvocationIndex == 0u) atomicAdd(counters.lights_killed, lists.lights - lists.kept);
 }
 
-// The first in the order of their cost that has every feature: the last has all.
+// The first mode in the order of their cost that has every feature. A tile that none serves shows that the host's bound of the
+// frame's spectra is wrong; it is counted.
 uint mode_for(uint spectrum) {
     uint place = 0u;
-    while (place + 1u < push.order.count && (spectrum & ~push.order.modes[place] & every_light_feature) != 0u) ++place;
+    while (place + 1u < push.order.count && !serves(push.order.modes[place], spectrum)) ++place;
+    if (!serves(push.order.modes[place], spectrum)) atomicAdd(counters.tiles_unserved, 1u);
     return push.order.modes[place] >> 16;
 }
 

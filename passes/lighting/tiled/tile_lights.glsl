@@ -10,7 +10,7 @@ struct Shaded {
 };
 
 // What this tile's pixels may need. Uniform branches on the tile's own features, in a shader that has all, tell what the modes
-// gain by having less code from what they gain by skipping it (chapter 3.7).
+// gain by having less code from what they gain by skipping it (docs/algorithms/lighting.md 3.7).
 uint features_of(uint tile) {
     return branches == branches_uniform ? mode_features & records[tile].spectrum : mode_features;
 }

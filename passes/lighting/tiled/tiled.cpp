@@ -165,7 +165,11 @@ std::vector<Counter> counters() {
         counter<&TiledCounters::most_lights>({.name = "most lights", .help = "that reach one tile"}),
         counter<&TiledCounters::most_blocker_pairs>({.name = "most blocker pairs", .help = "of one batch"}),
         counter<&TiledCounters::most_portal_pairs>({.name = "most portal pairs", .help = "of one batch"}),
+        counter<&TiledCounters::modes_compiled>(
+            {.name = "modes compiled", .help = "shading modes compiled for this frame: those that a tile may need"}),
         counter<&TiledCounters::modes_used>({.name = "modes used", .help = "by any tile"}),
+        counter<&TiledCounters::tiles_unserved>(
+            {.name = "tiles unserved", .help = "tiles that need a feature no compiled mode has; above 0 the picture is wrong"}),
         counter<&TiledCounters::samples_shaded>(
             {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
         counter<&TiledCounters::evaluations>({.name = "evaluations", .help = "listed lights, summed over samples shaded"}),
@@ -198,6 +202,7 @@ Technique tiled() {
         .ratios = tiled_ratios(),
         .add = add,
         .model = tiled_model,
+        .model_is = ModelKind::mirror,
         .tolerance = shaded_light_tolerance};
 }
 

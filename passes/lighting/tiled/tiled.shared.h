@@ -7,7 +7,7 @@
 namespace strata::lighting {
 #endif
 
-// 256 threads: one per pixel, and one per pair; 64 lights are a wave of GCN (lighting chapter 1.6).
+// 256 threads: one per pixel, and one per pair; 64 lights are a wave of GCN (docs/algorithms/lighting.md 1.6).
 const uint tile_size = 16u;
 const uint tile_threads = 256u;
 const uint most_tile_lights = 64u;
@@ -48,7 +48,7 @@ const uint most_modes = 17u;
 // Of a tile nothing is shaded in.
 const uint empty_tile_mode = 255u;
 
-// From cheap to dear: the first that has all of a tile's features is the one to shade it with.
+// From cheap to dear: the first that has all of a tile's features is the one to shade it with. The last serves every tile.
 struct ModeOrder {
     uint count;
     uint force;              // features that every tile is said to have
@@ -65,8 +65,8 @@ const uint overflow_lights = 1u;
 const uint overflow_blocker_pairs = 2u;
 const uint overflow_portal_pairs = 4u;
 
-// Up to 64 lights of a tile (chapter 2.9): 16 bytes and 640. More are in the next record, and so on; what no record is left for
-// begins at light `next` and is shaded with every test.
+// Up to 64 lights of a tile (docs/algorithms/lighting.md 2.9): 16 bytes and 640. More are in the next record, and so on; what no
+// record is left for begins at light `next` and is shaded with every test.
 const uint next_is_light = 0x80000000u;
 const uint no_next = 0xffffffffu;
 struct TileRecord {
@@ -91,7 +91,8 @@ struct TileStatistics {
     uint records;
 };
 
-// LDS of culling, at the offsets of the chapter's 1.6. With a bit per thread for places in order (32 bytes) it is 2048 at most.
+// LDS of culling, at the offsets of docs/algorithms/lighting.md 1.6. With a bit per thread for places in order (32 bytes) it is
+// 2048 at most.
 struct TileLists {
     uint initial[most_tile_lights];    // light indices, ascending
     uint final[most_tile_lights];      // before P6: pairs of each light
@@ -134,7 +135,7 @@ struct TiledCounters {
     uint unlisted_tiles;
     uint most_lights;
     uint most_blocker_pairs, most_portal_pairs;
-    uint modes_used;
+    uint modes_compiled, modes_used, tiles_unserved;
     uint samples_shaded;
     uint evaluations;
     uint blocker_tests;

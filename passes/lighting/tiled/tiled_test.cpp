@@ -1,5 +1,5 @@
-// Facts of tiled lighting on its CPU mirror (lighting chapter 1.9, 2.10 and 3.5): lists, masks, memory, modes. What the device
-// makes of them is in tests/5_techniques.
+// Facts of tiled lighting on its CPU mirror (docs/algorithms/lighting.md 1.9, 2.10 and 3.5): lists, masks, memory, modes. What
+// the device makes of them is in tests/5_techniques.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -258,13 +258,16 @@ TEST(TileBlockers, LeaveEveryPointItsLightWhateverTheyAre) {
     RecordProperty("points", int(compared.points));
 }
 
-// Chapter 2.9.
+// docs/algorithms/lighting.md 2.9.
 TEST(TileMemory, IsTheChaptersForAFrame) {
     EXPECT_EQ(tile_memory({1920, 1080, 1}, 64).record_bytes, 8160u * 656);
     EXPECT_EQ(tile_memory({3840, 2160, 1}, 64).record_bytes, 32400u * 656);
     EXPECT_EQ(tile_memory({1280, 720, 1}, 65).record_bytes, 2u * 3600 * 656);
     const TileMemory many = tile_memory({1920, 1080, 1}, 4096);
     EXPECT_LE(many.record_bytes, 64u << 20);
+    EXPECT_FALSE(many.lists_every_light) << "8160 tiles of 64 batches are 326 MiB";
+    EXPECT_TRUE(tile_memory({1280, 720, 1}, 65).lists_every_light);
+    EXPECT_FALSE(tile_memory({16, 16, 1}, most_listed + 1).lists_every_light);
     EXPECT_EQ(many.candidate_bytes, 15u * 9 * 4097 * 4);
 }
 
@@ -282,12 +285,19 @@ std::uint32_t chosen_features(const ModeOrder& order, std::uint32_t spectrum) {
     return 0;
 }
 
+std::vector<std::uint32_t> subsets_of(std::uint32_t features) {
+    std::vector<std::uint32_t> subsets{features};
+    while (subsets.back() != 0) subsets.push_back((subsets.back() - 1) & features);
+    return subsets;
+}
+
 TEST(ShadingModes, AreTheCheapestThatServeWhateverTheirOrder) {
     std::vector<std::uint32_t> masks = {every_light_feature, 0, feature_shadows, feature_blockers | feature_portals,
                                         feature_shadows | feature_blockers};
     std::ranges::sort(masks);
+    const std::vector<std::uint32_t> all = subsets_of(every_light_feature);
     do {
-        const ModeOrder order = mode_order(with_modes(masks), every_light_feature);
+        const ModeOrder order = mode_order(with_modes(masks), all);
         EXPECT_EQ(order.count, 5u);
         EXPECT_EQ(chosen_features(order, 0), 0u);
         EXPECT_EQ(chosen_features(order, feature_shadows), feature_shadows);
@@ -310,10 +320,27 @@ TEST(ShadingModes, AlwaysHaveOneOfAllFeatures) {
 
 TEST(ShadingModes, ThatAFrameCannotCallForAreLeftOut) {
     TiledParams params = with_modes({every_light_feature, feature_omni, feature_omni | feature_shadows, feature_tube});
-    EXPECT_EQ(mode_order(params, feature_omni).count, 2u);
-    EXPECT_EQ(mode_order(params, feature_omni | feature_shadows).count, 3u);
+    EXPECT_EQ(mode_order(params, subsets_of(feature_omni)).count, 1u);
+    EXPECT_EQ(mode_order(params, subsets_of(feature_omni | feature_shadows)).count, 2u);
+    EXPECT_EQ(mode_order(params, subsets_of(feature_omni | feature_tube)).count, 3u)
+        << "both in one tile: the mode of all features";
     params.force = every_light_feature;
-    EXPECT_EQ(mode_order(params, feature_omni).count, 1u);
+    EXPECT_EQ(mode_order(params, subsets_of(feature_omni)).count, 1u);
+}
+
+TEST(ShadingModes, OfAFrameEndWithOneThatServesEveryTile) {
+    const TiledParams params = with_modes({every_light_feature, feature_omni, feature_omni | feature_shadows, feature_tube});
+    for (const std::uint32_t features : subsets_of(feature_omni | feature_shadows | feature_tube | feature_cloth)) {
+        const ModeOrder order = mode_order(params, subsets_of(features));
+        ASSERT_GT(order.count, 0u);
+        EXPECT_EQ(features & ~order.modes[order.count - 1] & every_light_feature, 0u) << features;
+    }
+}
+
+// A room of omni lights, all with shadows, and one tube: no tile has shadows without an omni light.
+TEST(ShadingModes, ThatNoTilesLightsCallForAreLeftOut) {
+    const TiledParams params = with_modes({every_light_feature, feature_shadows | feature_tube, feature_omni | feature_shadows});
+    EXPECT_EQ(mode_order(params, std::vector<std::uint32_t>{0, feature_omni, feature_omni | feature_shadows}).count, 1u);
 }
 
 }  // namespace

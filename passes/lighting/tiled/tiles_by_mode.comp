@@ -1,6 +1,6 @@
 // Tiles by their mode, in the order of the screen, and the dispatches that shade them: a counting sort in one group. Places come
-// from bits per mode and not from atomics, so the list is the same on every run (an append by atomics, lighting chapter 3.3, is
-// not; a list per mode would take as many times the memory).
+// from bits per mode and not from atomics, so the list is the same on every run (an append by atomics,
+// docs/algorithms/lighting.md 3.3, is not; a list per mode would take as many times the memory).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, scalar) readonly buffer Records { TileRecord record
 layout(set = 0, binding = 1, scalar) writeonly buffer Dispatches { ModeDispatch dispatches[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Tiles { uint tiles[]; };
 layout(set = 0, binding = 3, scalar) buffer Counters { TiledCounters counters; };
+layout(push_constant, scalar) uniform Push { uint modes_compiled; };
 
 const uint words = tile_threads / 32u;
 
@@ -33,6 +34,7 @@ void count_tiles() {
 
 void write_dispatches() {
     const uint mode = gl_LocalInvocationIndex;
+    if (mode == 0u) counters.modes_compiled = modes_compiled;
     if (mode < most_modes) {
         uint first = 0u;
         for (uint i = 0u; i < mode; ++i) first += tiles_of[i];

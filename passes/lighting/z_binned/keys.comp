@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, scalar) writeonly buffer Sorted { ZLight sorted[]; };
 layout(push_constant, scalar) uniform Push { ZBinsPush push; };
 
-// Depths of the sphere around what the light reaches (lighting chapter 1.4).
+// Depths of the sphere around what the light reaches (docs/algorithms/lighting.md 1.4).
 ZLight entry(uint i) {
     if (i >= push.lights) return ZLight(z_largest, z_largest, 0.0, i);
     const LightRecord light = lights[i];

@@ -1,4 +1,5 @@
-// A bit per sorted light and tile: set where the light touches the tile's cell (lighting chapter 1.4). One group per tile.
+// A bit per sorted light and tile: set where the light touches the tile's cell (docs/algorithms/lighting.md 1.4). One group per
+// tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/surface_at.glsl"

@@ -2,8 +2,8 @@
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
-#include "passes/lighting/frame_spectrum.h"
 #include "passes/lighting/z_binned/z_bins.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 
 namespace strata::lighting {
@@ -26,7 +26,7 @@ ComputePass bind_lists(ComputePass pass, const FrameImages& frame, const ZBins& 
         .loads("Bins", lists.bins)
         .loads("Masks", lists.masks)
         .fixes("has_visibility", frame.visibility ? 1u : 0u)
-        .fixes("features", frame_spectrum(*frame.recorded))
+        .fixes("features", frame.facts->spectrum())
         .push(lists.push);
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr ZBinsPush push{0, 0, 0, 32, spacing_uniform, 16, 1};
 constexpr ZHeader header{.everywhere = 0, .near = 0, .far = 32, .scale = 1};
 
-// Lighting chapter 1.9, T1.5.
+// docs/algorithms/lighting.md 1.9, T1.5.
 TEST(ZBins, HoldTheFirstAndTheLastLightThatReachesThem) {
     const DepthReach lights[] = {{5, 6}, {5.5f, 9}, {20, 21}};
     const auto bins = mirror_bins(lights, header, push);
@@ -36,7 +36,8 @@ TEST(ZBins, HoldLightsBehindTheEyeAndBeyondTheEndInTheirFirstAndLast) {
     EXPECT_EQ(bins.back(), (BinRange{1, 1}));
 }
 
-// Lighting chapter 1.5: 4096 lights are 128 words or 512 bytes a tile, 3.98 MiB at 1080p; 4096 bins of 4 bytes are 16 KiB.
+// docs/algorithms/lighting.md 1.5: 4096 lights are 128 words or 512 bytes a tile, 3.98 MiB at 1080p; 4096 bins of 4 bytes are 16
+// KiB.
 TEST(ZBins, TakeTheMemoryThatTheChapterStates) {
     constexpr double tiles = 120 * 68, bytes_of_a_tile = 4096 / 8;
     EXPECT_NEAR(tiles * bytes_of_a_tile / (1 << 20), 3.98, 0.005);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "passes/gbuffer/surface_at.h"
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/scene_facts.h"
 
 namespace strata::lighting {
 namespace {
@@ -16,7 +16,7 @@ std::uint32_t bin_of(const ZHeader& header, const ZBinsPush& push, float z) {
 }
 
 ZBinsPush push_of(const FrameImages& frame, const ZBinnedParams& params) {
-    const auto lights = static_cast<uint>(shadow_lights(*frame.recorded).size());
+    const auto lights = static_cast<uint>(frame.facts->lights().size());
     const uint tile_size = 8u << params.tile;
     return {.lights = lights,
             .padded = std::bit_ceil(std::max(lights, 2u)),

@@ -1,4 +1,4 @@
-// Facts of the filter kernel, computable by hand (deferred chapter 5.2).
+// Facts of the filter kernel, computable by hand (docs/algorithms/deferred.md 5.2).
 #include <algorithm>
 #include <cmath>
 

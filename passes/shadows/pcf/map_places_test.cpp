@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/scene/map_places.h"
 #include "passes/shadows/kernel.h"
-#include "passes/shadows/map_places.h"
 
 namespace strata::shadows {
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/scene/scene_facts.h"
 #include "passes/shadows/judge.h"
-#include "passes/shadows/shadow_views.h"
 #include "passes/shadows/shadows.shared.h"
 #include "passes/technique.h"
 
@@ -99,7 +99,7 @@ std::vector<double> crossings(const ReferenceImage& image, double level) {
     return found;
 }
 
-FrameImages images_of(const Frame& frame) { return {.recorded = &frame, .extent = {width, rows}}; }
+FrameImages images_of(const SceneFacts& facts) { return {.recorded = &facts.frame(), .facts = &facts, .extent = {width, rows}}; }
 
 DrawList one_caster(Graph& graph) {
     return {.commands = graph.create("commands", 20), .indices = graph.create("indices", 12), .count = 1};
@@ -179,7 +179,8 @@ TEST(pcf, draws_each_map_into_the_corner_of_its_own_layer) {
     frame.sun.cascades = 3;
     frame.lights = {{.type = LightType::round_spot, .shadow = {.casts = true, .map_size = 256}}};
     Graph graph;
-    FrameImages images = images_of(frame);
+    const SceneFacts facts(frame);
+    FrameImages images = images_of(facts);
     images.casters = one_caster(graph);
     const Technique technique = pcf();
     technique.add(graph, images, Settings(technique.params));
@@ -195,7 +196,8 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     frame.sun.irradiance = {};
     frame.lights = {{.type = LightType::omni, .position = {0, 2, 0}, .range = 1, .shadow = {.casts = true, .map_size = 256}}};
     Graph graph;
-    FrameImages images = images_of(frame);
+    const SceneFacts facts(frame);
+    FrameImages images = images_of(facts);
     images.casters = one_caster(graph);
     const Technique technique = pcf();
     Settings settings(technique.params);
@@ -207,6 +209,8 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     frame.lights.push_back(frame.lights[0]);
     frame.lights[1].range = 0.2f;  // 16 pixels
     Graph two;
+    const SceneFacts facts_of_two(frame);
+    images = images_of(facts_of_two);
     images.casters = one_caster(two);
     technique.add(two, images, settings);
     EXPECT_EQ(two.shape(images.shadow_maps).layers, 7u);  // six maps of 32 texels share the seventh
@@ -224,7 +228,8 @@ TEST(pcf, does_nothing_where_no_light_has_a_map) {
     Frame frame = ground(0);
     frame.sun.shadow.casts = false;
     Graph graph;
-    FrameImages images = images_of(frame);
+    const SceneFacts facts(frame);
+    FrameImages images = images_of(facts);
     const Technique technique = pcf();
     const Settings settings(technique.params);
     technique.add(graph, images, settings);

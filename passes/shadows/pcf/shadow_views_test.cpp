@@ -1,10 +1,10 @@
-// Facts of where shadow maps look from (lighting chapter 6.4 and 6.5).
+// Facts of where shadow maps look from (docs/algorithms/lighting.md 6.4 and 6.5).
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "passes/shadows/shadow_views.h"
+#include "passes/scene/shadow_views.h"
 
 namespace strata::shadows {
 
@@ -172,6 +172,18 @@ TEST(omni_maps, stay_where_they_are_in_the_world_when_the_camera_turns) {
     frame.view.to_view = glm::dmat3({c, 0, s}, {0, 1, 0}, {s, 0, -c});
     frame.view.origin += glm::dvec3(1, 2, 3);
     EXPECT_NEAR(glm::distance(in_map(frame, shadow_views(frame).back(), landmark), seen), 0, 1e-9);
+}
+
+TEST(shadow_views, move_receivers_by_as_many_metres_as_their_light_says) {
+    Frame frame = sunny();
+    frame.lights = {spot(0.5f)};
+    frame.lights[0].shadow.bias = 0.05f;
+    const auto views = shadow_views(frame);
+    ASSERT_EQ(views.size(), 4u);
+    for (const ShadowView& view : views) {
+        const bool is_suns = view.size == frame.sun.shadow.map_size;
+        EXPECT_EQ(view.bias, double(is_suns ? 0.02f : 0.05f));
+    }
 }
 
 TEST(shadow_views, carry_the_width_of_the_source) {

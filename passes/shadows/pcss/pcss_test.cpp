@@ -1,5 +1,5 @@
-// Facts of soft shadows (lighting chapter 6), computable by hand: taps, penumbrae, and whole lookups on the ground y = 0, which a
-// camera 10 m above looks down on.
+// Facts of soft shadows (docs/algorithms/lighting.md 6), computable by hand: taps, penumbrae, and whole lookups on the ground y =
+// 0, which a camera 10 m above looks down on.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

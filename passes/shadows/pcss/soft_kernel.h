@@ -1,4 +1,4 @@
-// The kernel of soft lights in double (lighting chapter 6.1 and 6.2).
+// The kernel of soft lights in double (docs/algorithms/lighting.md 6.1 and 6.2).
 #pragma once
 
 #include "passes/shadows/kernel.h"

@@ -1,11 +1,13 @@
 // The first fragments of a sample to arrive, stored in small formats and sorted; later ones become one layer behind them.
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
-#include "passes/transparency/a_buffer/model.h"
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
+
+ImageSet a_buffer_model(const StageInput&, const Settings&);  // model.cpp
 
 Image a_buffer_overflow_view(Graph&, FrameImages&, const Settings&);  // views.cpp
 
@@ -26,7 +28,7 @@ struct Merged {
 /// Of the recorded frame, whatever features are forced on: those change no pixel, and another format would.
 bool is_chromatic(const FrameImages& images, std::uint32_t stored_as) {
     if (stored_as != layout_automatic) return stored_as == layout_rgb;
-    return frame_features(*images.recorded).has(Feature::chromatic);
+    return images.facts->features().has(Feature::chromatic);
 }
 
 ABufferPush push_of(const FrameImages& images, const Settings& settings) {

@@ -1,4 +1,5 @@
-// Facts about the bounded A-buffer (transparency chapter 2.1): its formats, what it stores, what it merges, its memory.
+// Facts about the bounded A-buffer (docs/algorithms/transparency.md 2.1): its formats, what it stores, what it merges, its
+// memory.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/transparency/a_buffer/model.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"
@@ -127,9 +129,10 @@ double bytes_per_pixel(std::string_view layout, std::uint32_t samples) {
     Settings settings(technique.params);
     if (!settings.set("layout", layout)) throw std::runtime_error("no such layout");
     Frame frame = frame_of_cards({}, 32);
-    const Features features = frame_features(frame);
+    const SceneFacts facts(frame);
     Graph graph;
-    FrameImages images{.recorded = &frame, .features = &features, .extent = {32, 32, 1}, .samples = samples};
+    FrameImages images{
+        .recorded = &frame, .features = &facts.features(), .facts = &facts, .extent = {32, 32, 1}, .samples = samples};
     images.depth = graph.create("depth", {.extent = images.extent, .format = Format::d32f, .samples = samples});
     images.color = graph.create("color", {.extent = images.extent, .format = Format::rgba32f, .layers = samples});
     technique.add(graph, images, settings);

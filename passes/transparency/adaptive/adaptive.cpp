@@ -1,14 +1,19 @@
 // Adaptive transparency: T(z) of a sample as a step curve of a few nodes, compressed as fragments come.
 #include "passes/technique.h"
-#include "passes/transparency/adaptive/model.h"
+#include "passes/transparency/adaptive/adaptive.shared.h"
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_motion.h"
 #include "passes/transparency/lists.h"
 
 namespace strata::transparency {
+
+ImageSet adaptive_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 constexpr std::string_view node_counts[] = {"4", "8", "16"};
+
+std::uint32_t curve_nodes(const AdaptiveParams& params) { return 4u << params.nodes; }
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<AdaptiveParams>();

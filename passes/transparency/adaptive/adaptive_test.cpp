@@ -1,4 +1,4 @@
-// Facts about adaptive transparency (transparency chapter 2.4 and hard case H5).
+// Facts about adaptive transparency (docs/algorithms/transparency.md 2.4 and hard case H5).
 #include "passes/transparency/adaptive/model.h"
 
 #include <algorithm>

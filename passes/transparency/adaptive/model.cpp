@@ -8,6 +8,9 @@
 namespace strata::transparency {
 namespace {
 
+// What the choices of `nodes` are called.
+constexpr std::uint32_t node_counts_by_choice[] = {4, 8, 16};
+
 double mean(glm::dvec3 v) { return (v.x + v.y + v.z) / 3; }
 
 /// The step whose removal loses the least area, by index; neither the first nor the last.
@@ -26,8 +29,6 @@ std::size_t least_step(std::span<const CurveStep> curve) {
 }
 
 }  // namespace
-
-std::uint32_t curve_nodes(const AdaptiveParams& params) { return 4u << params.nodes; }
 
 std::vector<CurveStep> adaptive_curve(std::span<const Fragment> fragments, std::uint32_t nodes) {
     std::vector<CurveStep> curve;
@@ -54,7 +55,7 @@ glm::dvec3 transmittance_at(std::span<const CurveStep> curve, double depth) {
 ImageSet adaptive_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<AdaptiveParams>();
     const FunctionOfSample function = [&](std::span<const Fragment> fragments) -> Transmittance {
-        return [curve = adaptive_curve(fragments, curve_nodes(params))](const Fragment& f) {
+        return [curve = adaptive_curve(fragments, node_counts_by_choice[params.nodes])](const Fragment& f) {
             return transmittance_at(curve, f.depth);
         };
     };

@@ -3,13 +3,11 @@
 
 #include <span>
 
+#include "passes/reference/fragments.h"
 #include "passes/technique.h"
 #include "passes/transparency/adaptive/adaptive.shared.h"
 
 namespace strata::transparency {
-
-/// What the choice stands for: 4, 8 or 16.
-std::uint32_t curve_nodes(const AdaptiveParams&);
 
 /// Transmittance behind a depth.
 struct CurveStep {

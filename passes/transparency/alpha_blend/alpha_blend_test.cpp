@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
+#include "passes/scene/object_order.h"
 #include "passes/technique.h"
-#include "passes/transparency/object_order.h"
 #include "passes/transparency/truth.h"
 
 namespace strata {

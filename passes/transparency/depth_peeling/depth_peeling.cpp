@@ -1,11 +1,12 @@
 // Depth peeling: each pass draws everything and keeps the layer behind the one before.
 #include "passes/technique.h"
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
-#include "passes/transparency/depth_peeling/model.h"
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
+
+ImageSet depth_peeling_model(const StageInput&, const Settings&);  // model.cpp
 
 Image depth_peeling_beyond_view(Graph&, FrameImages&, const Settings&);  // views.cpp
 

@@ -1,4 +1,4 @@
-// Facts about depth peeling (transparency chapter 2.3): exact layers from the front, and what it loses.
+// Facts about depth peeling (docs/algorithms/transparency.md 2.3): exact layers from the front, and what it loses.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,8 @@ TEST(DepthPeeling, IsExactInAnyOrderWithAPassPerLayer) {
 }
 
 TEST(DepthPeeling, LeavesOutWhatIsBehindItsLastLayer) {
-    // The chapter's four layers of .5: two passes see .75 of .9375, and the background through them as if nothing were there.
+    // The four layers of .5 of docs/algorithms/transparency.md 2.2: two passes see .75 of .9375, and the background through them
+    // as if nothing were there.
     const std::array four{layer(.1, .5, 1), layer(.2, .5, 1), layer(.3, .5, 1), layer(.4, .5, 1)};
     EXPECT_DOUBLE_EQ(blend(four, 0, 2), .75);
     EXPECT_DOUBLE_EQ(blend(four, 8, 2), .75 + .25 * 8);

@@ -1,4 +1,4 @@
-// Facts about the draw and the resolve that all function methods share (transparency chapter 7, oracles F1 to F6).
+// Facts about the draw and the resolve that all function methods share (docs/algorithms/transparency.md 7, oracles F1 to F6).
 #include <array>
 #include <cmath>
 #include <vector>

@@ -3,9 +3,10 @@
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
-#include "passes/transparency/k_buffer/model.h"
 
 namespace strata::transparency {
+
+ImageSet k_buffer_model(const StageInput&, const Settings&);  // model.cpp
 
 Image k_buffer_beyond_view(Graph&, FrameImages&, const Settings&);  // views.cpp
 

@@ -1,4 +1,4 @@
-// Facts about the K-buffer (transparency chapter 2.2): its key, its three tails, what it keeps and what it loses.
+// Facts about the K-buffer (docs/algorithms/transparency.md 2.2): its key, its three tails, what it keeps and what it loses.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -20,7 +20,7 @@ double blend(std::span<const Fragment> fragments, double behind, std::uint32_t l
     return k_buffer_blend(fragments, glm::dvec3(behind), {.layers = layers, .tail = tail}).x;
 }
 
-// The chapter's oracle: of four equal layers front to back, two are kept.
+// The oracle of docs/algorithms/transparency.md 2.2: of four equal layers front to back, two are kept.
 const std::array four{layer(.1, .5, 1), layer(.2, .5, 1), layer(.3, .5, 1), layer(.4, .5, 1)};
 
 TEST(KBuffer, LosesTheTailItDrops) {

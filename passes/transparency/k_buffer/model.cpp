@@ -39,7 +39,7 @@ Layer layer_of(std::uint64_t key) {
 }
 
 /// What is behind the K nearest, in the order it fell out.
-class Tail {
+class TailModel {
 public:
     void add(const Layer& layer) {
         over_ = layer.color + (1 - layer.alpha) * over_;
@@ -109,7 +109,7 @@ std::uint64_t k_buffer_key(const Fragment& f, double nudge) {
 
 glm::dvec3 k_buffer_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const KBufferParams& params) {
     std::vector<std::uint64_t> nearest;
-    Tail tail;
+    TailModel tail;
     for (const Fragment& fragment : fragments)
         if (const auto fallen = keep(nearest, k_buffer_key(fragment), params.layers)) tail.add(layer_of(*fallen));
     glm::dvec3 radiance = tail.before(behind, params.tail);

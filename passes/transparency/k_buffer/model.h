@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "passes/reference/fragments.h"
 #include "passes/technique.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 

@@ -1,4 +1,4 @@
-// T(z) from the moments of the texel under the fragment (Muenstermann et al. 2018; transparency chapter 4.5 to 4.8).
+// T(z) from the moments of the texel under the fragment (Muenstermann et al. 2018; docs/algorithms/transparency.md 4.5 to 4.8).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
@@ -16,7 +16,7 @@ layout(set = 0, binding = 2) uniform sampler2DArray head;
 layout(set = 0, binding = 3) uniform sampler2DArray tail;
 layout(set = 0, binding = 20, scalar) buffer Counters { MomentsCounters counters; };
 
-// Even power moments of what a degenerate matrix is mixed with; odd ones are 0 (chapter 4.4).
+// Even power moments of what a degenerate matrix is mixed with; odd ones are 0 (docs/algorithms/transparency.md 4.4).
 float bias_moment(uint i) {
     if (i % 2u == 0u) return 0.0;
     const bool fine = storage != storage_normalized;

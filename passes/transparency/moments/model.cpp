@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/reference/ordering.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/moments/canonical.h"
 #include "passes/transparency/rounding.h"
@@ -69,6 +70,17 @@ std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEv
     return kept;
 }
 
+/// Muenstermann et al. 2018, section 5.2 and table 1: by kind, for sums in FP32 and for 16 bits. FP16 sums are not in the paper.
+double bias_of(const MomentsParams& params) {
+    struct Row {
+        double sums_32, normalized_16;
+    };
+    static constexpr Row rows[] = {{5e-7, 6e-5}, {5e-6, 6e-4}, {5e-5, 2.5e-3}, {4e-7, 4e-4}, {8e-7, 6.5e-4}, {1.5e-6, 8.5e-4}};
+    if (params.storage == storage_half) return 5e-3;
+    const Row& row = rows[params.kind];
+    return params.storage == storage_single ? row.sums_32 : row.normalized_16;
+}
+
 double transmittance_of(const MomentsParams& params, std::span<const double> kept, double w, double own_optical_depth) {
     const double total = kept[0];
     if (total < double(least_moment_depth)) return 1;
@@ -79,7 +91,7 @@ double transmittance_of(const MomentsParams& params, std::span<const double> kep
         for (double& moment : moments) moment /= total;
     }
     const std::vector<double> mixed_in = bias_moments(params);
-    const double bias = double(params.bias) * published_bias(params);
+    const double bias = double(params.bias) * bias_of(params);
     for (std::size_t i = 0; i < moments.size(); ++i) moments[i] += (mixed_in[i] - moments[i]) * bias;
     const double share = absorbance_share(params.kind, moments, w, double(params.overestimation));
     const double own = params.compensation == compensation_own ? double(params.overestimation) * own_optical_depth : 0;
@@ -91,13 +103,6 @@ double moment_depth(const Fragment& f, std::size_t channel, std::size_t channels
 }
 
 }  // namespace
-
-double published_bias(const MomentsParams& params) {
-    static constexpr double single[] = {5e-7, 5e-6, 5e-5, 4e-7, 8e-7, 1.5e-6};
-    static constexpr double normalized[] = {6e-5, 6e-4, 2.5e-3, 4e-4, 6.5e-4, 8.5e-4};
-    if (params.storage == storage_half) return 5e-3;
-    return (params.storage == storage_normalized ? normalized : single)[params.kind];
-}
 
 double absorbance_share(std::uint32_t kind, std::span<const double> moments, double w, double overestimation) {
     if (!is_trigonometric(kind)) return power_share(moments, w, overestimation);

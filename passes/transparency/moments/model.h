@@ -10,9 +10,6 @@
 
 namespace strata::transparency {
 
-/// The bias Muenstermann et al. publish for a kind and a storage; 5e-3 for FP16 sums, which the paper does not have.
-double published_bias(const MomentsParams&);
-
 /// b0 and the normalized, biased b1, b2, ... of power moments; or cos, sin, cos, sin, ... of trigonometric ones.
 /// Share of the absorbance in front of w in [-1, 1], `overestimation` of what is at w included.
 double absorbance_share(std::uint32_t kind, std::span<const double> moments, double w, double overestimation);

@@ -1,15 +1,19 @@
 // Moment-based transparency: T(z) of a texel from a few sums of powers of depth, or of its multiples as phases.
 #include <cmath>
 
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
-#include "passes/transparency/moments/model.h"
+#include "passes/transparency/moments/moments.shared.h"
 
 namespace strata::transparency {
+
+ImageSet moments_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 // In the order of the constants in moments.shared.h.
@@ -22,10 +26,18 @@ struct Moments {
     Image total, head, tail;
 };
 
+/// The bias Muenstermann et al. publish for a kind and a storage; 5e-3 for FP16 sums, which the paper does not have.
+double published_bias(const MomentsParams& params) {
+    static constexpr double single[] = {5e-7, 5e-6, 5e-5, 4e-7, 8e-7, 1.5e-6};
+    static constexpr double normalized[] = {6e-5, 6e-4, 2.5e-3, 4e-4, 6.5e-4, 8.5e-4};
+    if (params.storage == storage_half) return 5e-3;
+    return (params.storage == storage_normalized ? normalized : single)[params.kind];
+}
+
 std::uint32_t reals(const MomentsParams& params) { return 4 + 2 * (params.kind % 3); }
 
 MomentsPush push_of(const MomentsParams& params, const FrameImages& images) {
-    const DepthRange range = transparent_depth_range(*images.recorded);
+    const DepthRange range = images.facts->transparent_depths();
     return {.log_nearest = std::log(range.nearest),
             .per_log = 2 / std::log(range.farthest / range.nearest),
             .bias = static_cast<float>(double(params.bias) * published_bias(params)),

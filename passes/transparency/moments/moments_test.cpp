@@ -1,4 +1,4 @@
-// Facts about moment-based transparency (transparency chapter 4: the tables of 4.3, 4.6, 4.8 and 4.9).
+// Facts about moment-based transparency (docs/algorithms/transparency.md 4: the tables of 4.3, 4.6, 4.8 and 4.9).
 #include "passes/transparency/moments/model.h"
 
 #include <array>
@@ -130,7 +130,8 @@ TEST(Moments, LeakBetweenOpaqueCardsAsTheirBiasSays) {
     EXPECT_NEAR(leak(moments_power4, storage_single, .002), .012, 4e-3);
     EXPECT_NEAR(leak(moments_power4, storage_single, .0005), .041, 6e-3);
     EXPECT_NEAR(leak(moments_power4, storage_single, .0001), .471, 2e-2);
-    // Where the cards stand between two steps of 16 bits moves it: .104 here, .079 in the chapter.
+    // Where the cards stand between two steps of 16 bits moves it: .104 here, .079 in the table of
+    // docs/algorithms/transparency.md H1.
     EXPECT_NEAR(leak(moments_power4, storage_normalized, .005), .079, 3e-2);
     EXPECT_NEAR(leak(moments_power8, storage_normalized, .02), .029, 2e-2);
 }

@@ -1,5 +1,5 @@
 // Absorbance in front of z from power moments: the canonical representation with a node at z (Muenstermann et al. 2018,
-// transparency chapter 4.5). The matrix is nearly singular by design; every division is guarded (chapter 4.8).
+// docs/algorithms/transparency.md 4.5 and 4.8). The matrix is nearly singular by design; every division is guarded.
 #ifndef PASSES_TRANSPARENCY_MOMENTS_POWER_GLSL
 #define PASSES_TRANSPARENCY_MOMENTS_POWER_GLSL
 #include "passes/transparency/moments/warp.glsl"
@@ -116,7 +116,10 @@ float absorbance_before(float b[9], float z, float at_node) {
     // Divided differences of the polynomial through (x, f); without the node at infinity it is one degree lower.
     for (uint k = 1u; k <= roots; ++k)
         for (uint i = roots; i >= k; --i) f[i] = (f[i] - f[i - 1u]) / apart(x[i], x[i - k]);
-    if (!(abs(x[roots]) < infinite_root)) f[roots] = 0.0;
+    if (!(abs(x[roots]) < infinite_root)) {
+        f[roots] = 0.0;
+        x[roots] = 0.0;  // below it is multiplied by 0: infinity would make that NaN
+    }
     float q[5];
     for (uint k = 0u; k < 5u; ++k) q[k] = 0.0;
     for (uint i = order; i-- > 0u;) {

@@ -1,5 +1,6 @@
 // Normalized moments on [0, 1], so that 16 bits hold them: odd and even power moments through the transforms of Muenstermann et
-// al. 2018 (transparency chapter 4.3), and back through their inverses. Mind the order: here every transform is matrix times column.
+// al. 2018 (docs/algorithms/transparency.md 4.3), and back through their inverses. Mind the order: here every transform is matrix
+// times column.
 #ifndef PASSES_TRANSPARENCY_MOMENTS_QUANTIZATION_GLSL
 #define PASSES_TRANSPARENCY_MOMENTS_QUANTIZATION_GLSL
 #include "passes/transparency/moments/warp.glsl"

@@ -1,5 +1,5 @@
 // Absorbance in front of z from trigonometric moments: the same on the unit circle, where the matrix is Toeplitz and the nodes are
-// complex numbers of length 1 (Muenstermann et al. 2018, transparency chapter 4.6).
+// complex numbers of length 1 (Muenstermann et al. 2018, docs/algorithms/transparency.md 4.6).
 #ifndef PASSES_TRANSPARENCY_MOMENTS_TRIGONOMETRIC_GLSL
 #define PASSES_TRANSPARENCY_MOMENTS_TRIGONOMETRIC_GLSL
 #include "passes/transparency/moments/power.glsl"

@@ -1,5 +1,6 @@
 // Depth on [-1, 1], logarithmic between the nearest and the farthest transparent geometry, and as a phase with a gap for the
-// wrapping zone (transparency chapter 4.2). A shader that includes this declares `MomentsPush push` in its push constants first.
+// wrapping zone (docs/algorithms/transparency.md 4.2). A shader that includes this declares `MomentsPush push` in its push
+// constants first.
 #ifndef PASSES_TRANSPARENCY_MOMENTS_WARP_GLSL
 #define PASSES_TRANSPARENCY_MOMENTS_WARP_GLSL
 #include "passes/transparency/moments/moments.shared.h"

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "passes/reference/fragments.h"
 #include "passes/technique.h"
 #include "passes/transparency/multi_layer/multi_layer.shared.h"
 

@@ -1,19 +1,23 @@
 // Multi-layer alpha blending: a few nodes per sample; where they do not suffice the two farthest become one.
 #include <cmath>
 
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
-#include "passes/transparency/multi_layer/model.h"
+#include "passes/transparency/multi_layer/multi_layer.shared.h"
 
 namespace strata::transparency {
+
+ImageSet multi_layer_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const auto params = settings.as<MultiLayerParams>();
-    const DepthRange range = transparent_depth_range(*images.recorded);
+    const DepthRange range = images.facts->transparent_depths();
     const float per_log = float(params.buckets) / std::log(range.farthest / range.nearest);
     EventLists lists = create_lists(graph, images, params.pool);
     for (const Band& band : lists.bands) {

@@ -1,4 +1,4 @@
-// Facts about multi-layer alpha blending (transparency chapter 2.5 and hard case H5).
+// Facts about multi-layer alpha blending (docs/algorithms/transparency.md 2.5 and hard case H5).
 #include "passes/transparency/multi_layer/model.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Composites the band's sorted lists over what is there, front to back: C += T (p + e), D += T d, T *= t (transparency chapters 1
-// and 6.13).
+// Composites the band's sorted lists over what is there, front to back: C += T (p + e), D += T d, T *= t
+// (docs/algorithms/transparency.md 1 and 6.13).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

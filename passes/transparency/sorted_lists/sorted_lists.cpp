@@ -2,10 +2,12 @@
 #include "passes/technique.h"
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/lists.h"
-#include "passes/transparency/sorted_lists/model.h"
 #include "passes/transparency/sorted_lists/sorted_lists.shared.h"
 
 namespace strata::transparency {
+
+ImageSet sorted_lists_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 void add(Graph& graph, FrameImages& images, const Settings& settings) {

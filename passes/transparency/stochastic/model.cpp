@@ -50,6 +50,10 @@ CoveredSubset covered_by(const SeededFragment& fragment, const StochasticParams&
 
 }  // namespace
 
+std::uint32_t subset_key(std::uint32_t seed, glm::uvec3 at, std::uint32_t draw, std::uint32_t triangle) {
+    return fragment_key(seed, at, draw, triangle);
+}
+
 std::uint64_t covered_subset(double alpha, std::uint32_t key, std::uint32_t subsamples, std::uint32_t subset) {
     const auto fixed_alpha = static_cast<std::uint32_t>(std::clamp(alpha, 0., 1.) * 0x1p24);
     std::uint32_t wanted = subset_size(key, fixed_alpha, subsamples);
@@ -134,7 +138,7 @@ public:
     SeededFragment seeded(const Fragment& fragment, glm::uvec3 at, const StochasticParams& params) const {
         const Origin& origin = *--std::ranges::upper_bound(origins_, fragment.submission, {}, &Origin::first_ordinal);
         const std::uint32_t triangle = fragment.submission - origin.first_ordinal;
-        SeededFragment result{fragment, fragment_key(params.seed, at, origin.draw, triangle)};
+        SeededFragment result{fragment, subset_key(params.seed, at, origin.draw, triangle)};
         if (params.mode == mode_hashed) result.threshold = threshold(origin, triangle, at, params);
         return result;
     }

@@ -14,9 +14,12 @@ namespace strata::transparency {
 /// A fragment with what its subset is made from.
 struct SeededFragment {
     Fragment event;
-    std::uint32_t key = 0;  ///< fragment_key()
+    std::uint32_t key = 0;  ///< subset_key()
     double threshold = 0;   ///< of hashed alpha
 };
+
+/// What a fragment of a sample (x, y, sample) draws lots with: a number for every two triangles of a draw.
+std::uint32_t subset_key(std::uint32_t seed, glm::uvec3 at, std::uint32_t draw, std::uint32_t triangle);
 
 /// Bit s: subsample s is covered.
 std::uint64_t covered_subset(double alpha, std::uint32_t key, std::uint32_t subsamples, std::uint32_t subset);

@@ -1,4 +1,4 @@
-// The mean of the subsamples over what shows through (Enderton et al. 2010; transparency chapter 2.6).
+// The mean of the subsamples over what shows through (Enderton et al. 2010; docs/algorithms/transparency.md 2.6).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

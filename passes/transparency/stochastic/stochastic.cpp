@@ -4,10 +4,12 @@
 #include "passes/technique.h"
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/stochastic/model.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 
 namespace strata::transparency {
+
+ImageSet stochastic_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 // In the order of the constants in stochastic.shared.h; subsamples are 4 << choice.
@@ -157,6 +159,7 @@ Technique stochastic() {
                            {"H14b", 0.1, "in some pixels a layer of .1 covers no subsample"}},
         .add = add,
         .model = stochastic_model,
+        .model_is = ModelKind::mirror,
         .tolerance =
             {.rmse = 1e-2,
              .worst = 8e-2,

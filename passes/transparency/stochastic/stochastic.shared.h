@@ -46,7 +46,8 @@ struct StochasticCounters {
 
 // Subsamples that nothing covers.
 const uint uncovered_depth = 0xffffffffu;
-// Less coverage than this is no event (transparency chapter 0.2): such a fragment covers nothing, and its light is added.
+// Less coverage than this is no event (docs/algorithms/transparency.md 0.2): such a fragment covers nothing, and its light is
+// added.
 const float least_coverage = 1e-5f;
 
 #ifdef __cplusplus

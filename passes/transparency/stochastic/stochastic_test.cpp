@@ -1,4 +1,5 @@
-// Facts about stochastic transparency and hashed alpha (transparency chapter 2.6): expectation, variance, repeatability.
+// Facts about stochastic transparency and hashed alpha (docs/algorithms/transparency.md 2.6): expectation, variance,
+// repeatability.
 #include <algorithm>
 #include <array>
 #include <bit>

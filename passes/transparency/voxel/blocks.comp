@@ -1,6 +1,6 @@
 // Gives blocks of the pool to the words that tiles use, at the finest resolution at which there are enough: the talk's future work,
-// "re-allocate at lower resolution on physical overflow" (transparency chapter 6.13). A group for each tile. Which tile's blocks
-// come first is chance, and nobody can tell.
+// "re-allocate at lower resolution on physical overflow" (docs/algorithms/transparency.md 6.13). A group for each tile. Which
+// tile's blocks come first is chance, and nobody can tell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

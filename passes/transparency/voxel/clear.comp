@@ -1,4 +1,4 @@
-// Empties the voxels that will be used, and no others (transparency chapter 6.8). A group for each tile.
+// Empties the voxels that will be used, and no others (docs/algorithms/transparency.md 6.8). A group for each tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,5 @@
-// One column of words of three channels, red lowest (transparency chapter 6.4, RGB 10:10:10), and its merging with what is grey
-// (6.6).
+// One column of words of three channels, red lowest (docs/algorithms/transparency.md 6.4, RGB 10:10:10), and its merging with
+// what is grey (6.6).
 #pragma once
 
 #include <cstdint>

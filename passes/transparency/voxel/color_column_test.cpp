@@ -1,4 +1,4 @@
-// Facts about words of three channels (transparency chapter 6.4 and 6.6, V2 and V3 of 6.17).
+// Facts about words of three channels (docs/algorithms/transparency.md 6.4 and 6.6, V2 and V3 of 6.17).
 #include "passes/transparency/voxel/color_column.h"
 
 #include <algorithm>

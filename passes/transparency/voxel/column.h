@@ -1,5 +1,5 @@
 // One column of voxels in integers, as exact as the device's: encoding, splat, overflow, integration; and how the integral is
-// read (transparency chapter 6.3 to 6.7).
+// read (docs/algorithms/transparency.md 6.3 to 6.7).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Marks the halves of the finest slices that transparent triangles are in: what warp.comp makes the table of (transparency chapter
-// 6.10). A row of groups for each draw, a thread for each of its triangles.
+// Marks the halves of the finest slices that transparent triangles are in: what warp.comp makes the table of
+// (docs/algorithms/transparency.md 6.10). A row of groups for each draw, a thread for each of its triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

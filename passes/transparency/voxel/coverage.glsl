@@ -1,5 +1,6 @@
-// Where a transparent triangle may be seen, without rasterizing it: between which depths, and in which columns (transparency
-// chapter 6.8). depth_warp.cpp has the same in double. A shader that includes this declares `VoxelPush push` in its push constants first.
+// Where a transparent triangle may be seen, without rasterizing it: between which depths, and in which columns
+// (docs/algorithms/transparency.md 6.8). depth_warp.cpp has the same in double. A shader that includes this declares `VoxelPush
+// push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL
 #extension GL_GOOGLE_include_directive : require

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/reference/fragments.h"
-#include "passes/transparency/voxel/segment.h"
-
 namespace strata::transparency {
 
 double DepthCurve::slice_of(double z) const {
@@ -30,13 +27,10 @@ double linear_of_thickness(double slices, double range, double near_thickness) {
     return std::exp(high);
 }
 
-DepthRange voxel_range(const VoxelParams& params, const Frame& frame) {
+DepthRange voxel_range(const VoxelParams& params, DepthRange world, double deepest, float near) {
     if (params.range == range_fixed) return {0, params.farthest};
-    double deepest = 0;
-    for (const std::uint32_t draw : transparent_draws(frame)) deepest = std::max(deepest, thickness_of(params, frame, draw));
-    const DepthRange range = world_depth_range(frame);
     const auto half = static_cast<float>(deepest / 2);
-    return {std::max(range.nearest - half, std::min(range.nearest, frame.view.near)), range.farthest + half};
+    return {std::max(world.nearest - half, std::min(world.nearest, near)), world.farthest + half};
 }
 
 DepthCurve depth_curve(const VoxelParams& params, DepthRange range) {

@@ -1,8 +1,9 @@
-// Where slices of voxels end in depth (transparency chapter 6.2): s(z) = n ln(1 + (z - nearest) / a) /
+// Where slices of voxels end in depth (docs/algorithms/transparency.md 6.2): s(z) = n ln(1 + (z - nearest) / a) /
 // ln(1 + (farthest - nearest) / a). About even up to a behind the nearest, logarithmic beyond; it may begin at the eye because of
 // the 1.
 #pragma once
 
+#include "passes/depth_range.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/voxel.shared.h"
 
@@ -25,9 +26,9 @@ struct DepthCurve {
 /// where slices are even to 5 % and thinner ones than asked for: n of them would reach farther.
 double linear_of_thickness(double slices, double range, double near_thickness);
 
-/// The frame's transparent depths but those of interface layers, wider by half of its deepest event; or from the eye to
-/// `farthest`.
-DepthRange voxel_range(const VoxelParams&, const Frame&);
+/// The depths of the frame's transparent world (what is in no interface layer), wider by half of its deepest event, both in
+/// metres; or, with range=fixed, from the eye to `farthest`.
+DepthRange voxel_range(const VoxelParams&, DepthRange world, double deepest, float near);
 
 /// Cut into `slices`; or, where they are adaptive, into as many as 8192 of these that are not thinner than `thinnest`: halves,
 /// quarters and so on of most_virtual_slices, and at least one less than twice `slices`.

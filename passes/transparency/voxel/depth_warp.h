@@ -1,4 +1,5 @@
-// Which slices hold something, and the table that packs these and leaves the others out (transparency chapter 6.10 and 6.11).
+// Which slices hold something, and the table that packs these and leaves the others out (docs/algorithms/transparency.md 6.10 and
+// 6.11).
 #pragma once
 
 #include <cstdint>

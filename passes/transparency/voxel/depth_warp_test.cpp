@@ -1,4 +1,4 @@
-// Facts about the table that leaves empty slices out (transparency chapter 6.10, 6.11; of 6.17 V6 and V9).
+// Facts about the table that leaves empty slices out (docs/algorithms/transparency.md 6.10, 6.11; of 6.17 V6 and V9).
 #include "passes/transparency/voxel/depth_warp.h"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(VoxelDepthWarp, ReadsWhatTheVirtualVolumeHolds) {
         for (double s = -2; s < 66; s += .013) {
             for (const std::uint32_t sampling : {sampling_point, sampling_linear, sampling_bicubic})
                 ASSERT_EQ(sampled_integral(at_virtual, s, sampling), sampled_integral(volumes.all, s, sampling)) << used << s;
-            // One filtered read of packed texels, at 9e-16 in the chapter.
+            // One filtered read of packed texels, at 9e-16 in docs/algorithms/transparency.md 6.10.
             const double q = warp.packed(s - .5), k = std::floor(q), f = q - k;
             const double filtered = (1 - f) * at_physical(static_cast<int>(k)) + f * at_physical(static_cast<int>(k) + 1);
             ASSERT_NEAR(filtered, sampled_integral(volumes.all, s, sampling_linear), 1e-12) << used << s;

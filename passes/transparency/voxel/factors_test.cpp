@@ -1,5 +1,5 @@
-// Facts about slices that hold products (transparency chapter 6.4, first row of its table).
-#include "passes/transparency/voxel/factors.h"
+// Facts about slices that hold products (docs/algorithms/transparency.md 6.4, first row of its table).
+#include "passes/transparency/voxel/factors_model.h"
 #include "tests/support/one_pixel.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The depth of each pixel's tile, written one by one: what quads are faster than (transparency chapter 6.16).
+// The depth of each pixel's tile, written one by one: what quads are faster than (docs/algorithms/transparency.md 6.16).
 #version 460
 
 layout(constant_id = 10) const uint tile_edge = 16u;

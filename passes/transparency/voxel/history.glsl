@@ -1,5 +1,5 @@
-// What frames leave to the next, so that slices do not pop (transparency chapter 6.11): a coarser volume is held. A shader that
-// includes this declares `VoxelPush push` in its push constants first.
+// What frames leave to the next, so that slices do not pop (docs/algorithms/transparency.md 6.11): a coarser volume is held. A
+// shader that includes this declares `VoxelPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_HISTORY_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_HISTORY_GLSL
 #extension GL_EXT_scalar_block_layout : require

@@ -1,6 +1,6 @@
-// Turns a column into its inclusive sums, in place: a sum is at most M and fits the field its extinction had (transparency chapter
-// 6.6). One thread per column and channel, a group for each tile: slices that nobody uses there are left out,
-// and what is behind saturation is filled without being read.
+// Turns a column into its inclusive sums, in place: a sum is at most M and fits the field its extinction had
+// (docs/algorithms/transparency.md 6.6). One thread per column and channel, a group for each tile: slices that nobody uses there
+// are left out, and what is behind saturation is filled without being read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

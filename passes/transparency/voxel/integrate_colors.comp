@@ -1,5 +1,5 @@
-// Turns words of three channels into inclusive sums, in place, of what has a color and of what is grey (transparency chapter 6.6).
-// One thread per column, a group for each tile; see integrate.comp.
+// Turns words of three channels into inclusive sums, in place, of what has a color and of what is grey
+// (docs/algorithms/transparency.md 6.6). One thread per column, a group for each tile; see integrate.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,11 +1,13 @@
-// Facts about the slices of interface layers (transparency chapter 6.13).
+// Facts about the slices of interface layers (docs/algorithms/transparency.md 6.13).
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "passes/reference/ordering.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
-#include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/dimensions.h"
+#include "passes/transparency/voxel/segment.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::transparency {
@@ -21,12 +23,12 @@ Frame particle_and(std::uint32_t layer) {
 
 TEST(VoxelInterfaces, HaveSlicesInFrontOfTheWorlds) {
     const VoxelParams params{.slices = 128};
-    EXPECT_EQ(of_volume(params, particle_and(0)).slices, 128u);
-    EXPECT_EQ(of_volume(params, particle_and(3)).slices, 131u);
-    EXPECT_EQ(of_world(params, particle_and(3)).slices, 128u);
+    EXPECT_EQ(of_volume(params, layers_of(particle_and(0))).slices, 128u);
+    EXPECT_EQ(of_volume(params, layers_of(particle_and(3))).slices, 131u);
+    EXPECT_EQ(of_world(params, layers_of(particle_and(3))).slices, 128u);
     const VoxelParams most{.slices = most_slices};
-    EXPECT_EQ(of_volume(most, particle_and(255)).slices, most_slices);
-    EXPECT_EQ(of_world(most, particle_and(255)).slices, most_slices - 255);
+    EXPECT_EQ(of_volume(most, layers_of(particle_and(255))).slices, most_slices);
+    EXPECT_EQ(of_world(most, layers_of(particle_and(255))).slices, most_slices - 255);
 }
 
 TEST(VoxelInterfaces, AreNotInTheRangeThatTheCurveCuts) {

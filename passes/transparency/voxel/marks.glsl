@@ -1,6 +1,6 @@
 // Marks of the words that tiles will use of a sparse volume, at every resolution it may end up with: a bit each, by resolution, then
-// by tile (transparency chapter 6.11 and 6.13). A shader that includes this declares `VoxelPush push` in its push constants and
-// `slices_per_word` first.
+// by tile (docs/algorithms/transparency.md 6.11 and 6.13). A shader that includes this declares `VoxelPush push` in its push
+// constants and `slices_per_word` first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_MARKS_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_MARKS_GLSL
 

@@ -13,13 +13,59 @@
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
 #include "passes/transparency/voxel/depth_warp.h"
-#include "passes/transparency/voxel/factors.h"
+#include "passes/transparency/voxel/factors_model.h"
 #include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/sparse.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
 namespace {
+
+/// Whether three channels share a word (docs/algorithms/transparency.md 6.4): only where words are sums, and not in a sparse volume.
+bool shares_words(const VoxelParams& params, std::uint32_t channels) {
+    const bool adds_in_fields = params.splat != splat_words && params.splat != splat_multiply;
+    return channels == 3 && params.packing == packing_rgb10 && adds_in_fields && params.volume != volume_sparse;
+}
+
+/// What a column takes (docs/algorithms/transparency.md 6.4): planes of words of 32 bits with 4, 3 or 2 slices of 8, 10 or 16 bits
+/// each, or one. Where three channels share words there is a word for every slice, and a plane of what is grey.
+std::uint64_t bytes_of_column(const VoxelParams& params, std::uint32_t channels) {
+    static constexpr std::uint32_t slices_of_a_word[] = {4, 3, 2, 1};
+    const std::uint32_t together = params.splat == splat_words ? 1 : slices_of_a_word[params.bits];
+    const std::uint64_t plane = 4 * ((params.slices + together - 1) / together);
+    return shares_words(params, channels) ? 4 * params.slices + plane : channels * plane;
+}
+
+/// The frame's volume, by the numbers of docs/algorithms/transparency.md and not by what the device is given (dimensions.h).
+struct ModelVolume {
+    VoxelParams params;  ///< slices: the world's, behind those of interface layers
+    std::uint32_t interfaces = 0, divisor = 1;
+    Extent columns;
+
+    VoxelParams of_world() const {
+        VoxelParams world = params;
+        world.slices -= interfaces;
+        return world;
+    }
+    /// At most 512 MiB; a sparse one's pool has a block of 256 bytes for each tile of 8 x 8 columns and each channel.
+    bool fits(std::uint32_t channels) const {
+        const std::uint64_t width = columns.width, height = columns.height, mebibyte = 1 << 20;
+        if (is_sparse(params)) return (width + 7) / 8 * ((height + 7) / 8) * channels * 256 <= params.pool * mebibyte;
+        return width * height * bytes_of_column(params, channels) <= 512 * mebibyte;
+    }
+};
+
+ModelVolume model_volume(VoxelParams params, const Frame& frame, std::uint32_t channels) {
+    ModelVolume volume{.params = params, .interfaces = highest_layer(frame), .columns = {}};
+    // An interface layer is a slice, and blocks have none for them.
+    volume.params.slices = std::min(params.slices + volume.interfaces, 1024u);
+    if (volume.interfaces > 0 && params.volume == volume_sparse) volume.params.volume = volume_adaptive;
+    const auto ceiled = [](std::uint32_t pixels, std::uint32_t divisor) { return (pixels + divisor - 1) / divisor; };
+    for (volume.divisor = 1u << params.resolution;; volume.divisor *= 2) {
+        volume.columns = {ceiled(frame.view.width, volume.divisor), ceiled(frame.view.height, volume.divisor)};
+        if (volume.fits(channels)) return volume;
+    }
+}
 
 /// Where a draw's fragments begin among the numbers of all triangles.
 struct Origin {
@@ -234,42 +280,6 @@ struct Splatter {
 
 }  // namespace
 
-VoxelParams voxel_params(const Settings& settings, const Frame& frame) {
-    auto params = settings.as<VoxelParams>();
-    if (params.volume == volume_sparse && highest_layer(frame) > 0) params.volume = volume_adaptive;
-    return params;
-}
-
-VoxelParams of_world(VoxelParams params, const Frame& frame) {
-    params.slices = std::min(params.slices, most_slices - highest_layer(frame));
-    return params;
-}
-
-VoxelParams of_volume(VoxelParams params, const Frame& frame) {
-    params.slices = of_world(params, frame).slices + highest_layer(frame);
-    return params;
-}
-
-std::uint32_t voxel_words(const VoxelParams& params, std::uint32_t channels) {
-    const std::uint32_t words = column_format(params).words();
-    return packs_colors(params, channels) ? params.slices + words : channels * words;
-}
-
-std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint32_t channels) {
-    constexpr std::uint64_t largest = 512 << 20;
-    std::uint32_t divisor = divisor_of(params.resolution);
-    const auto fits = [&](const Extent& low) {
-        if (is_sparse(params)) return pool_suffices(params, low, channels);
-        return std::uint64_t{low.width} * low.height * voxel_words(params, channels) * sizeof(std::uint32_t) <= largest;
-    };
-    while (!fits(prepass_extent(extent, divisor))) divisor *= 2;
-    return divisor;
-}
-
-std::uint32_t voxel_tint(const VoxelParams& params, const Features& features) {
-    return channel_count(params.channels, features) == 1 ? params.tint : tint_total;
-}
-
 double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle) {
     // Pairs of triangles share a number: the halves of a particle meet without a seam.
     const std::uint32_t key = hashed(hashed(0, glm::uvec3(texel, draw)) ^ triangle / 2);
@@ -277,22 +287,22 @@ double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t trian
 }
 
 ImageSet voxel_model(const StageInput& input, const Settings& settings) {
-    const VoxelParams asked = voxel_params(settings, input.frame);
-    auto params = of_volume(asked, input.frame);
-    const std::uint32_t channels = channel_count(params.channels, frame_features(input.frame));
-    const Extent extent{input.frame.view.width, input.frame.view.height};
-    const std::uint32_t divisor = voxel_divisor(params, extent, channels);
-    const bool packs = packs_colors(params, channels), sparse = is_sparse(params);
-    const Slices slices = sparse ? sparse_slices_of(params, input.frame, prepass_extent(extent, divisor), channels)
-                                 : slices_of(of_world(asked, input.frame), input.frame);
+    const Features features = frame_features(input.frame);
+    const auto asked = settings.as<VoxelParams>();
+    const std::uint32_t channels = channel_count(asked.channels, features);
+    const ModelVolume volume = model_volume(asked, input.frame, channels);
+    VoxelParams params = volume.params;
+    const bool packs = shares_words(params, channels), sparse = is_sparse(params);
+    const Slices slices =
+        sparse ? sparse_slices_of(params, input.frame, volume.columns, channels) : slices_of(volume.of_world(), input.frame);
     if (sparse) params.slices = slices.warp.virtual_slices();
     const ColumnFormat format = packs ? color_format(params) : column_format(params);
     Splatter splatter{&input.frame, params, channels, packs, slices, origins_of(input.frame), {}};
     if (params.splat == splat_multiply) splatter.of_triangles = slices_of_triangles(input.frame, slices);
 
     PrepassModel prepass{
-        .divisor = divisor, .unseen = Unseen::adds_nothing, .tint = voxel_tint(params, frame_features(input.frame))};
-    if (is_made_before_opaque(params, frame_features(input.frame))) prepass.tested = PrepassModel::Tested::against_nothing;
+        .divisor = volume.divisor, .unseen = Unseen::adds_nothing, .tint = channels == 1 ? params.tint : tint_total};
+    if (is_made_before_opaque(params, features)) prepass.tested = PrepassModel::Tested::against_nothing;
     if (sparse) prepass.add = add_rises;
     prepass.project = [=, &splatter](std::span<const Fragment> fragments, glm::uvec2 texel) {
         if (sparse) return rises_of(splatter.planes(fragments, texel), format.slices);

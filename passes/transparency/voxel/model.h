@@ -1,28 +1,10 @@
 // The method on whole images: columns of a prepass (column.h), filtered and read by every fragment.
 #pragma once
 
-#include "passes/graph/graph.h"
 #include "passes/technique.h"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 namespace strata::transparency {
-
-/// What is asked for. Blocks have no slices for interface layers: where a frame has some, a sparse volume is adaptive.
-VoxelParams voxel_params(const Settings&, const Frame&);
-
-/// The same parameters with the number of slices that a frame's world has, or all of its volume: interface layers have one each
-/// in front of the world's, up to the highest, and the world has fewer than asked for where there would be more than most_slices.
-VoxelParams of_world(VoxelParams, const Frame&);
-VoxelParams of_volume(VoxelParams, const Frame&);
-
-/// Of a texel of the prepass, of all channels.
-std::uint32_t voxel_words(const VoxelParams&, std::uint32_t channels);
-/// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB, or a sparse one's pool has a block for
-/// every tile and channel.
-std::uint32_t voxel_divisor(const VoxelParams&, Extent, std::uint32_t channels);
-
-/// `tint` where T(z) has one channel.
-std::uint32_t voxel_tint(const VoxelParams&, const Features&);
 
 /// What stochastic rounding adds to a code, of a fragment's texel, draw and triangle: from 0 to 1.
 double random_rounding(glm::uvec2 texel, std::uint32_t draw, std::uint32_t triangle);

@@ -1,4 +1,4 @@
-// Words of three channels, red lowest (transparency chapter 6.4).
+// Words of three channels, red lowest (docs/algorithms/transparency.md 6.4).
 #ifndef PASSES_TRANSPARENCY_VOXEL_PACKING_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_PACKING_GLSL
 #include "passes/transparency/voxel/voxel.shared.h"

@@ -1,6 +1,6 @@
 // Where the words of a sparse volume are: in a pool of blocks, one for each word that a tile of 8 x 8 columns uses and each channel
-// (transparency chapter 6.13). Of each 32 words of a tile a table says which are used and how many of all tiles have a place before
-// them. A shader that includes this declares `VoxelPush push` in its push constants first.
+// (docs/algorithms/transparency.md 6.13). Of each 32 words of a tile a table says which are used and how many of all tiles have a
+// place before them. A shader that includes this declares `VoxelPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_POOL_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_POOL_GLSL
 #include "passes/transparency/voxel/depth_curve.glsl"

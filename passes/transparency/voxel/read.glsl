@@ -1,6 +1,7 @@
-// T(z) = M^-I from the integral of the columns around a fragment, a little in front of it (transparency chapter 6.7). Filtered here
-// and not by a sampler: hardware's weights have 8 bits, which would be 1.1 % of T for each step of the integral. A shader that
-// includes this includes event.glsl and function_outputs.glsl and declares `VoxelPush push` in its push constants first.
+// T(z) = M^-I from the integral of the columns around a fragment, a little in front of it (docs/algorithms/transparency.md 6.7).
+// Filtered here and not by a sampler: hardware's weights have 8 bits, which would be 1.1 % of T for each step of the integral. A
+// shader that includes this includes event.glsl and function_outputs.glsl and declares `VoxelPush push` in its push constants
+// first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_READ_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_READ_GLSL
 #include "passes/transparency/voxel/voxels.glsl"

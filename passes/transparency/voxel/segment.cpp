@@ -17,6 +17,12 @@ double thickness_of(const VoxelParams& params, const Frame& frame, std::uint32_t
     return is_thick ? double(frame.emitters[draw - frame.draws.size()].soft_depth_fade) : 0;
 }
 
+DepthRange voxel_range(const VoxelParams& params, const Frame& frame) {
+    double deepest = 0;
+    for (const std::uint32_t draw : transparent_draws(frame)) deepest = std::max(deepest, thickness_of(params, frame, draw));
+    return voxel_range(params, world_depth_range(frame), deepest, frame.view.near);
+}
+
 std::optional<Segment> segment_at(const DepthCurve& curve, double depth, double metres, std::uint32_t splatting) {
     const auto place_of = [&](double z) {
         return std::min(curve.slice_of(std::max(z, curve.nearest)), curve.slices - double(end_margin));

@@ -1,5 +1,6 @@
-// Thick events: optical depth that lies evenly between two depths, and is added to every slice there (transparency chapter 6.5,
-// last line). Point events lie at one depth; the truth knows no others, so what this gives is steadiness.
+// Thick events: optical depth that lies evenly between two depths, and is added to every slice there
+// (docs/algorithms/transparency.md 6.5, thick objects). Point events lie at one depth; the truth knows no others, so what this
+// gives is steadiness.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,8 @@ bool has_segments(const VoxelParams&);
 /// How deep an event is along the view, in metres, or the events of a draw: what its emitter fades over before opaque surfaces.
 double thickness_of(const VoxelParams&, const Fragment&);
 double thickness_of(const VoxelParams&, const Frame&, std::uint32_t draw);
+/// voxel_range() of a recorded frame, as models derive it.
+DepthRange voxel_range(const VoxelParams&, const Frame&);
 
 struct Segment {
     DepthCurve curve;  ///< of virtual slices

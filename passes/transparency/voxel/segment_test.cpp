@@ -1,4 +1,4 @@
-// Facts about thick events (transparency chapter 6.5, last line).
+// Facts about thick events (docs/algorithms/transparency.md 6.5, thick objects).
 #include "passes/transparency/voxel/segment.h"
 
 #include <algorithm>
@@ -14,7 +14,9 @@ namespace {
 /// Slices 1 m thick; as even as a logarithm gets.
 DepthCurve even(double slices) { return {.slices = slices, .linear = 1e9, .farthest = slices}; }
 
-ColumnFormat format_of(std::uint32_t slices, std::uint32_t bits) { return column_format({.slices = slices, .bits = bits}); }
+ColumnFormat column_format_of(std::uint32_t slices, std::uint32_t bits) {
+    return column_format({.slices = slices, .bits = bits});
+}
 
 /// The integral of a column that holds one event: a segment, or a point.
 std::vector<double> integral_of(const ColumnFormat& format, double depth, double metres, std::uint32_t splatting, double tau) {
@@ -33,7 +35,7 @@ std::vector<double> integral_of(const ColumnFormat& format, double depth, double
 
 TEST(VoxelSegment, HidesInEverySliceAsMuchAsReachesThere) {
     // tau 1 over 8 slices, from 3.3 to 11.3.
-    const ColumnFormat format = format_of(16, bits_8);
+    const ColumnFormat format = column_format_of(16, bits_8);
     const std::vector<double> integral = integral_of(format, 7.3, 8, splatting_linear, 1);
     for (std::size_t k = 0; k < 16; ++k) {
         const double share = std::clamp((double(k) + 1 - 3.3) / 8, 0., 1.);
@@ -46,7 +48,7 @@ TEST(VoxelSegment, HidesInEverySliceAsMuchAsReachesThere) {
 TEST(VoxelSegment, ConvergesToTheAreaUnderItsTransmittance) {
     double before = 1;
     for (const std::uint32_t slices : {8u, 32u, 128u}) {
-        const ColumnFormat format = format_of(slices, bits_32);
+        const ColumnFormat format = column_format_of(slices, bits_32);
         const std::vector<double> integral = integral_of(format, slices / 2., slices, splatting_point, 1);
         double area = 0;
         for (const double codes : integral) area += format.transmittance(codes) / slices;
@@ -60,7 +62,7 @@ TEST(VoxelSegment, ConvergesToTheAreaUnderItsTransmittance) {
 TEST(VoxelSegment, AddsUpToTheUnsplitCode) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> unit(0, 1);
-    const ColumnFormat format = format_of(64, bits_8);
+    const ColumnFormat format = column_format_of(64, bits_8);
     for (int trial = 0; trial < 2000; ++trial) {
         const double codes = format.codes(7 * unit(random)), rounding = unit(random);
         const auto segment = segment_at(even(64), 70 * unit(random), .01 + 20 * unit(random), splatting_point);
@@ -82,7 +84,7 @@ TEST(VoxelSegment, IsAPointWhereItIsNotDeep) {
 }
 
 TEST(VoxelSegment, SeesNothingOfItself) {
-    const ColumnFormat format = format_of(32, bits_8);
+    const ColumnFormat format = column_format_of(32, bits_8);
     for (double depth = 8; depth < 9; depth += .01) {
         const auto segment = segment_at(even(32), depth, 5.7, splatting_linear);
         const std::vector<double> integral = integral_of(format, depth, 5.7, splatting_linear, 2);
@@ -98,14 +100,14 @@ TEST(VoxelSegment, SeesNothingOfItself) {
 }
 
 TEST(VoxelSegment, LeavesFullWhatIsFull) {
-    const ColumnFormat format = format_of(32, bits_8);
+    const ColumnFormat format = column_format_of(32, bits_8);
     EXPECT_EQ(without_own(format, 255, 100), 255);
     EXPECT_EQ(without_own(format, 90, 100), 0);
 }
 
 /// The most that T changes at 16.3 while an event of alpha .5 moves past by sixteenths of a slice.
 double unsteadiness(double metres, std::uint32_t splatting, std::uint32_t sampling) {
-    const ColumnFormat format = format_of(32, bits_32);
+    const ColumnFormat format = column_format_of(32, bits_32);
     double worst = 0, last = 1;
     for (double depth = 24; depth > 8; depth -= 1. / 16) {
         const std::vector<double> integral = integral_of(format, depth, metres, splatting, std::log(2));

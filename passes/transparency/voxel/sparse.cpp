@@ -20,7 +20,7 @@ std::uint32_t words_for(const VoxelParams& params, std::uint32_t slices) {
 }
 
 /// From the finest, halved until there is a single word.
-std::vector<std::uint32_t> resolutions(const VoxelParams& params, std::uint32_t finest) {
+std::vector<std::uint32_t> resolutions_down_from(const VoxelParams& params, std::uint32_t finest) {
     std::vector<std::uint32_t> slices{finest};
     while (words_for(params, slices.back()) > 1) slices.push_back(slices.back() / 2);
     return slices;
@@ -138,7 +138,7 @@ SparseNotes sparse_notes(const VoxelParams& params, std::uint32_t slices, Extent
     const std::uint64_t count = std::uint64_t{tiles.width} * tiles.height;
     const auto groups = [&](std::uint32_t n) { return (words_for(params, n) + 31) / 32; };
     SparseNotes notes{.marks = first_mark, .table = count * 2 * groups(slices)};
-    for (const std::uint32_t n : resolutions(params, slices)) notes.marks += count * groups(n);
+    for (const std::uint32_t n : resolutions_down_from(params, slices)) notes.marks += count * groups(n);
     return notes;
 }
 
@@ -155,7 +155,7 @@ DepthCurve sparse_curve(const VoxelParams& params, DepthRange range, Extent colu
 
 std::uint32_t sparse_halvings(const VoxelParams& params, const Frame& frame, Extent columns, std::uint32_t channels) {
     const DepthCurve curve = sparse_curve(params, voxel_range(params, frame), columns);
-    const std::vector<std::uint32_t> slices = resolutions(params, static_cast<std::uint32_t>(curve.slices));
+    const std::vector<std::uint32_t> slices = resolutions_down_from(params, static_cast<std::uint32_t>(curve.slices));
     std::vector<Tile> tiles;
     for (const RayRectangle& rays : rays_of_tiles(frame, columns)) tiles.push_back({rays, TileWords(params, slices)});
     for (const std::uint32_t draw : transparent_draws(frame))

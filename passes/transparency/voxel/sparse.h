@@ -1,5 +1,5 @@
-// The sparse volume: blocks of 8 x 8 columns by a word for what each tile holds, out of a pool of fixed size (transparency
-// chapter 6.13: the talk's future work). pool.glsl has where they are.
+// The sparse volume: blocks of 8 x 8 columns by a word for what each tile holds, out of a pool of fixed size
+// (docs/algorithms/transparency.md 6.13: the talk's future work). pool.glsl has where they are.
 #pragma once
 
 #include "passes/transparency/voxel/depth_curve.h"

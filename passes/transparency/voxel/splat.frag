@@ -1,5 +1,5 @@
-// Adds a fragment's optical depth as an integer to one or two slices of its column (transparency chapter 6.4 and 6.5). There is no
-// atomic multiplication, hence logarithms; integers add up to the same in any order.
+// Adds a fragment's optical depth as an integer to one or two slices of its column (docs/algorithms/transparency.md 6.4 and 6.5).
+// There is no atomic multiplication, hence logarithms; integers add up to the same in any order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"

@@ -1,5 +1,5 @@
-// What a fragment lets through, multiplied by the blending into its triangle's slice (transparency chapter 6.4). Every attachment of
-// a layered draw has as many layers, so opaque depth is tested here.
+// What a fragment lets through, multiplied by the blending into its triangle's slice (docs/algorithms/transparency.md 6.4). Every
+// attachment of a layered draw has as many layers, so opaque depth is tested here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"

@@ -1,5 +1,5 @@
 // How deep a draw's events are along the view: nothing, or what its emitter says by how far it fades before opaque surfaces
-// (transparency chapter 6.5, last line).
+// (docs/algorithms/transparency.md 6.5, thick objects).
 #ifndef PASSES_TRANSPARENCY_VOXEL_THICKNESS_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_THICKNESS_GLSL
 #include "passes/shaders/scene.glsl"

@@ -1,5 +1,5 @@
-// Marks the words of each tile of 8 x 8 columns that are splatted to or read (transparency chapter 6.8): what is cleared and
-// integrated. A row of groups for each draw, a group for each of its triangles, a thread for each tile around it.
+// Marks the words of each tile of 8 x 8 columns that are splatted to or read (docs/algorithms/transparency.md 6.8): what is
+// cleared and integrated. A row of groups for each draw, a group for each of its triangles, a thread for each tile around it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// Facts about color where T(z) has one channel (transparency chapter 6.12).
+// Facts about color where T(z) has one channel (docs/algorithms/transparency.md 6.12).
 #include "passes/transparency/tint_model.h"
 
 #include <algorithm>

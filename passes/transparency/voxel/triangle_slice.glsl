@@ -1,7 +1,7 @@
 // The slice that a whole triangle is multiplied into: that of its corners' mean depth, depth offsets applied. A fragment cannot
-// choose the layer it is drawn into, and the quads of particles, which face the eye, have one depth (transparency chapter 6.4). A
-// shader that includes this declares `VoxelPush push` in its push constants first. Where slices are adaptive and the center, which
-// may be out of sight, is in none of them, the next in front has it.
+// choose the layer it is drawn into, and the quads of particles, which face the eye, have one depth
+// (docs/algorithms/transparency.md 6.4). A shader that includes this declares `VoxelPush push` in its push constants first. Where
+// slices are adaptive and the center, which may be out of sight, is in none of them, the next in front has it.
 #ifndef PASSES_TRANSPARENCY_VOXEL_TRIANGLE_SLICE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_TRIANGLE_SLICE_GLSL
 #include "passes/transparency/voxel/depth_curve.glsl"

@@ -1,7 +1,7 @@
 #include "passes/transparency/voxel/views.h"
 
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/dimensions.h"
 #include "passes/transparency/voxel/volume.h"
 
 namespace strata::transparency {
@@ -18,7 +18,7 @@ std::uint32_t most_rows(std::uint32_t shown, const VoxelPush& push) {
 
 template <std::uint32_t shown>
 Image table(Graph& graph, FrameImages& images, const Settings& settings) {
-    const auto params = voxel_params(settings, *images.recorded);
+    const auto params = voxel_params(settings, *images.facts);
     Volume volume = integrated_volume(graph, images, params);
     Buffer counts = graph.create("slice counts", volume.push.slices * sizeof(SliceCounts));
     graph.clear(counts, 0);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/reference/triangles.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/voxel/color_column.h"
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/dimensions.h"
 #include "passes/transparency/voxel/factors.h"
-#include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/segment.h"
 #include "passes/transparency/voxel/sparse.h"
 
@@ -80,8 +80,8 @@ ComputePass& bind_tiles(Volume& volume, const VoxelParams& params, ComputePass& 
 /// A step with a row of groups for each transparent draw, each for so many of its triangles at a time.
 ComputePass over_triangles(Graph& graph, const FrameImages& images, const char* shader, std::uint32_t triangles_per_group) {
     std::uint32_t most = 1;
-    for (const std::uint32_t draw : transparent_draws(*images.recorded))
-        most = std::max(most, triangle_count(*images.recorded, draw));
+    for (const std::uint32_t index : images.facts->lists().transparent)
+        most = std::max(most, triangles_drawn(*images.recorded, index));
     const std::uint32_t groups = std::min((most + triangles_per_group - 1) / triangles_per_group, 1024u);
     const DrawList& list = images.transparent;
     ComputePass pass = graph.compute(shader);
@@ -136,14 +136,20 @@ void give_blocks(Graph& graph, const VoxelParams& params, Volume& volume) {
         .groups(voxel_tiles(columns));
 }
 
+DepthRange range_of(const VoxelParams& params, const SceneFacts& facts) {
+    double deepest = 0;
+    for (const std::uint32_t index : facts.lists().transparent)
+        deepest = std::max(deepest, thickness_of(params, facts.frame(), index));
+    return voxel_range(params, facts.world_depths(), deepest, facts.frame().view.near);
+}
+
 /// All but images and buffers.
 Volume described(const FrameImages& images, const VoxelParams& params) {
     const std::uint32_t channels = channel_count(params.channels, *images.features);
-    const Frame& frame = *images.recorded;
-    const VoxelParams all = of_volume(params, frame), world = of_world(params, frame);
+    const VoxelParams all = of_volume(params, *images.facts), world = of_world(params, *images.facts);
     const std::uint32_t divisor = voxel_divisor(all, images.extent, channels);
     const Extent columns = prepass_extent(images.extent, divisor);
-    const DepthRange range = voxel_range(params, frame);
+    const DepthRange range = range_of(params, *images.facts);
     const DepthCurve curve = is_sparse(params) ? sparse_curve(params, range, columns) : depth_curve(world, range);
     Volume volume{.divisor = divisor,
                   .field_bits = column_format(params).field_bits,
@@ -213,7 +219,7 @@ Volume integrated_volume(Graph& graph, const FrameImages& images, const VoxelPar
     // A frame's history moves on once, however many volumes are made to be looked at.
     if (params.hysteresis > 0) volume.warp = graph.find_buffer(warp_name);
     const bool finds = is_adaptive(params) && !volume.warp;
-    create_parts(graph, of_volume(params, *images.recorded), volume);
+    create_parts(graph, of_volume(params, *images.facts), volume);
     const Extent columns{volume.push.width, volume.push.height, volume.packs ? 1 : volume.push.channels};
 
     if (finds) find_slices(graph, images, params, volume);

@@ -5,7 +5,6 @@
 
 #include "passes/frame_images.h"
 #include "passes/graph/graph.h"
-#include "passes/reference/fragments.h"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 namespace strata::transparency {
@@ -34,7 +33,8 @@ Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&, Resolution drawn);
 ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);
 
-/// From the integral being full in a slice to all that a filtered read weighs being full, in slices (transparency chapter 6.9).
+/// From the integral being full in a slice to all that a filtered read weighs being full, in slices
+/// (docs/algorithms/transparency.md 6.9).
 double slices_to_zero(const VoxelParams&);
 
 /// To a step that looks at what is in columns: integral, overflows, tiles.

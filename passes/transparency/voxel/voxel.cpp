@@ -6,13 +6,17 @@
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
-#include "passes/transparency/voxel/model.h"
+#include "passes/transparency/voxel/dimensions.h"
 #include "passes/transparency/voxel/ratios.h"
 #include "passes/transparency/voxel/views.h"
 #include "passes/transparency/voxel/volume.h"
+#include "passes/transparency/voxel/voxel.shared.h"
 #include "passes/transparency/voxel/zero_depth.h"
 
 namespace strata::transparency {
+
+ImageSet voxel_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 // In the order of the constants in voxel.shared.h.
@@ -32,7 +36,7 @@ constexpr std::string_view preparations[] = {"after_opaque", "before_opaque"};
 constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_screen"};
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
-    const auto params = voxel_params(settings, *images.recorded);
+    const auto params = voxel_params(settings, *images.facts);
     const bool earlier = is_made_before_opaque(params, *images.features);
     Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
@@ -45,7 +49,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
 
 /// Before the opaque draws: from which depth on nothing is seen of them, either.
 void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
-    const auto params = voxel_params(settings, *images.recorded);
+    const auto params = voxel_params(settings, *images.facts);
     if (!is_made_before_opaque(params, *images.features)) return;
     images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
 }
@@ -247,12 +251,12 @@ std::vector<Counter> counters() {
 
 template <std::uint32_t shown>
 Image picture(Graph& graph, FrameImages& images, const Settings& settings) {
-    return volume_view(graph, images, voxel_params(settings, *images.recorded), shown);
+    return volume_view(graph, images, voxel_params(settings, *images.facts), shown);
 }
 
 template <Image (*view)(Graph&, const FrameImages&, const VoxelParams&)>
 Image voxel_picture(Graph& graph, FrameImages& images, const Settings& settings) {
-    return view(graph, images, voxel_params(settings, *images.recorded));
+    return view(graph, images, voxel_params(settings, *images.facts));
 }
 
 std::vector<DebugView> views() {
@@ -337,6 +341,7 @@ Technique voxel() {
         .add = add_function<sums>,
         .also = {{.at = Stage::extinction, .add = prepare}},
         .model = voxel_model,
+        .model_is = ModelKind::mirror,
         .tolerance = {.rmse = 5e-4,
                       .worst = 1e-2,
                       .because = "codes are the model's to the last bit on every scenario; what is left is a step of the formats "

@@ -1,6 +1,7 @@
-// Facts about voxel transparency (transparency chapter 6: 6.2 to 6.7, and of 6.17 V1 to V5, V7, V8 and V11).
+// Facts about voxel transparency (docs/algorithms/transparency.md 6: 6.2 to 6.7, and of 6.17 V1 to V5, V7, V8 and V11).
 #include "passes/transparency/voxel/column.h"
 #include "passes/transparency/voxel/depth_curve.h"
+#include "passes/transparency/voxel/dimensions.h"
 #include "passes/transparency/voxel/model.h"
 #include "passes/transparency/voxel/volume.h"
 #include "tests/support/layers.h"
@@ -328,7 +329,7 @@ TEST(Voxel, HasAsManyColumnsAsFitIntoHalfAGibibyte) {
     VoxelParams packed = params;
     packed.packing = packing_rgb10;
     EXPECT_EQ(4 * voxel_words(params, 3), 384u);         // bytes of a texel
-    EXPECT_EQ(4 * voxel_words(packed, 3), 128u + 512u);  // the chapter's are 128 + 512 + 512, with an integral of its own
+    EXPECT_EQ(4 * voxel_words(packed, 3), 128u + 512u);  // docs/algorithms/transparency.md 6.14 has 512 more, for the integral
     EXPECT_EQ(voxel_words(packed, 1), voxel_words(params, 1));
     EXPECT_EQ(voxel_divisor(packed, {1920, 1080, 1}, 3), 2u);
     VoxelParams eighth = params;
@@ -349,7 +350,7 @@ TEST(Voxel, BlendsTheRampOfTwentyLayersAsFarAs255LevelsGo) {
     std::vector<Fragment> ramp;
     for (int i = 0; i < 20; ++i) ramp.push_back(layer(3.5 + 5 * i, .3, i / 19.));
     EXPECT_NEAR(blend({format_of(splat_overflow_minimum)}, ramp), .12324, 2e-3);
-    EXPECT_NEAR(blend({format_of(splat_overflow_minimum, bits_32)}, ramp), .121869, 2e-3);  // R7
+    EXPECT_NEAR(blend({format_of(splat_overflow_minimum, bits_32)}, ramp), .121869, 2e-3);  // docs/algorithms/transparency.md R7
 }
 
 TEST(Voxel, SeesThinSmokeInFrontOfACard) {
@@ -379,10 +380,10 @@ double area_to_the_exact_steps(const Settled& settled, std::span<const Fragment>
 
 struct AreaRow {
     std::uint32_t slices;
-    std::array<double, 4> point, linear;  ///< of the rays A to D of chapter 9.3
+    std::array<double, 4> point, linear;  ///< of the rays A to D of docs/algorithms/transparency.md 9.3
 };
-// The chapter's linear rows are those of halves rounded on their own (.0643 and .0315 of ray C, .0450 and .0127 of D): what is
-// lost one by one happens to make up for what a single rounding adds. Ours keep the unsplit code and are held against a second
+// The linear rows of that table are those of halves rounded on their own (.0643 and .0315 of ray C, .0450 and .0127 of D): what
+// is lost one by one happens to make up for what a single rounding adds. Ours keep the unsplit code and are held against a second
 // program.
 constexpr AreaRow area_table[] = {
     {32, {.0068, .0215, .1058, .0200}, {.0340, .0423, .1359, .0453}},

@@ -1,5 +1,6 @@
-// The table that packs slices with something in them (transparency chapter 6.10), at the finest resolution at which there are no more
-// than the volume has, or a coarser one that is held (6.11). One group; a thread for each 32 slices.
+// The table that packs slices with something in them (docs/algorithms/transparency.md 6.10), at the finest resolution at which
+// there are no more than the volume has, or a coarser one that is held (docs/algorithms/transparency.md 6.11). One group; a
+// thread for each 32 slices.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

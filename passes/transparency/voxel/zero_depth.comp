@@ -1,5 +1,5 @@
 // The depth from which on nothing is seen in a tile of pixels: the farthest of the columns that any of them may read, of all
-// channels; a column of which something is always seen is infinitely far (transparency chapter 6.9). A group per tile.
+// channels; a column of which something is always seen is infinitely far (docs/algorithms/transparency.md 6.9). A group per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/camera.glsl"

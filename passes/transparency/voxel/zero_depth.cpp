@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/voxel/zero_depth.shared.h"
 
@@ -16,14 +17,6 @@ struct ZeroTiles {
 };
 
 bool draws_quads(const VoxelParams& params) { return params.culling == culling_quads_16 || params.culling == culling_quads_32; }
-
-/// By how much a fragment is at most sorted nearer than it is tested.
-float farthest_offset(const Frame& frame) {
-    float offset = 0;
-    for (const Emitter& emitter : frame.emitters)
-        for (const Particle& particle : emitter.particles) offset = std::max(offset, particle.depth_offset);
-    return offset;
-}
 
 ZeroTiles zero_tiles(Graph& graph, const FrameImages& images, const Volume& volume, const VoxelParams& params) {
     const std::uint32_t edge = params.culling == culling_quads_32 ? 32 : 16;
@@ -42,7 +35,7 @@ ZeroTiles zero_tiles(Graph& graph, const FrameImages& images, const Volume& volu
         .updates("QuadDraw", zero.draw)
         .fixes("tile_edge", edge)
         .fixes("slices_to_zero", static_cast<float>(slices_to_zero(params)))
-        .fixes("farthest_offset", farthest_offset(*images.recorded))
+        .fixes("farthest_offset", images.facts->farthest_depth_offset())
         .fixes("reach", volume.divisor == 1 ? 0u : 1u)
         .fixes("draws_quads", draws_quads(params) ? 1u : 0u)
         .groups(tiles);

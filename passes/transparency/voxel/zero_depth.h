@@ -1,5 +1,6 @@
-// Where nothing is seen any more, tile by tile, and opaque depth that says so: what is behind is not shaded (transparency chapter
-// 6.9). The picture does not change by a bit: an event whose T(z) is 0 in all channels adds nothing, drawn or not.
+// Where nothing is seen any more, tile by tile, and opaque depth that says so: what is behind is not shaded
+// (docs/algorithms/transparency.md 6.9). The picture does not change by a bit: an event whose T(z) is 0 in all channels adds
+// nothing, drawn or not.
 #pragma once
 
 #include "passes/frame_images.h"

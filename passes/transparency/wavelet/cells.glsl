@@ -1,5 +1,5 @@
-// Depth on [0, 1] and the Haar basis over N = 2^(rank + 1) cells of it (transparency chapter 5, variant A). A shader that includes
-// this declares `WaveletPush push` in its push constants first.
+// Depth on [0, 1] and the Haar basis over N = 2^(rank + 1) cells of it (docs/algorithms/transparency.md 5, variant A). A shader
+// that includes this declares `WaveletPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_WAVELET_CELLS_GLSL
 #define PASSES_TRANSPARENCY_WAVELET_CELLS_GLSL
 #include "passes/transparency/optical_depth.glsl"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/reference/ordering.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/rounding.h"
 

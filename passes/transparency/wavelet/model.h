@@ -1,5 +1,5 @@
-// The method in double precision: as the column of cells that the Haar coefficients stand for (transparency chapter 5: the master
-// test), except where the storage rounds the coefficients themselves.
+// The method in double precision: as the column of cells that the Haar coefficients stand for (docs/algorithms/transparency.md 5:
+// the master test), except where the storage rounds the coefficients themselves.
 #pragma once
 
 #include <span>

@@ -3,15 +3,19 @@
 
 #include <fmt/format.h>
 
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_draw.h"
 #include "passes/transparency/function_motion.h"
 #include "passes/transparency/function_prepass.h"
 #include "passes/transparency/lists.h"
-#include "passes/transparency/wavelet/model.h"
+#include "passes/transparency/wavelet/wavelet.shared.h"
 
 namespace strata::transparency {
+
+ImageSet wavelet_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 constexpr std::string_view storages[] = {"half", "single"};
@@ -44,7 +48,7 @@ Buffer find_bounds(Graph& graph, const FrameImages& low, const WaveletParams& pa
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<WaveletParams>();
     const FrameImages low = prepass_images(graph, images, divisor_of(params.resolution));
-    const DepthRange range = transparent_depth_range(*images.recorded);
+    const DepthRange range = images.facts->transparent_depths();
     const WaveletPush push{.log_nearest = std::log(range.nearest),
                            .log_farthest = std::log(range.farthest),
                            .jitter = params.jitter,

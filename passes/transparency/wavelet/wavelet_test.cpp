@@ -1,4 +1,4 @@
-// Facts about wavelet transparency (transparency chapter 5, oracles (a) to (d), section 11, hard cases H5 and H14).
+// Facts about wavelet transparency (docs/algorithms/transparency.md 5, oracles (a) to (d), section 11, hard cases H5 and H14).
 #include "passes/transparency/wavelet/model.h"
 #include "tests/support/layers.h"
 

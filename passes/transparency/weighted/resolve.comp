@@ -27,7 +27,7 @@ float weight_at(float z) {
 }
 
 // Weights fall with depth or not at all, so the scene's nearest and farthest fragment decide whether they are constant over it
-// (transparency chapter 3.1: a public port's were).
+// (docs/algorithms/transparency.md 3.1: a public port's were).
 bool weights_differ() {
     const float nearest = uintBitsToFloat(~counters.nearest_inverted), farthest = uintBitsToFloat(counters.farthest);
     return params.form == form_normalized && counters.fragments > 0u && weight_at(nearest) > 1.001 * weight_at(farthest);

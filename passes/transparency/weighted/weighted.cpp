@@ -3,10 +3,12 @@
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_prepass.h"
-#include "passes/transparency/weighted/model.h"
 #include "passes/transparency/weighted/weighted.shared.h"
 
 namespace strata::transparency {
+
+ImageSet weighted_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 // In the order of the constants in weighted.shared.h.

@@ -1,4 +1,4 @@
-// Facts about weighted blending (transparency chapter 3.1: the table of weights, oracles (a) to (e), section 11).
+// Facts about weighted blending (docs/algorithms/transparency.md 3.1: the table of weights, oracles (a) to (e), section 11).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,9 +32,9 @@ TEST(WeightedBlending, HasTheWeightsOfThePaper) {
         {.1, 3000, 3000, 3000}, {1, 249.938, 3000, 2999.81}, {5, 9.9999, 79.9936, 2887.22}, {10, 2.49999, 9.9999, 1846.15},
         {50, .1, .08, 7.66039}, {100, .025, .01, .479923},   {200, .01, .01, .03}};
     for (const Row& row : rows) {
-        EXPECT_NEAR(share_of_alpha(weight_w7, row.depth), row.w7, row.w7 * 3e-3) << row.depth;
-        EXPECT_NEAR(share_of_alpha(weight_w8, row.depth), row.w8, row.w8 * 3e-3) << row.depth;
-        EXPECT_NEAR(share_of_alpha(weight_w9, row.depth), row.w9, row.w9 * 3e-3) << row.depth;
+        EXPECT_NEAR(share_of_alpha(weight_w7, row.depth), row.w7, row.w7 * 1e-4) << row.depth;
+        EXPECT_NEAR(share_of_alpha(weight_w8, row.depth), row.w8, row.w8 * 1e-4) << row.depth;
+        EXPECT_NEAR(share_of_alpha(weight_w9, row.depth), row.w9, row.w9 * 1e-4) << row.depth;
     }
 }
 
@@ -42,6 +42,24 @@ TEST(WeightedBlending, WeighsByTheCubeOfReversedDepthInEquationTen) {
     EXPECT_DOUBLE_EQ(share_of_alpha(weight_w10, near_plane), 3000);
     EXPECT_NEAR(share_of_alpha(weight_w10, 2 * near_plane), 3000. / 8, 1e-9);
     EXPECT_DOUBLE_EQ(share_of_alpha(weight_w10, 100), .01);
+}
+
+TEST(WeightedBlending, WeighsByTheBrightestColorOrAlphaInTheFormOfTheBlog) {
+    // McGuire's blog, 2014 (docs/algorithms/transparency.md 3.1): max(min(1, max(r, g, b) alpha), alpha) times
+    // clamp(.03 / (1e-5 + (z / 200)^4), 1e-2, 3e3). At 50 m the latter is .03 / (1e-5 + 1 / 256) = 7.660389, at 10 m
+    // .03 / (1e-5 + 1 / 160000) = 1846.154, at 300 m .01.
+    const auto weight = [](double depth, double alpha, glm::dvec3 unpremultiplied) {
+        const Fragment f{
+            .depth = depth, .color = alpha * unpremultiplied, .transmittance = glm::dvec3(1 - alpha), .alpha = alpha};
+        return weight_in_double({.weight = weight_blog, .scale = 1}, near_plane, f);
+    };
+    EXPECT_NEAR(weight(50, .5, {.2, .9, .1}), .5 * 7.660389, 4e-6) << "alpha";
+    EXPECT_NEAR(weight(50, .5, {.2, 1.2, .1}), .6 * 7.660389, 5e-6) << "green";
+    EXPECT_NEAR(weight(50, .5, {.2, .3, 1.6}), .8 * 7.660389, 6e-6) << "blue";
+    EXPECT_NEAR(weight(50, .5, {1000, .3, .1}), 7.660389, 8e-6) << "no more than 1";
+    EXPECT_NEAR(weight(10, .25, glm::dvec3(0)), .25 * 1846.154, 2e-3);
+    EXPECT_NEAR(weight(300, .25, glm::dvec3(0)), .0025, 1e-12);
+    EXPECT_NEAR(weight(.1, .25, glm::dvec3(0)), 750, 1e-5);
 }
 
 TEST(WeightedBlending, IsNotAnAverageInDisguise) {

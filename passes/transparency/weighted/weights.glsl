@@ -1,4 +1,4 @@
-// How much a fragment counts in the average (McGuire and Bavoil 2013, equations 7 to 10; transparency chapter 3.1).
+// How much a fragment counts in the average (McGuire and Bavoil 2013, equations 7 to 10; docs/algorithms/transparency.md 3.1).
 #ifndef PASSES_TRANSPARENCY_WEIGHTED_WEIGHTS_GLSL
 #define PASSES_TRANSPARENCY_WEIGHTED_WEIGHTS_GLSL
 #include "passes/transparency/weighted/weighted.shared.h"

@@ -1,4 +1,4 @@
-// What a fragment adds (Kircher, GDC 2018; transparency chapter 3.2), and the mask of tiles that have any.
+// What a fragment adds (Kircher, GDC 2018; docs/algorithms/transparency.md 3.2), and the mask of tiles that have any.
 #ifndef PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #define PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #include "passes/transparency/event.glsl"

@@ -1,5 +1,5 @@
 // The weighted average, amplified by how many layers were additive, over what still shows through (Kircher, GDC 2018;
-// transparency chapter 3.2). One workgroup per tile and sample; a tile no fragment touched is left alone.
+// docs/algorithms/transparency.md 3.2). One workgroup per tile and sample; a tile no fragment touched is left alone.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "passes/reference/fragments.h"
 #include "passes/technique.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 

@@ -5,10 +5,12 @@
 #include "passes/transparency/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/function_prepass.h"
-#include "passes/transparency/weighted_additive/model.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
 namespace strata::transparency {
+
+ImageSet weighted_additive_model(const StageInput&, const Settings&);  // model.cpp
+
 namespace {
 
 // In the order of the constants in weighted_additive.shared.h.

@@ -1,4 +1,5 @@
-// Facts about weighted blending with additiveness (transparency chapter 3.2: the depth term, the table of oracles, how it fails).
+// Facts about weighted blending with additiveness (docs/algorithms/transparency.md 3.2: the depth term, the table of oracles, how
+// it fails).
 #include <algorithm>
 #include <array>
 
@@ -40,7 +41,7 @@ TEST(WeightedAdditive, WeighsByOpacityAndByExposedEmission) {
     EXPECT_NEAR(additive_weight(published, .5, glow(10, .3333)), depth_term / 8, 1e-4) << "as the exposed picture shows it";
 }
 
-// The chapter's table was measured with half-float sums: .20007 for .2.
+// The table of docs/algorithms/transparency.md 3.2 was measured with half-float sums: .20007 for .2.
 TEST(WeightedAdditive, CountsAdditiveLayersAndMultipliesTheirMean) {
     EXPECT_NEAR(blend(published, std::array{glow(10, .2)}), .300858, 1e-4);
     EXPECT_NEAR(blend(published, std::vector<Fragment>(3, glow(10, .2))), .702427, 1e-4);

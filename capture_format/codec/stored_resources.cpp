@@ -1,0 +1,35 @@
+// Names the bulk of resources and gives it to the blobs.
+#include "capture_format/codec/stored_resources.h"
+
+namespace strata {
+
+StoredTexture store(const Texture& texture, BlobCollector& blobs) {
+    return {.texture = {.name = texture.name,
+                        .format = texture.format,
+                        .width = texture.width,
+                        .height = texture.height,
+                        .mips = texture.mips,
+                        .address = texture.address,
+                        .texels = {}},
+            .texels = store(texture.texels, blobs)};
+}
+
+StoredMesh store(const Mesh& mesh, BlobCollector& blobs) {
+    return {.name = mesh.name,
+            .positions = store(mesh.positions, blobs),
+            .normals = store(mesh.normals, blobs),
+            .tangents = store(mesh.tangents, blobs),
+            .uv0 = store(mesh.uv0, blobs),
+            .uv1 = store(mesh.uv1, blobs),
+            .colors = store(mesh.colors, blobs),
+            .indices = store(mesh.indices, blobs)};
+}
+
+StoredResources store_resources(const Frame& frame, BlobCollector& blobs) {
+    StoredResources stored{.textures = {}, .meshes = {}, .materials = frame.materials};
+    for (const Texture& texture : frame.textures) stored.textures.push_back(store(texture, blobs));
+    for (const Mesh& mesh : frame.meshes) stored.meshes.push_back(store(mesh, blobs));
+    return stored;
+}
+
+}  // namespace strata

@@ -1,0 +1,110 @@
+// Bulk bytes of a capture, addressed by what they are: equal bytes are stored once, in whichever frame they appear first.
+// A blobs section is one zstd frame (per-record compression made a peer's files larger) with its index in front.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture_format/container/container.h"
+#include "capture_format/result.h"
+
+namespace strata {
+
+/// XXH3-128 of a blob's bytes; zero for no bytes at all.
+struct BlobHash {
+    std::uint64_t low = 0, high = 0;
+    auto operator<=>(const BlobHash&) const = default;
+};
+BlobHash blob_hash(std::span<const std::byte>);
+/// 32 hex digits, and back: nothing for any other text.
+std::string text(const BlobHash&);
+std::optional<BlobHash> parse_blob_hash(std::string_view);
+
+/// A blob as a frame names it.
+struct BlobName {
+    BlobHash hash;
+    std::uint64_t bytes = 0;
+};
+
+/// Grammar of a blobs section's payload.
+inline constexpr std::uint32_t blobs_version = 1;
+/// What one blobs section may hold decompressed, and so a blob: bounds what a hostile file can make a reader allocate.
+inline constexpr std::uint64_t largest_blobs_section = std::uint64_t{1} << 30;
+
+/// A blobs section ready to be written: Payload::stored and Payload::raw_bytes.
+struct PackedBlobs {
+    std::vector<std::byte> stored;
+    std::uint64_t raw_bytes = 0;
+};
+
+/// Writing: collects blobs until they are packed, and remembers for ever which ones there were.
+class BlobCollector {
+public:
+    /// Keeps a copy of the bytes unless equal ones were put before.
+    BlobName put(std::span<const std::byte>);
+    /// The blobs put since the last call as sections, none when there are no new ones. Fails for a blob above the limit.
+    Result<std::vector<PackedBlobs>> pack();
+    /// What pack() would compress now.
+    std::uint64_t pending_bytes() const { return pending_bytes_; }
+
+private:
+    struct Pending {
+        BlobHash hash;
+        std::vector<std::byte> bytes;
+    };
+    static PackedBlobs pack(std::span<const Pending>, std::uint64_t raw_bytes);
+
+    std::set<BlobHash> known_;
+    std::vector<Pending> pending_;
+    std::uint64_t pending_bytes_ = 0;
+};
+
+/// Reading: finds blobs by hash, decompresses a section when one of its blobs is asked for the first time.
+class BlobStore {
+public:
+    /// Reads the indices of all blobs sections of frames, or of the images of expectations; decompresses nothing. The container
+    /// must outlive the store.
+    static Result<BlobStore> open(const Container&, SectionType = SectionType::blobs);
+
+    /// The bytes of a blob, valid until keep_only_used().
+    Result<std::span<const std::byte>> find(const BlobName&);
+    /// Frees the sections of which no blob was asked for since the last call.
+    void keep_only_used();
+
+    std::size_t size() const { return places_.size(); }
+    std::uint64_t raw_bytes() const { return raw_bytes_; }
+    std::uint64_t stored_bytes() const { return stored_bytes_; }
+    /// Decompressed sections held now.
+    std::size_t sections_held() const;
+
+private:
+    struct Place {
+        std::size_t section = 0;  ///< in sections_
+        std::uint64_t offset = 0, bytes = 0;
+    };
+    struct BlobsSection {
+        std::size_t number = 0;  ///< in the container
+        std::vector<BlobHash> hashes;
+        std::vector<std::uint64_t> sizes;
+        std::vector<std::byte> bytes;
+        bool held = false, used = false;
+    };
+    explicit BlobStore(const Container& container) : container_(&container) {}
+    Result<void> read_index(std::size_t section);
+    Result<void> decompress(BlobsSection&);
+
+    const Container* container_;
+    std::vector<BlobsSection> sections_;
+    std::map<BlobHash, Place> places_;
+    std::uint64_t raw_bytes_ = 0, stored_bytes_ = 0;
+};
+
+}  // namespace strata

@@ -1,0 +1,263 @@
+// Reads and writes the container; the grammar stands below.
+#include "capture_format/container/container.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include <xxhash.h>
+
+// The grammar. Numbers are little-endian, offsets count from the start of the file.
+//
+//   file      = header section*
+//   header    = magic:8  container_version:u32  flags:u32                     flags are 0
+//   section   = prefix  byte[stored_bytes]  zero[-stored_bytes mod 8]         so every payload is 8-byte aligned
+//   prefix    = "SECT"  type:u32  version:u32  0:u32  stored_bytes:u64  raw_bytes:u64  checksum:u64  seal:u64
+//   checksum  = XXH3-64 of the stored bytes
+//   seal      = XXH3-64 of the prefix before it
+//   directory = entry*  offset:u64  end_magic:8                               the payload of a section of type directory
+//   entry     = offset:u64  type:u32  version:u32  stored_bytes:u64  raw_bytes:u64  checksum:u64
+//
+// The last section of a finished file is a directory; its last 16 bytes, which are the last of the file, say where that
+// section begins. Its entries are all sections before it, in order and without gaps, older directories included: that is
+// what lets a finished file be extended by appending. Without a directory the sections are found one after the other.
+namespace strata {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "captures are little-endian and read in place");
+
+struct Header {
+    std::array<char, 8> magic;
+    std::uint32_t version, flags;
+};
+struct Prefix {
+    std::array<char, 4> mark;
+    std::uint32_t type, version, zero;
+    std::uint64_t stored_bytes, raw_bytes, checksum, seal;
+};
+struct DirectoryEntry {
+    std::uint64_t offset;
+    std::uint32_t type, version;
+    std::uint64_t stored_bytes, raw_bytes, checksum;
+};
+struct Trailer {
+    std::uint64_t offset;
+    std::array<char, 8> end_magic;
+};
+static_assert(sizeof(Header) == 16 && sizeof(Prefix) == 48 && sizeof(DirectoryEntry) == 40 && sizeof(Trailer) == 16);
+
+// Like PNG's: a byte above 127, both line ends and an end-of-file show what a text-mode transfer did to the file.
+constexpr std::array<char, 8> magic = {'\x93', 'S', 'T', 'R', '\r', '\n', '\x1a', '\n'};
+constexpr std::array<char, 8> end_magic = {'S', 'T', 'R', 'A', 'T', 'E', 'N', 'D'};
+constexpr std::array<char, 4> mark = {'S', 'E', 'C', 'T'};
+
+std::uint64_t xxh3(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+std::uint64_t padded(std::uint64_t bytes) { return (bytes + 7) & ~std::uint64_t{7}; }
+
+/// Where the next section begins.
+std::uint64_t end_of(const Section& section) { return section.offset + sizeof(Prefix) + padded(section.stored_bytes); }
+
+template <typename T>
+T read_at(std::span<const std::byte> bytes, std::uint64_t offset) {
+    T value;
+    std::memcpy(&value, bytes.data() + offset, sizeof(T));
+    return value;
+}
+
+template <typename T>
+std::span<const std::byte> bytes_of(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+std::uint64_t seal_of(const Prefix& prefix) { return xxh3(bytes_of(prefix).first(offsetof(Prefix, seal))); }
+
+/// True when `section` lies within `size` bytes. Written so that no sum can wrap.
+bool fits(const Section& section, std::uint64_t size) {
+    return section.offset <= size && size - section.offset >= sizeof(Prefix) &&
+           section.stored_bytes <= size - section.offset - sizeof(Prefix) &&
+           padded(section.stored_bytes) <= size - section.offset - sizeof(Prefix);
+}
+
+}  // namespace
+
+std::string_view name(SectionType type) {
+    constexpr std::string_view names[] = {"directory", "thumbnail", "frame", "blobs", "expect", "notes"};
+    const auto index = static_cast<std::size_t>(type);
+    return index < std::size(names) ? names[index] : "unknown";
+}
+
+Result<Container> Container::open(const std::filesystem::path& path) {
+    Result<MappedFile> file = MappedFile::open(path);
+    if (!file) return file.error();
+    const std::span<const std::byte> bytes = file->bytes();
+    std::string name = file->path();
+    return read(Container(*std::move(file), bytes, std::move(name)));
+}
+
+Result<Container> Container::open(std::span<const std::byte> bytes, std::string name) {
+    std::vector<std::byte> copy(bytes.begin(), bytes.end());
+    const std::span<const std::byte> view = copy;
+    return read(Container(std::move(copy), view, std::move(name)));
+}
+
+Container::Container(Source source, std::span<const std::byte> bytes, std::string name)
+    : source_(std::move(source)), bytes_(bytes), name_(std::move(name)) {}
+
+Result<Container> Container::read(Container container) {
+    if (const Result<void> header = container.read_header(); !header) return header.error();
+    if (!container.read_directory()) container.scan();
+    return container;
+}
+
+Result<void> Container::read_header() {
+    const std::span<const std::byte> bytes = bytes_;
+    if (bytes.size() < sizeof(Header) || read_at<Header>(bytes, 0).magic != magic) {
+        return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
+    }
+    const auto header = read_at<Header>(bytes, 0);
+    if (header.version != container_version || header.flags != 0) {
+        return fail(Fault::bad_input, "{} has container version {} and flags {:#x}; this program reads version {} without flags",
+                    name_, header.version, header.flags, container_version);
+    }
+    version_ = header.version;
+    return {};
+}
+
+/// False when there is no directory at the end, or none that can be trusted.
+bool Container::read_directory() {
+    const std::span<const std::byte> bytes = bytes_;
+    if (bytes.size() < sizeof(Header) + sizeof(Prefix) + sizeof(Trailer)) return false;
+    const auto trailer = read_at<Trailer>(bytes, bytes.size() - sizeof(Trailer));
+    if (trailer.end_magic != end_magic || trailer.offset > bytes.size() - sizeof(Prefix)) return false;
+    const auto prefix = read_at<Prefix>(bytes, trailer.offset);
+    const Section directory = {.offset = trailer.offset,
+                               .version = prefix.version,
+                               .stored_bytes = prefix.stored_bytes,
+                               .raw_bytes = prefix.raw_bytes,
+                               .checksum = prefix.checksum};
+    if (prefix.mark != mark || prefix.type != 0 || prefix.seal != seal_of(prefix) || !fits(directory, bytes.size()) ||
+        end_of(directory) != bytes.size() || prefix.stored_bytes < sizeof(Trailer) ||
+        (prefix.stored_bytes - sizeof(Trailer)) % sizeof(DirectoryEntry) != 0) {
+        return false;
+    }
+    const std::uint64_t first = trailer.offset + sizeof(Prefix);
+    if (xxh3(bytes.subspan(first, prefix.stored_bytes)) != prefix.checksum) return false;
+    std::vector<Section> sections;
+    std::uint64_t expected = sizeof(Header);
+    for (std::uint64_t at = first; at < bytes.size() - sizeof(Trailer); at += sizeof(DirectoryEntry)) {
+        const auto entry = read_at<DirectoryEntry>(bytes, at);
+        const Section section = {entry.offset,       SectionType{entry.type}, entry.version,
+                                 entry.stored_bytes, entry.raw_bytes,         entry.checksum};
+        if (section.offset != expected || !fits(section, trailer.offset)) return false;
+        expected = end_of(section);
+        sections.push_back(section);
+    }
+    if (expected != trailer.offset) return false;
+    sections.push_back(directory);
+    sections_ = std::move(sections);
+    return true;
+}
+
+/// Finds the whole sections one after the other. What is only half there ends the file.
+void Container::scan() {
+    const std::span<const std::byte> bytes = bytes_;
+    std::uint64_t at = sizeof(Header);
+    const auto stop = [&](std::string_view why) {
+        damage_ = fail(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
+                       name_, sections_.size(), at, why, bytes.size());
+    };
+    while (at != bytes.size()) {
+        if (bytes.size() - at < sizeof(Prefix)) return stop("ends within its header");
+        const auto prefix = read_at<Prefix>(bytes, at);
+        if (prefix.mark != mark || prefix.seal != seal_of(prefix)) return stop("has a damaged header");
+        const Section section = {
+            at, SectionType{prefix.type}, prefix.version, prefix.stored_bytes, prefix.raw_bytes, prefix.checksum};
+        if (!fits(section, bytes.size())) {
+            return stop(fmt::format("({}) needs {} bytes and ends before", name(section.type), section.stored_bytes));
+        }
+        if (xxh3(bytes.subspan(at + sizeof(Prefix), section.stored_bytes)) != section.checksum) {
+            return stop(fmt::format("({}) is damaged: its checksum is wrong", name(section.type)));
+        }
+        sections_.push_back(section);
+        at = end_of(section);
+    }
+    damage_ = fail(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
+                   name_, sections_.size(), at);
+}
+
+Result<std::span<const std::byte>> Container::stored(std::size_t index) const {
+    const Section& section = sections_[index];
+    const std::span<const std::byte> bytes = bytes_.subspan(section.offset + sizeof(Prefix), section.stored_bytes);
+    if (xxh3(bytes) != section.checksum) {
+        return fail(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
+    }
+    return bytes;
+}
+
+std::string Container::whereabouts(std::size_t index) const {
+    return fmt::format("{}: section {} ({}) at offset {}", name_, index, name(sections_[index].type), sections_[index].offset);
+}
+
+Result<ContainerWriter> ContainerWriter::create(const std::filesystem::path& path) {
+    Result<GrowingFile> file = GrowingFile::create(path);
+    if (!file) return file.error();
+    const Header header = {magic, container_version, 0};
+    if (const Result<void> written = file->append(bytes_of(header)); !written) return written.error();
+    return ContainerWriter(*std::move(file));
+}
+
+Result<ContainerWriter> ContainerWriter::extend(const std::filesystem::path& path) {
+    const Result<Container> old = Container::open(path);
+    if (!old) return old.error();
+    if (old->damage()) return *old->damage();
+    Result<GrowingFile> file = GrowingFile::extend(path);
+    if (!file) return file.error();
+    ContainerWriter writer(*std::move(file));
+    writer.sections_.assign(old->sections().begin(), old->sections().end());
+    return writer;
+}
+
+Result<void> ContainerWriter::add(const Payload& payload) {
+    const Section section = {.offset = file_.size(),
+                             .type = payload.type,
+                             .version = payload.version,
+                             .stored_bytes = payload.stored.size(),
+                             .raw_bytes = payload.raw_bytes,
+                             .checksum = xxh3(payload.stored)};
+    Prefix prefix = {mark,
+                     static_cast<std::uint32_t>(section.type),
+                     section.version,
+                     0,
+                     section.stored_bytes,
+                     section.raw_bytes,
+                     section.checksum,
+                     0};
+    prefix.seal = seal_of(prefix);
+    constexpr std::array<std::byte, 8> zeros{};
+    const std::span<const std::byte> padding = std::span(zeros).first(padded(section.stored_bytes) - section.stored_bytes);
+    for (const std::span<const std::byte> part : {bytes_of(prefix), payload.stored, padding}) {
+        if (const Result<void> written = file_.append(part); !written) {
+            file_.cut_back(section.offset);
+            return written.error();
+        }
+    }
+    sections_.push_back(section);
+    return {};
+}
+
+Result<void> ContainerWriter::finish() {
+    std::vector<std::byte> directory;
+    const auto append = [&](std::span<const std::byte> bytes) { directory.insert(directory.end(), bytes.begin(), bytes.end()); };
+    for (const Section& section : sections_) {
+        const DirectoryEntry entry = {section.offset,    static_cast<std::uint32_t>(section.type),
+                                      section.version,   section.stored_bytes,
+                                      section.raw_bytes, section.checksum};
+        append(bytes_of(entry));
+    }
+    const Trailer trailer = {file_.size(), end_magic};
+    append(bytes_of(trailer));
+    return add({.type = SectionType::directory, .version = 1, .stored = directory, .raw_bytes = directory.size()});
+}
+
+}  // namespace strata

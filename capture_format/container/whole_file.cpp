@@ -1,0 +1,154 @@
+// Temporaries are created, renamed and removed under one lock, and a thread of its own waits for the signals that end the
+// program: with the lock in its hand it knows every temporary there is. A signal handler could not, it may not wait for a lock.
+#include "capture_format/container/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+#include "capture_format/container/file.h"
+
+namespace strata {
+namespace {
+
+// With Pending::first the only thing of this program that is global and changes: a signal comes to the process and brings no
+// arguments. Neither has a destructor, so a signal during exit() finds them, too.
+constinit std::mutex lock;
+
+Error unwritable(const std::filesystem::path& path, int problem) {
+    return fail(Fault::usage, "cannot write {}: {}", path.string(), std::generic_category().message(problem));
+}
+
+/// An empty file beside the target that was not there before, so that nobody's link is followed.
+Result<std::filesystem::path> make_beside(const std::filesystem::path& target) {
+    constexpr std::size_t longest_stem = 200;  // of the 255 bytes a name may have
+    const std::string stem = target.filename().string().substr(0, longest_stem);
+    for (unsigned number = 0;; ++number) {
+        std::filesystem::path path = target.parent_path() / fmt::format("{}.{}-{}.tmp", stem, ::getpid(), number);
+        const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor < 0 && errno == EEXIST) continue;
+        if (descriptor < 0) return unwritable(target, errno);
+        ::close(descriptor);
+        return path;
+    }
+}
+
+}  // namespace
+
+/// A temporary and its place in the list of all that a signal must remove.
+struct WholeFile::Pending {
+    std::filesystem::path target, temporary;
+    bool in_place = false;  ///< there is no temporary: the target is no file
+    Pending *before = nullptr, *after = nullptr;
+    static constinit Pending* first;
+
+    Pending(std::filesystem::path wanted, std::filesystem::path written)
+        : target(std::move(wanted)), temporary(std::move(written)) {}
+    Pending(const Pending&) = delete;
+    Pending& operator=(const Pending&) = delete;
+    ~Pending();
+    void enlist();
+};
+
+constinit WholeFile::Pending* WholeFile::Pending::first = nullptr;
+
+/// The lock is held.
+void WholeFile::Pending::enlist() {
+    after = first;
+    if (after) after->before = this;
+    first = this;
+}
+
+WholeFile::Pending::~Pending() {
+    if (in_place) return;
+    const std::scoped_lock held(lock);
+    ::unlink(temporary.c_str());  // after commit() there is no such file
+    (before ? before->after : first) = after;
+    if (after) after->before = before;
+}
+
+WholeFile::WholeFile(std::unique_ptr<Pending> pending) : pending_(std::move(pending)) {}
+WholeFile::WholeFile(WholeFile&&) noexcept = default;
+WholeFile& WholeFile::operator=(WholeFile&&) noexcept = default;
+WholeFile::~WholeFile() = default;
+
+Result<WholeFile> WholeFile::begin(const std::filesystem::path& wanted) {
+    struct stat old {};
+    const bool exists = ::stat(wanted.c_str(), &old) == 0;
+    if (exists && S_ISDIR(old.st_mode)) return unwritable(wanted, EISDIR);
+    if (exists && ::access(wanted.c_str(), W_OK) != 0) return unwritable(wanted, errno);
+    if (exists && !S_ISREG(old.st_mode)) {
+        auto pending = std::make_unique<Pending>(wanted, wanted);
+        pending->in_place = true;
+        return WholeFile(std::move(pending));
+    }
+    std::error_code problem;
+    const bool is_link = std::filesystem::is_symlink(wanted, problem);
+    const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(wanted, problem) : wanted;
+    if (is_link && problem) return unwritable(wanted, problem.value());
+
+    const std::scoped_lock held(lock);
+    Result<std::filesystem::path> temporary = make_beside(target);
+    if (!temporary) return temporary.error();
+    auto pending = std::make_unique<Pending>(target, *std::move(temporary));
+    if (exists) ::chmod(pending->temporary.c_str(), old.st_mode & 0777);
+    pending->enlist();
+    return WholeFile(std::move(pending));
+}
+
+const std::filesystem::path& WholeFile::temporary() const {
+    assert(pending_ && "the file was committed");
+    return pending_->temporary;
+}
+
+Result<void> WholeFile::commit() {
+    assert(pending_ && "the file was committed");
+    const std::unique_ptr<Pending> done = std::move(pending_);
+    if (done->in_place) return {};
+    const std::scoped_lock held(lock);
+    if (::rename(done->temporary.c_str(), done->target.c_str()) != 0) return unwritable(done->target, errno);
+    return {};
+}
+
+Result<void> write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    Result<WholeFile> file = WholeFile::begin(path);
+    if (!file) return file.error();
+    Result<GrowingFile> writing = GrowingFile::extend(file->temporary());
+    if (!writing) return writing.error();
+    if (const Result<void> written = writing->append(bytes); !written) return written;
+    return file->commit();
+}
+
+Result<void> write_whole_file(const std::filesystem::path& path, std::string_view text) {
+    return write_whole_file(path, std::as_bytes(std::span(text)));
+}
+
+void leave_nothing_half_written_when_stopped() {
+    sigset_t stops;
+    sigemptyset(&stops);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction inherited {};
+        sigaction(signal, nullptr, &inherited);
+        if (inherited.sa_handler != SIG_IGN) sigaddset(&stops, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &stops, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::thread([stops] {
+        int signal = 0;
+        sigwait(&stops, &signal);
+        lock.lock();  // for good: no writer goes on
+        for (const WholeFile::Pending* each = WholeFile::Pending::first; each; each = each->after)
+            ::unlink(each->temporary.c_str());
+        constexpr std::string_view words = "strata: interrupted; no file is half written\n";
+        [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
+        _exit(128 + signal);
+    }).detach();
+}
+
+}  // namespace strata

@@ -1,0 +1,24 @@
+// The stage combine: what it writes, and when a frame does not need it.
+#include "passes/combine/judge.h"
+#include "passes/combine/truth.h"
+#include "passes/stages.h"
+
+namespace strata::combine {
+namespace {
+
+std::optional<std::string> always_wanted(const Features&) { return std::nullopt; }
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::combine,
+            .name = "combine",
+            .purpose = "light, emission and fog become radiance, and radiance a picture",
+            .unwanted = always_wanted,
+            .outputs = {"color", "display"},
+            .truth = combine_truth,
+            .judge = combine_judge,
+            .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "sun_and_boxes", "foggy_panes"}};
+}
+
+}  // namespace strata::combine

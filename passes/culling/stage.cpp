@@ -1,0 +1,27 @@
+// The stage culling: what it writes, and when a frame does not need it.
+#include "passes/culling/judge.h"
+#include "passes/culling/truth.h"
+#include "passes/stages.h"
+
+namespace strata::culling {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::opaque) || features.has(Feature::masked)) return std::nullopt;
+    return "the frame has no opaque draws";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::culling,
+            .name = "culling",
+            .purpose = "which opaque draws are drawn",
+            .unwanted = unwanted,
+            .outputs = {"visible"},
+            .truth = culling_truth,
+            .judge = culling_judge,
+            .scenarios = {"opaque_only", "city_of_boxes", "sun_and_boxes", "materials"}};
+}
+
+}  // namespace strata::culling

@@ -1,0 +1,11 @@
+// Nearest and farthest view depth of something: a plain value.
+#pragma once
+
+namespace strata {
+
+/// In metres.
+struct DepthRange {
+    float nearest = 0, farthest = 0;
+};
+
+}  // namespace strata

@@ -1,0 +1,27 @@
+// The stage edges: what it writes, and when a frame does not need it.
+#include "passes/edges/judge.h"
+#include "passes/edges/truth.h"
+#include "passes/stages.h"
+
+namespace strata::edges {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::multisampled)) return std::nullopt;
+    return "the frame has one sample per pixel";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::edges,
+            .name = "edges",
+            .purpose = "pixels whose samples are shaded one by one",
+            .unwanted = unwanted,
+            .outputs = {"edges"},
+            .truth = edges_truth,
+            .judge = edges_judge,
+            .scenarios = {"one_sphere", "sun_and_boxes", "city_of_boxes"}};
+}
+
+}  // namespace strata::edges

@@ -1,0 +1,23 @@
+// The stage extinction: what it writes, and when a frame does not need it.
+#include "passes/stages.h"
+
+namespace strata::extinction {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (auto reason = info(Stage::transparency).unwanted(features)) return reason;
+    return info(Stage::culling).unwanted(features);
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::extinction,
+            .name = "extinction",
+            .purpose = "from which depth on nothing shows through what is transparent",
+            .unwanted = unwanted,
+            .outputs = {},
+            .scenarios = {}};
+}
+
+}  // namespace strata::extinction

@@ -1,0 +1,23 @@
+// The stage film: what it writes, and when a frame does not need it.
+#include "passes/stages.h"
+
+namespace strata::film {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::grain)) return std::nullopt;
+    return "the film has no grain and does not fade";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::film,
+            .name = "film",
+            .purpose = "grain and fading of the recorded picture",
+            .unwanted = unwanted,
+            .outputs = {"display"},
+            .scenarios = {}};
+}
+
+}  // namespace strata::film

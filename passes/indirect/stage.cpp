@@ -1,0 +1,23 @@
+// The stage indirect: what it writes, and when a frame does not need it.
+#include "passes/stages.h"
+
+namespace strata::indirect {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::light_volumes)) return std::nullopt;
+    return "the frame has no light volumes";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::indirect,
+            .name = "indirect",
+            .purpose = "light that comes by way of other surfaces",
+            .unwanted = unwanted,
+            .outputs = {"indirect"},
+            .scenarios = {}};
+}
+
+}  // namespace strata::indirect

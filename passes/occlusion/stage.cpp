@@ -1,0 +1,23 @@
+// The stage occlusion: what it writes, and when a frame does not need it.
+#include "passes/stages.h"
+
+namespace strata::occlusion {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::hemisphere) || features.has(Feature::light_volumes)) return std::nullopt;
+    return "the frame has no ambient light to occlude";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::occlusion,
+            .name = "occlusion",
+            .purpose = "how much of the ambient light reaches a surface",
+            .unwanted = unwanted,
+            .outputs = {"occlusion"},
+            .scenarios = {}};
+}
+
+}  // namespace strata::occlusion

@@ -1,0 +1,23 @@
+// The stage rain: what it writes, and when a frame does not need it.
+#include "passes/stages.h"
+
+namespace strata::rain {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::rain)) return std::nullopt;
+    return "the frame has no rain";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::rain,
+            .name = "rain",
+            .purpose = "what water does to surfaces",
+            .unwanted = unwanted,
+            .outputs = {"gbuffer0", "gbuffer1"},
+            .scenarios = {}};
+}
+
+}  // namespace strata::rain

@@ -1,0 +1,39 @@
+#include "passes/scene/draw_bounds.h"
+
+#include <algorithm>
+
+#include "passes/scene/view_space.h"
+
+namespace strata {
+
+BoundingBox box_around(std::span<const glm::vec3> points) {
+    if (points.empty()) return {};
+    glm::vec3 low = points.front(), high = low;
+    for (const glm::vec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    return {low, high};
+}
+
+BoundingSphere sphere_around(const Frame& frame, const Draw& draw, const BoundingBox& box) {
+    const auto placed = [&](const glm::dvec3& p) {
+        return in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(p, 1)));
+    };
+    BoundingSphere sphere{placed(0.5 * (box.low + box.high)), 0};
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1u ? box.high.x : box.low.x, i & 2u ? box.high.y : box.low.y,
+                                i & 4u ? box.high.z : box.low.z);
+        sphere.radius = std::max(sphere.radius, glm::length(placed(corner) - sphere.center));
+    }
+    return sphere;
+}
+
+DrawBounds draw_bounds(const Frame& frame) {
+    DrawBounds bounds;
+    for (const Mesh& mesh : frame.meshes) bounds.boxes.push_back(box_around(mesh.positions));
+    for (const Draw& draw : frame.draws) bounds.spheres.push_back(sphere_around(frame, draw, bounds.boxes[draw.mesh]));
+    return bounds;
+}
+
+}  // namespace strata

@@ -1,0 +1,34 @@
+// Bounding boxes of meshes and bounding spheres of draws: what the device culls by and what shadow maps must contain.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+
+namespace strata {
+
+/// In object space; the origin alone where there are no points.
+struct BoundingBox {
+    glm::dvec3 low{0}, high{0};
+};
+BoundingBox box_around(std::span<const glm::vec3> points);
+
+/// In view space.
+struct BoundingSphere {
+    glm::dvec3 center{0};
+    double radius = 0;
+};
+/// Around the corners of the draw's box: its center and longest half diagonal. DrawRecord has it in float.
+BoundingSphere sphere_around(const Frame&, const Draw&, const BoundingBox& of_mesh);
+
+struct DrawBounds {
+    std::vector<BoundingBox> boxes;       ///< of Frame::meshes
+    std::vector<BoundingSphere> spheres;  ///< of Frame::draws
+};
+/// Walks every vertex once, however many draws have its mesh.
+DrawBounds draw_bounds(const Frame&);
+
+}  // namespace strata

@@ -1,0 +1,94 @@
+#include "passes/scene/light_records.h"
+
+#include <cmath>
+
+#include "passes/reference/blockers.h"
+#include "passes/scene/light_features.h"
+#include "passes/scene/light_list.h"
+#include "passes/scene/view_space.h"
+
+namespace strata {
+namespace {
+
+vec2 tangents(const Light& light) {
+    const double u = std::tan(double(light.outer_angle));
+    const bool square = light.type == LightType::square_spot;
+    return {float(u), float(square ? std::tan(double(light.inner_angle)) : u)};
+}
+
+LightRecord record(const Frame& frame, const Light& light) {
+    const bool is_spot = light.type == LightType::round_spot || light.type == LightType::square_spot;
+    return {
+        .position = glm::vec3(in_view_space(frame.view, light.position)),
+        .type = static_cast<uint>(light.type),
+        .direction = glm::vec3(frame.view.to_view * glm::dvec3(light.direction)),
+        .range = light.range,
+        .intensity = light.intensity,
+        .source_radius = light.source_radius,
+        .axis_u = glm::vec3(frame.view.to_view * glm::dvec3(light.axis_u)),
+        .cos_inner = float(std::cos(double(light.inner_angle))),
+        .cos_outer = float(std::cos(double(light.outer_angle))),
+        .tan_half = is_spot ? tangents(light) : vec2(0),
+        .half_extent = light.half_extent,
+        .texture = light.texture,
+        .features = light_features(light),
+        .shadow = no_index,
+        .shadow_slots = 0,
+        .visibility_layer = no_index,
+    };
+}
+
+BlockerRecord record(const PlacedBlocker& blocker) {
+    return {
+        .normal = glm::vec3(blocker.normal),
+        .half_u = float(blocker.half_u),
+        .center = glm::vec3(blocker.center),
+        .half_v = float(blocker.half_v),
+        .u = glm::vec3(blocker.u),
+        .one_sided = blocker.one_sided ? 1u : 0u,
+    };
+}
+
+BlockerPortalRecord record(const PlacedPortal& portal) {
+    return {
+        .center = glm::vec2(portal.center),
+        .half_extent = glm::vec2(portal.half_extent),
+        .turn = glm::vec2(portal.turn),
+        .blocker = portal.blocker,
+    };
+}
+
+// Keeps dot(n, p) + d >= 0 with p camera-relative.
+void add_clip_planes(const Frame& frame, const Light& light, LightRecords& made) {
+    made.lights.back().first_clip = static_cast<uint>(made.clip_planes.size());
+    made.lights.back().clips = static_cast<uint>(light.clip_planes.size());
+    for (const ClipPlane& plane : light.clip_planes) {
+        const double distance = plane.distance + glm::dot(plane.normal, frame.view.origin);
+        made.clip_planes.push_back({glm::vec3(frame.view.to_view * plane.normal), float(distance)});
+    }
+}
+
+void add_blockers(const LightBlockers& found, LightRecords& made) {
+    LightRecord& light = made.lights.back();
+    light.first_blocker = static_cast<uint>(made.light_blockers.size());
+    light.blockers = static_cast<uint>(found.blockers.size());
+    light.first_portal = static_cast<uint>(made.blocker_portals.size());
+    light.portals = static_cast<uint>(found.portals.size());
+    for (const LightBlocker& use : found.blockers) made.light_blockers.push_back({use.blocker, use.portals});
+    for (const PlacedPortal& portal : found.portals) made.blocker_portals.push_back(record(portal));
+}
+
+}  // namespace
+
+LightRecords light_records(const Frame& frame) {
+    LightRecords made;
+    for (const Blocker& blocker : frame.blockers) made.blockers.push_back(record(placed_blocker(frame, blocker)));
+    for (const Light& light : light_list(frame)) {
+        made.lights.push_back(record(frame, light));
+        add_clip_planes(frame, light, made);
+        add_blockers(light_blockers(frame, light), made);
+    }
+    return made;
+}
+
+}  // namespace strata

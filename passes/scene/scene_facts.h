@@ -1,0 +1,84 @@
+// What a frame says, derived once and kept with the loaded frame: features, lights, draw lists, bounds, shadow views, depths. The
+// device's records and every declaration read it; models, truths and judges derive what they need by their own code.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "capture_format/frame.h"
+#include "capture_format/frame_features.h"
+#include "passes/graph/graph.h"
+#include "passes/scene/draw_bounds.h"
+#include "passes/scene/draw_lists.h"
+#include "passes/scene/shadow_views.h"
+#include "passes/scene/texture_uses.h"
+#include "passes/scene/transparent_depths.h"
+
+namespace strata {
+
+/// A value made at first use.
+template <typename Value>
+class Kept {
+public:
+    template <typename Make>
+    const Value& get(const Make& make) const {
+        if (!value_) value_.emplace(make());
+        return *value_;
+    }
+    bool is_made() const { return value_.has_value(); }
+
+private:
+    mutable std::optional<Value> value_;
+};
+
+/// Refers to the frame, which must stay where it is and as it is. Each member is derived when it is first asked for: one thread
+/// at a time.
+class SceneFacts {
+public:
+    explicit SceneFacts(const Frame& frame) : frame_(&frame) {}
+    SceneFacts(const SceneFacts&) = delete;
+    SceneFacts& operator=(const SceneFacts&) = delete;
+
+    const Frame& frame() const { return *frame_; }
+    /// As recorded: a request may force others on.
+    const Features& features() const;
+    const DrawLists& lists() const;
+    std::span<const Light> lights() const;
+    const DrawBounds& bounds() const;
+    const std::vector<ShadowView>& shadow_views(Allocation) const;
+    DepthRange transparent_depths() const;
+    DepthRange world_depths() const;
+    float farthest_depth_offset() const;
+    /// Of transparent geometry on images of an extent: see row_bounds.h.
+    const std::vector<std::uint64_t>& row_bounds(Extent) const;
+    TextureUses texture_uses(Surfaces) const;
+    /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
+    std::uint32_t light_features() const;
+    std::uint32_t spectrum() const;
+    /// Every spectrum that a tile may have, of the given features alone (frame_spectrum.h).
+    const std::vector<std::uint32_t>& possible_spectra(std::uint32_t features) const;
+    /// Of everything transparent; 0 where nothing is in an interface layer.
+    std::uint32_t highest_interface_layer() const;
+
+    /// How many members were derived so far, row bounds once per extent and possible spectra once per set of features: asking for a member again adds nothing.
+    std::size_t derived() const;
+
+private:
+    const Frame* frame_;
+    Kept<Features> features_;
+    Kept<DrawLists> lists_;
+    Kept<std::vector<Light>> lights_;
+    Kept<DrawBounds> bounds_;
+    Kept<std::vector<ShadowView>> views_[2];  ///< by Allocation
+    Kept<DepthRange> transparent_depths_, world_depths_;
+    Kept<float> farthest_depth_offset_;
+    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint64_t>> row_bounds_;  ///< by width and height
+    Kept<TextureUses> texture_uses_[2];                                                                 ///< by Surfaces
+    Kept<std::uint32_t> light_features_, spectrum_, highest_interface_layer_;
+    mutable std::map<std::uint32_t, std::vector<std::uint32_t>> possible_spectra_;  ///< by features
+};
+
+}  // namespace strata

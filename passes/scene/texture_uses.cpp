@@ -1,0 +1,43 @@
+#include "passes/scene/texture_uses.h"
+
+#include "passes/scene/scene_facts.h"
+#include "passes/shaders/scene.shared.h"
+
+namespace strata {
+namespace {
+
+void add(const Frame& frame, std::uint32_t texture, std::uint32_t kind, TextureUses& uses) {
+    if (texture == no_index) return;
+    uses.kinds |= 1u << kind;
+    uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[texture].format);
+}
+
+}  // namespace
+
+TextureUses texture_uses(const Frame& frame, const DrawLists& lists, Surfaces surfaces) {
+    TextureUses uses;
+    for (const std::uint32_t index : surfaces == Surfaces::opaque ? lists.opaque : lists.transparent) {
+        if (index >= frame.draws.size()) {
+            add(frame, frame.emitters[index - frame.draws.size()].texture, base_color_texture, uses);
+            continue;
+        }
+        const Material& material = frame.materials[frame.draws[index].material];
+        add(frame, material.base_color_texture.texture, base_color_texture, uses);
+        add(frame, material.metallic_roughness_texture.texture, metallic_roughness_texture, uses);
+        add(frame, material.normal_texture.texture, normal_texture, uses);
+        add(frame, material.emissive_texture.texture, emissive_texture, uses);
+        add(frame, material.occlusion_texture.texture, occlusion_texture, uses);
+    }
+    // What is transparent is lit where it is drawn, by lights that may have pictures.
+    for (const Light& light : frame.lights)
+        if (surfaces == Surfaces::transparent && light.texture != no_index)
+            uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[light.texture].format);
+    return uses;
+}
+
+DrawPass& fix_textures(DrawPass& pass, const FrameImages& images, Surfaces surfaces) {
+    const TextureUses uses = images.facts->texture_uses(surfaces);
+    return pass.fixes("used_textures", uses.kinds).fixes("used_formats", uses.formats);
+}
+
+}  // namespace strata

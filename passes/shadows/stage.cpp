@@ -1,0 +1,27 @@
+// The stage shadows: what it writes, and when a frame does not need it.
+#include "passes/shadows/judge.h"
+#include "passes/shadows/truth.h"
+#include "passes/stages.h"
+
+namespace strata::shadows {
+namespace {
+
+std::optional<std::string> unwanted(const Features& features) {
+    if (features.has(Feature::shadows)) return std::nullopt;
+    return "no light of the frame casts shadows";
+}
+
+}  // namespace
+
+StageInfo stage() {
+    return {.stage = Stage::shadows,
+            .name = "shadows",
+            .purpose = "how much of each light reaches a surface",
+            .unwanted = unwanted,
+            .outputs = {"visibility", "shadow_maps"},
+            .truth = shadows_truth,
+            .judge = shadows_judge,
+            .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows"}};
+}
+
+}  // namespace strata::shadows

@@ -1,0 +1,136 @@
+#include "replay/expectations/expectation.h"
+
+#include <algorithm>
+
+#include <xxhash.h>
+#include <nlohmann/json.hpp>
+
+#include "replay/counted.h"
+#include "replay/images/image_io.h"
+
+namespace strata {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::string_view schema = "strata.expectation";
+constexpr int schema_version = 1;
+
+ordered_json json_of(const ExpectedImage& image) {
+    const Shape& s = image.shape;
+    ordered_json json{{"name", image.name},
+                      {"hash", image.hash},
+                      {"extent", {s.extent.width, s.extent.height, s.extent.depth}},
+                      {"layers", s.layers},
+                      {"format", row(s.format).name}};
+    if (!image.texels.empty()) json["texels"] = image.texels;
+    return json;
+}
+
+ExpectedImage image_from(const ordered_json& json) {
+    ExpectedImage image{.name = json.at("name"), .hash = json.at("hash"), .texels = json.value("texels", "")};
+    const auto extent = json.at("extent").get<std::array<std::uint32_t, 3>>();
+    image.shape.extent = {extent[0], extent[1], extent[2]};
+    image.shape.layers = json.at("layers");
+    const std::string format = json.at("format");
+    const auto known = std::ranges::find(format_rows, std::string_view(format), &FormatRow::name);
+    if (known == std::end(format_rows)) throw std::invalid_argument(fmt::format("there is no format '{}'", format));
+    image.shape.format = known->format;
+    return image;
+}
+
+ordered_json json_of(const ExpectedOn& on) {
+    return {{"device", on.device},
+            {"driver", on.driver},
+            {"driver_version", on.driver_version},
+            {"cpu", on.cpu},
+            {"vector_width", on.vector_width}};
+}
+
+ExpectedOn on_from(const ordered_json& json) {
+    return {json.at("device"), json.at("driver"), json.at("driver_version"), json.at("cpu"), json.at("vector_width")};
+}
+
+ExpectedAct act_from(const ordered_json& json) {
+    ExpectedAct act{.label = json.at("act"), .choice = json.at("choice"), .images = {}};
+    for (const ordered_json& image : json.at("images")) act.images.push_back(image_from(image));
+    return act;
+}
+
+Expectation expectation_from(const ordered_json& json) {
+    if (json.at("schema") != schema || json.at("schema_version") != schema_version)
+        throw std::invalid_argument(fmt::format("it is no {} of version {}", schema, schema_version));
+    Expectation e{.frame = json.at("frame"),
+                  .samples = json.at("samples"),
+                  .forced = json.at("forced"),
+                  .on = on_from(json.at("on")),
+                  .tool = json.at("tool"),
+                  .acts = {}};
+    for (const ordered_json& act : json.at("acts")) e.acts.push_back(act_from(act));
+    return e;
+}
+
+}  // namespace
+
+ExpectedOn expected_on(const DeviceInfo& device) {
+    return {device.name, device.driver, device.driver_version, device.cpu, device.vector_width};
+}
+
+std::string text(const ExpectedOn& on) {
+    return fmt::format("{}, {} {}, {}, {}", on.device, on.driver, on.driver_version, counted(on.vector_width, "lane"), on.cpu);
+}
+
+Expectation expectation_of(const Session& session, const Request& request, const Run& run) {
+    Expectation e{.frame = request.frame, .samples = run.samples, .on = expected_on(session.device())};
+    for (const Feature feature : request.force) e.forced.emplace_back(name(feature));
+    for (const ActImages& act : run.acts) {
+        e.acts.push_back({act.label, act.choice, {}});
+        for (const auto& [name, image] : act.images) e.acts.back().images.push_back({name, hash_of(image), image.shape, ""});
+    }
+    return e;
+}
+
+bool same_frame_and_choices(const Expectation& a, const Expectation& b) {
+    const auto same = [](const ExpectedAct& x, const ExpectedAct& y) { return x.label == y.label && x.choice == y.choice; };
+    return a.frame == b.frame && a.samples == b.samples && a.forced == b.forced && std::ranges::equal(a.acts, b.acts, same);
+}
+
+std::string as_json(const Expectation& e) {
+    ordered_json json{{"schema", schema},   {"schema_version", schema_version},
+                      {"frame", e.frame},   {"samples", e.samples},
+                      {"forced", e.forced}, {"on", json_of(e.on)},
+                      {"tool", e.tool},     {"acts", ordered_json::array()}};
+    for (const ExpectedAct& act : e.acts) {
+        ordered_json images = ordered_json::array();
+        for (const ExpectedImage& image : act.images) images.push_back(json_of(image));
+        json["acts"].push_back({{"act", act.label}, {"choice", act.choice}, {"images", std::move(images)}});
+    }
+    return json.dump();
+}
+
+Result<Expectation> parse_expectation(std::string_view json) {
+    try {
+        return expectation_from(ordered_json::parse(json));
+    } catch (const std::exception& problem) {
+        return fail(Fault::bad_input, "an expectation cannot be read: {}", problem.what());
+    }
+}
+
+Result<std::vector<Expectation>> expectations_of(const Capture& capture) {
+    std::vector<Expectation> all;
+    for (const std::string& json : capture.expectations()) {
+        auto parsed = parse_expectation(json);
+        if (!parsed) return parsed.error();
+        all.push_back(*std::move(parsed));
+    }
+    return all;
+}
+
+std::string short_json(const Expectation& e) {
+    ordered_json json{{"frame", e.frame}, {"on", json_of(e.on)}};
+    for (const ExpectedAct& act : e.acts)
+        for (const ExpectedImage& image : act.images) json["hashes"][act.label][image.name] = image.hash;
+    return json.dump();
+}
+
+}  // namespace strata

@@ -1,0 +1,199 @@
+#include "replay/session/declaration.h"
+
+#include <algorithm>
+
+#include "capture_format/nearest_name.h"
+
+namespace strata {
+namespace {
+
+FrameImages start(const Sources& sources, Graph& graph) {
+    const Frame& frame = sources.loaded.frame;
+    FrameImages images{.recorded = &frame,
+                       .features = &sources.loaded.features,
+                       .facts = &sources.loaded.facts,
+                       .extent = {frame.view.width, frame.view.height, 1},
+                       .samples = frame.view.samples};
+    sources.scene.import_into(graph, images);
+    return images;
+}
+
+/// Declares the view or table "stage/technique:name", where its technique is the chosen one, and keeps it.
+Result<void> add_inside(Declaration& d, const std::string& output) {
+    const std::size_t colon = output.find(':');
+    const std::string_view technique = std::string_view(output).substr(0, colon);
+    const std::string_view wanted = std::string_view(output).substr(colon + 1);
+    for (const auto& [stage, choice] : d.choices) {
+        if (choice.technique->name != technique) continue;
+        std::vector<std::string_view> known;
+        const auto is_wanted = [&](const auto& candidate) {
+            known.push_back(candidate.name);
+            return candidate.name == wanted;
+        };
+        const auto make = [&](const auto& candidate) {
+            d.graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage), choice.technique->counter_bytes);
+            const Image image = candidate.add(d.graph, d.images, choice.settings);
+            d.graph.keep(image);
+            return image;
+        };
+        for (const DebugView& view : choice.technique->views)
+            if (is_wanted(view)) return d.outputs[output] = make(view), Result<void>();
+        for (const DebugTable& table : choice.technique->tables)
+            if (is_wanted(table)) return d.tables[output] = {&table, make(table)}, Result<void>();
+        return fail(Fault::usage, "{} has no view '{}'{}", technique, wanted, did_you_mean(wanted, known));
+    }
+    return fail(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
+}
+
+/// Fills Declaration::outputs and keeps them.
+Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
+    for (const std::string& output : wanted) {
+        if (output.find(':') != std::string::npos) {
+            if (const auto added = add_inside(d, output); !added) return added;
+            continue;
+        }
+        const FrameImageRow* row = find_frame_image(output);
+        std::vector<std::string_view> known;
+        for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
+        if (!row) return fail(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
+        const Image image = d.images.*row->member;
+        if (!image) continue;  // its stage was left out
+        if (d.graph.shape(image).samples > 1)
+            return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,
+                        d.images.samples);
+        d.outputs[output] = image;
+        d.graph.keep(image);
+    }
+    return {};
+}
+
+void keep_all_images(Declaration& d) {
+    for (const FrameImageRow& row : frame_images())
+        if (const Image image = d.images.*row.member; image && d.graph.shape(image).samples == 1) d.graph.keep(image);
+}
+
+void keep_counters(Declaration& d) {
+    for (const DeclaredAct& act : d.frame.acts) {
+        const Buffer buffer = d.graph.scopes()[act.scope].counters;
+        if (!buffer || act.technique->counters.empty() || d.scopes_from_memo.contains(act.scope)) continue;
+        d.graph.keep(buffer);
+        d.counters.push_back({act.technique, buffer, act.scope});
+    }
+}
+
+/// After an image was written behind the frame's back, its handles become the newest version.
+void refresh(const Graph& graph, FrameImages& images) {
+    for (const FrameImageRow& row : frame_images())
+        if (Image& image = images.*row.member; image) image.version = graph.record(image).version;
+}
+
+/// Replaces acts by what the memo kept, or has the memo keep what they make.
+class Remember {
+public:
+    Remember(Declaration& d, const Sources& sources, std::vector<std::vector<std::string>> wanted, std::vector<bool> skip)
+        : d_(&d),
+          memo_(sources.memo),
+          keys_(sources.loaded.key, memo_->runs(), sources.shaders),
+          wanted_(std::move(wanted)),
+          skip_(std::move(skip)) {}
+
+    void operator()(const DeclaredAct& act) {
+        const std::size_t place = place_++;
+        Graph& graph = d_->graph;
+        const std::uint64_t key = keys_.key(graph, act, d_->choices.at(act.technique->stage).settings);
+        d_->act_keys.push_back(key);
+        if (skip_[place]) return remember_counters(key, act);
+        if (wanted_[place].empty()) return;
+        if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
+            graph.drop_scope(act.scope);
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
+                        static_cast<std::uint32_t>(act.technique->stage));
+            for (const auto& image : kept->images) {
+                Image to = graph.find_image(image.name);
+                graph.copy(graph.import("kept " + image.name, image.shape, image.id), to);
+            }
+            d_->kept_counters.insert(d_->kept_counters.end(), kept->counters.begin(), kept->counters.end());
+            d_->scopes_from_memo.insert(act.scope);
+        } else {
+            std::vector<ImageRecord> records;
+            for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
+            const KeptAct* room = memo_->reserve(key, records);
+            if (!room) return;
+            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
+                        static_cast<std::uint32_t>(act.technique->stage));
+            for (const auto& image : room->images) {
+                Image to = graph.import("kept " + image.name, image.shape, image.id);
+                graph.copy(graph.find_image(image.name), to);
+            }
+            d_->memo_writes.emplace_back(key, act.scope);
+        }
+        refresh(graph, d_->images);
+    }
+
+private:
+    /// An act that feeds buffers is declared every time; when nobody needs it this time, its counters are those it had.
+    void remember_counters(std::uint64_t key, const DeclaredAct& act) {
+        if (const KeptAct* kept = memo_->find(key, {})) {
+            d_->counters_if_idle[act.scope] = kept->counters;
+        } else if (memo_->reserve(key, {})) {
+            d_->memo_writes.emplace_back(key, act.scope);
+        }
+    }
+
+    Declaration* d_;
+    Memo* memo_;
+    ActKeys keys_;
+    std::vector<std::vector<std::string>> wanted_;
+    std::vector<bool> skip_;
+    std::size_t place_ = 0;
+};
+
+/// Acts that were culled whole count what they counted when they ran.
+void settle_idle_counters(Declaration& d) {
+    for (const auto& [scope, counters] : d.counters_if_idle) {
+        const auto in_scope = [&](const PlannedStep& planned) { return planned.step.scope == scope; };
+        if (std::ranges::any_of(d.plan.steps, in_scope)) continue;
+        d.kept_counters.insert(d.kept_counters.end(), counters.begin(), counters.end());
+        std::erase_if(d.counters, [&](const CounterSource& source) { return source.scope == scope; });
+    }
+}
+
+Result<void> fill(Declaration& d, const Request& request, const Sources& sources, Keep keep, const AfterAct& after) {
+    d.images = start(sources, d.graph);
+    auto frame = declare_frame(d.graph, d.images, d.choices, sources.device.capabilities, after);
+    if (!frame) return frame.error();
+    d.frame = *std::move(frame);
+    if (const auto kept = keep_outputs(d, request.outputs); !kept) return kept.error();
+    if (keep == Keep::all_images) keep_all_images(d);
+    keep_counters(d);
+    return {};
+}
+
+}  // namespace
+
+Result<Declaration> declare(const Request& request, const Sources& sources, Keep keep) {
+    auto choices = choose(sources.loaded.frame, request.uses, request.sets);
+    if (!choices) return choices.error();
+
+    Declaration d;
+    d.choices = *choices;
+    if (const auto filled = fill(d, request, sources, keep, {}); !filled) return filled.error();
+    if (sources.memo) {
+        // Declaring costs microseconds: the first declaration tells what later acts read, the second one remembers it.
+        std::vector<bool> skip;
+        for (const DeclaredAct& act : d.frame.acts) skip.push_back(feeds_buffers(d.graph, act.scope));
+        auto wanted = images_read_later(d.graph, d.frame.acts);
+        sources.memo->begin_run();
+        d = Declaration{};
+        d.choices = *choices;
+        Remember remember(d, sources, std::move(wanted), std::move(skip));
+        if (const auto filled = fill(d, request, sources, keep, std::ref(remember)); !filled) return filled.error();
+    }
+    auto plan = compile(d.graph, sources.shaders);
+    if (!plan) return plan.error();
+    d.plan = *std::move(plan);
+    settle_idle_counters(d);
+    return d;
+}
+
+}  // namespace strata

@@ -1,0 +1,53 @@
+// A request as a compiled graph: what a run, a timing, a peek and a judgement have in common.
+#pragma once
+
+#include <set>
+
+#include "passes/graph/plan.h"
+#include "replay/scene/device_scene.h"
+#include "replay/session/loaded_frame.h"
+#include "replay/session/memo.h"
+
+namespace strata {
+
+/// A counter buffer of a technique's scope.
+struct CounterSource {
+    const Technique* technique = nullptr;
+    Buffer buffer;
+    std::uint32_t scope = 0;
+};
+
+struct Declaration {
+    Graph graph;
+    FrameImages images;
+    DeclaredFrame frame;
+    Choices choices;
+    std::map<std::string, Image> outputs;  ///< by the names asked for
+    /// The same of tables.
+    std::map<std::string, std::pair<const DebugTable*, Image>> tables;
+    std::vector<CounterSource> counters;
+    std::vector<CounterRecord> kept_counters;  ///< of acts that came from the memo
+    std::map<std::uint32_t, std::vector<CounterRecord>>
+        counters_if_idle;                                              ///< by scope: when all who need the act came from the memo
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> memo_writes;  ///< keys this run fills, and the scopes of their acts
+    std::set<std::uint32_t> scopes_from_memo;
+    std::vector<std::uint64_t> act_keys;  ///< what tells equal acts: see ActKeys; in the order of the acts, only with a memo
+    Plan plan;
+};
+
+/// Where the parts of a frame come from.
+struct Sources {
+    const LoadedFrame& loaded;
+    const DeviceScene& scene;
+    const DeviceInfo& device;
+    const ShaderLibrary& shaders;
+    Memo* memo = nullptr;  ///< null: everything is executed
+};
+
+/// Which images outlive the run: those asked for, or every one of the frame (for judging).
+enum class Keep { outputs, all_images };
+
+/// Declares and compiles a request on a loaded frame (which already has the request's frame, extent and samples).
+Result<Declaration> declare(const Request&, const Sources&, Keep);
+
+}  // namespace strata

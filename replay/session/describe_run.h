@@ -1,0 +1,26 @@
+// A declaration and what its execution gave as the plain values of a Run.
+#pragma once
+
+#include "replay/gpu/executor.h"
+#include "replay/session/declaration.h"
+#include "replay/session/session.h"
+
+namespace strata {
+
+/// Everything about a run that is known before it.
+Run describe_run(const Declaration&);
+/// The outputs asked for, as far as the run got.
+std::map<std::string, HostImage> images_of(const Declaration&, const Execution&);
+NumberTable table_of(const DebugTable&, const HostImage&);
+/// The tables asked for.
+std::map<std::string, NumberTable> tables_of(const Declaration&, const Execution&);
+/// What the techniques counted in this execution, or in the steps of one scope.
+std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, std::optional<std::uint32_t> scope = {});
+/// A technique that acts at several stages counts in each: equal counters are added up.
+std::vector<CounterRecord> summed(std::vector<CounterRecord>);
+/// Spreads over repeats of the milliseconds of each step; how often shaders ran, in the last one.
+void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats);
+/// "technique key=value ..."
+std::string choice_line(const Choice&);
+
+}  // namespace strata

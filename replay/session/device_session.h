@@ -1,0 +1,130 @@
+// The session behind Session::open: one device, one capture, the frame that is loaded, the memo. What it does is spread over
+// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging), memory_budget.cpp and
+// reloaded_shaders.cpp.
+#pragma once
+
+#include <set>
+#include <variant>
+
+#include "passes/reference/fragments.h"
+#include "replay/gpu/executor.h"
+#include "replay/session/declaration.h"
+#include "replay/session/memory_need.h"
+#include "replay/session/session.h"
+
+namespace strata {
+
+class GlslSources;
+
+class DeviceSession final : public Session {
+public:
+    /// Where frames come from: a file, or memory.
+    using Source = std::variant<Capture, std::vector<Frame>>;
+
+    /// memory_budget: as in DeviceChoice.
+    DeviceSession(std::unique_ptr<Device>, Source, std::uint64_t memory_budget);
+
+    const DeviceInfo& device() const override { return device_->info(); }
+    const Capture* capture() const override { return std::get_if<Capture>(&source_); }
+    std::size_t frame_count() const override;
+    Result<Frame> frame(std::size_t index) override;
+
+    Result<Run> run(const Request&) override;
+    Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress&) override;
+    Result<PlannedFrame> plan(const Request&) override;
+    Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) override;
+    Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
+    Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2 pixel) override;
+    Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) override;
+    Result<ImageSet> truth(const Request&, Stage) override;
+    Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
+    Result<const FragmentLists*> transparent_fragments(const Request&) override;
+    Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
+    Result<ReloadedShaders> reload_shaders(const std::filesystem::path&, std::span<const Request> shown) override;
+    void stop_when(std::stop_token stop) override { stop_ = std::move(stop); }
+    void forget_memo() override;
+
+    /// A run that executes everything, with what each step took and counted.
+    struct TimedRun {
+        Run run;
+        std::vector<StepCost> step_costs;
+    };
+    Result<TimedRun> time_alone(const Request&);
+
+private:
+    /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
+    /// kept, and the transparent fragments before it as soon as a model wants them.
+    struct Found {
+        std::uint64_t frame = 0;          ///< LoadedFrame::key
+        std::vector<std::uint64_t> keys;  ///< of the acts before; empty: not known to be the same again
+        ImageSet images;
+        std::optional<FragmentLists> fragments;
+    };
+    /// The outputs of a stage as its technique left them; found_ is what it found.
+    struct Inspected {
+        Choice choice;
+        ImageSet result;
+    };
+    /// Shaders compiled from a folder; those of the library stand in for the ones built in.
+    struct ShaderSet {
+        struct Compiled {
+            std::uint64_t hash = 0;  ///< GlslSources::hash_of
+            std::vector<std::uint32_t> code;
+        };
+        std::map<std::string, Compiled> compiled;  ///< by name; the library's shaders point into it
+        ShaderLibrary library{&ShaderLibrary::built_in()};
+    };
+    /// Null when the shaders in use have no such one.
+    const std::vector<std::uint32_t>* compiled_before(const std::string& shader, std::uint64_t hash) const;
+    Result<std::unique_ptr<ShaderSet>> compile_set(const GlslSources&, ReloadedShaders&) const;
+    const ShaderLibrary& shaders() const {
+        return shader_sets_.empty() ? ShaderLibrary::built_in() : shader_sets_.back()->library;
+    }
+    Result<Inspected> inspect(const Request&, Stage);
+    /// What is known of a run that executes everything, before any run.
+    Result<Run> plan_run(const Request&);
+    Result<Run> run_with_acts(const Request&);
+
+    /// Loads the frame's variant when it is not the current one, and declares the request on it.
+    Result<Declaration> prepare(const Request&, Memo*, Keep);
+    Result<void> load(Frame, const FrameVariant&);
+    /// Whether the device can bind every buffer whole.
+    Result<void> check_buffers(const Plan&) const;
+    /// Declares with the memo, as far as the budget leaves it room.
+    Result<Declaration> prepare_with_memo(const Request&, const RunOptions&);
+    MemoryNeed need_of(const Plan&, const RunOptions&) const;
+    /// Refuses what the memory budget does not cover, before any of it is allocated.
+    Result<void> check_budget(const Plan&, const RunOptions&) const;
+    /// Makes room for a plan that uses nothing of the memo.
+    Result<void> make_room(const Plan&, const RunOptions&);
+    /// Fails once the device is lost, or whoever asked wants no answer any more.
+    Result<void> check_going() const;
+    void upload_scene();
+    /// Zeros for what frames leave to the next and none left yet.
+    void make_remembered(const Plan&);
+    /// The one place where a device's collapse becomes an Error.
+    template <typename Action>
+    std::invoke_result_t<Action> guarded(Action);
+    Result<Execution> execute(const Declaration&, const RunOptions&);
+    Result<Execution> try_execute(const Declaration&, RunOptions);
+    /// What is known of a run after it.
+    Run finished(const Declaration&, const Execution&);
+    void remember(const Declaration&, const Execution&);
+
+    std::unique_ptr<Device> device_;
+    std::unique_ptr<Executor> executor_;
+    DeviceScene scene_;
+    Memo memo_;
+    std::unique_ptr<LoadedFrame> loaded_;
+    std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
+    std::uint64_t memory_budget_;
+    std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
+    RunTimes times_;                      ///< of the latest request
+    std::optional<Found> found_;
+    std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
+    std::stop_token stop_;
+    bool is_lost_ = false;
+    Source source_;
+};
+
+}  // namespace strata

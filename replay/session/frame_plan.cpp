@@ -1,0 +1,126 @@
+#include "replay/session/frame_plan.h"
+
+#include <algorithm>
+
+#include "capture_format/nearest_name.h"
+
+namespace strata {
+namespace {
+
+/// A recorded value as the text `--set` would take.
+std::string text(const SettingValue& value) {
+    return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+/// The choices the capture was recorded with. Names this program does not know are left to the defaults: a capture must
+/// replay where a technique has gone.
+void apply_recorded(const Frame& frame, Choices& choices) {
+    for (const StageChoice& recorded : frame.recorded_with) {
+        const auto technique = find_technique(recorded.technique);
+        if (!technique) continue;
+        Choice choice{*technique, Settings((*technique)->params)};
+        for (const Setting& setting : recorded.settings) {
+            const auto kept = choice.settings.set(setting.key, text(setting.value));
+            static_cast<void>(kept);  // a parameter that is gone or out of range keeps its default
+        }
+        choices[(*technique)->stage] = std::move(choice);
+    }
+}
+
+Result<void> apply_set(Choices& choices, std::string_view set) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string_view::npos) return fail(Fault::usage, "--set takes key=value, not '{}'", set);
+    std::string_view key = set.substr(0, equals);
+    const std::string_view value = set.substr(equals + 1);
+    std::string_view technique;
+    if (const std::size_t colon = key.find(':'); colon != std::string_view::npos) {
+        technique = key.substr(0, colon);
+        key = key.substr(colon + 1);
+    }
+    bool found = false;
+    std::vector<std::string_view> known;
+    for (auto& [stage, choice] : choices) {
+        if (!technique.empty() && choice.technique->name != technique) continue;
+        for (const Param& param : choice.technique->params) known.push_back(param.name);
+        const auto has = [&](const Param& param) { return param.name == key; };
+        if (std::ranges::none_of(choice.technique->params, has)) continue;
+        if (const auto done = choice.settings.set(key, value); !done) return done.error();
+        found = true;
+    }
+    if (!found) return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", key, did_you_mean(key, known));
+    return {};
+}
+
+Result<void> check_needs(const Technique& technique, const Capabilities& device) {
+    for (const Capability needed : technique.needs)
+        if (!has(device, needed))
+            return fail(Fault::device_lacks, "{} needs {}, which this device does not have", technique.name, name(needed));
+    return {};
+}
+
+/// Declares what the technique does at one place of the frame, in a scope of its own.
+DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const Act& what) {
+    const Technique& technique = *choice.technique;
+    graph.enter(fmt::format("{}: {}", name(what.at), technique.name), static_cast<std::uint32_t>(technique.stage),
+                technique.counter_bytes);
+    const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
+    DeclaredAct declared{&technique, what.at, scope, images};
+    what.add(graph, images, choice.settings);
+    return declared;
+}
+
+/// Every act in the order of the frame: a stage's own technique first, then what others do there.
+std::vector<std::pair<const Choice*, Act>> acts_at(Stage stage, const Choices& wanted) {
+    std::vector<std::pair<const Choice*, Act>> acts;
+    for (const auto& [own, choice] : wanted)
+        if (own == stage) acts.push_back({&choice, {stage, choice.technique->add}});
+    for (const auto& [own, choice] : wanted)
+        for (const Act& also : choice.technique->also)
+            if (also.at == stage) acts.push_back({&choice, also});
+    return acts;
+}
+
+}  // namespace
+
+Result<Choices> choose(const Frame& frame, std::span<const std::string> uses, std::span<const std::string> sets) {
+    Choices choices;
+    for (const StageInfo& stage : stages())
+        if (const auto known = techniques_of(stage.stage); !known.empty())
+            choices[stage.stage] = {known.front(), Settings(known.front()->params)};
+    apply_recorded(frame, choices);
+    for (const std::string& use : uses) {
+        const auto technique = find_technique(use);
+        if (!technique) return technique.error();
+        choices[(*technique)->stage] = {*technique, Settings((*technique)->params)};
+    }
+    for (const std::string& set : sets)
+        if (const auto done = apply_set(choices, set); !done) return done.error();
+    return choices;
+}
+
+Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Choices& choices, const Capabilities& device,
+                                    const AfterAct& after) {
+    DeclaredFrame frame;
+    Choices wanted;
+    images.capabilities = device;
+    for (const StageInfo& stage : stages()) {
+        const auto choice = choices.find(stage.stage);
+        if (const auto reason = stage.unwanted(*images.features)) {
+            frame.skipped.push_back({stage.stage, *reason});
+        } else if (choice == choices.end()) {
+            frame.skipped.push_back({stage.stage, "no technique of this stage is built in"});
+        } else {
+            if (const auto fits = check_needs(*choice->second.technique, device); !fits) return fits.error();
+            wanted.insert(*choice);
+        }
+    }
+    for (const StageInfo& stage : stages()) {
+        for (const auto& [choice, what] : acts_at(stage.stage, wanted)) {
+            frame.acts.push_back(act(graph, images, *choice, what));
+            if (after) after(frame.acts.back());
+        }
+    }
+    return frame;
+}
+
+}  // namespace strata

@@ -1,0 +1,298 @@
+// Looking inside a frame: what acts and steps gave, what a stage found, and how it fares against model and truth.
+#include <algorithm>
+#include <set>
+
+#include "replay/session/describe_run.h"
+#include "replay/session/device_session.h"
+#include "replay/session/judgement.h"
+
+namespace strata {
+namespace {
+
+/// The last step up to `end` that writes the image, or nothing.
+std::optional<std::size_t> last_write(const Plan& plan, Image image, std::size_t end) {
+    for (std::size_t i = std::min(end, plan.steps.size()); i-- > 0;)
+        for (const Barrier& barrier : plan.steps[i].barriers)
+            if (barrier.image.id == image.id && barrier.image && writes(barrier.after)) return i;
+    return {};
+}
+
+/// Scopes are in the order of the steps.
+std::size_t first_step_after(const Plan& plan, std::uint32_t scope) {
+    const auto at = std::ranges::find_if(plan.steps, [&](const PlannedStep& s) { return s.step.scope > scope; });
+    return static_cast<std::size_t>(at - plan.steps.begin());
+}
+
+/// Places of a plan to look at; one that is wanted twice is read once.
+class Peeks {
+public:
+    std::size_t add(std::size_t step, Image image) {
+        const auto same = [&](const Peek& peek) { return peek.step == step && peek.image.id == image.id; };
+        const auto known = std::ranges::find_if(peeks_, same);
+        if (known != peeks_.end()) return static_cast<std::size_t>(known - peeks_.begin());
+        peeks_.push_back({step, image});
+        return peeks_.size() - 1;
+    }
+    RunOptions options() const { return {.peeks = peeks_, .kept_images = KeptImages::left}; }
+
+private:
+    std::vector<Peek> peeks_;
+};
+
+/// An image by its name and its index among the peeked ones.
+struct PeekedImage {
+    std::string name;
+    std::size_t peek = 0;
+};
+
+/// The outputs of its stage that an act writes, after its last step.
+std::vector<PeekedImage> peek_outputs(const Declaration& d, const DeclaredAct& act, Peeks& peeks) {
+    std::vector<PeekedImage> places;
+    for (const std::string_view output : info(act.technique->stage).outputs) {
+        const Image image = d.images.*find_frame_image(output)->member;
+        if (!image || d.graph.shape(image).samples > 1) continue;
+        const auto step = last_write(d.plan, image, first_step_after(d.plan, act.scope));
+        if (step && d.plan.steps[*step].step.scope == act.scope) places.push_back({std::string(output), peeks.add(*step, image)});
+    }
+    return places;
+}
+
+/// How many acts stand before the last one of a stage's technique; nothing when it has none.
+std::optional<std::size_t> before_last_act(const Declaration& d, Stage stage) {
+    for (std::size_t i = d.frame.acts.size(); i-- > 0;)
+        if (d.frame.acts[i].technique->stage == stage) return i;
+    return {};
+}
+
+/// The last scope of an act: what the memo keeps of it, or puts in its place, is in one of its own.
+std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
+    const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].name.starts_with("memo: ");
+    return act.scope + (in_memo ? 1 : 0);
+}
+
+/// Whether a step belongs to the stage's technique: what another stage drew over its output later is not its result.
+bool is_step_of(const Declaration& d, Stage stage, std::size_t step) {
+    const std::uint32_t scope = d.plan.steps[step].step.scope;
+    return std::ranges::any_of(d.frame.acts, [&](const DeclaredAct& act) {
+        return act.technique->stage == stage && (act.scope == scope || end_scope(d, act) == scope);
+    });
+}
+
+/// The images of one sample that a step writes.
+std::vector<Image> written_by(const Declaration& d, const PlannedStep& planned) {
+    std::vector<Image> written;
+    for (const Barrier& barrier : planned.barriers) {  // one per mip and layer
+        if (!barrier.image || !writes(barrier.after) || d.graph.shape(barrier.image).samples > 1) continue;
+        if (std::ranges::find(written, barrier.image.id, &Image::id) == written.end()) written.push_back(barrier.image);
+    }
+    return written;
+}
+
+/// The texel of an image that shows a pixel of the frame: of one that covers it, at full extent or a pixel for each k x k.
+std::optional<glm::uvec2> texel_under(const Shape& shape, const Extent& frame, glm::uvec2 pixel) {
+    const std::uint32_t k = (frame.width + shape.extent.width - 1) / shape.extent.width;
+    const Extent covering{(frame.width + k - 1) / k, (frame.height + k - 1) / k, 1};
+    if (covering.width != shape.extent.width || covering.height != shape.extent.height) return {};
+    return pixel / k;
+}
+
+ActImages describe_act(const Declaration& d, const DeclaredAct& act) {
+    const Stage stage = act.technique->stage;
+    std::string label(name(stage));
+    if (act.at != stage) label += fmt::format(" at {}", name(act.at));
+    return {stage, act.at, std::move(label), choice_line(d.choices.at(stage)), {}};
+}
+
+}  // namespace
+
+Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, const std::string& image) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    if (step >= plan.steps.size())
+        return fail(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
+    const Image handle = declared->graph.find_image(image);
+    if (!handle) return fail(Fault::usage, "the frame has no image '{}'", image);
+    if (!last_write(plan, handle, step + 1)) return fail(Fault::usage, "'{}' is not written yet after step {}", image, step);
+    auto execution = execute(*declared, {.until = step, .peeks = {{step, handle}}});
+    if (!execution) return execution.error();
+    return std::move(execution->peeked.front());
+}
+
+Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage) {
+    // Under a memory budget what the memo may hold depends on the peeks, which depend on the plan: then everything is executed.
+    auto declared = prepare(request, memory_budget_ == 0 ? &memo_ : nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const auto acts_before = before_last_act(*declared, stage);
+    std::vector<std::uint64_t> keys = declared->act_keys;
+    if (acts_before) keys.resize(std::min(keys.size(), *acts_before));
+    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    if (!is_known) {
+        memo_.drop_unfilled();
+        if (!acts_before) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+        // What the memo puts in the place of a stage leaves out what only that stage would have read.
+        declared = prepare(request, nullptr, Keep::all_images);
+        if (!declared) return declared.error();
+    }
+    const Declaration& d = *declared;
+    const DeclaredAct* last = &d.frame.acts[*acts_before];
+    Peeks peeks;
+    std::vector<PeekedImage> before, result;
+    const auto want = [&](std::vector<PeekedImage>& places, std::string_view image_name, Image image, std::size_t end) {
+        if (!image || d.graph.shape(image).samples > 1) return;
+        if (const auto step = last_write(d.plan, image, end))
+            places.push_back({std::string(image_name), peeks.add(*step, image)});
+    };
+    for (const FrameImageRow& row : frame_images())
+        if (!is_known) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
+    for (const std::string_view output : info(stage).outputs) {
+        const Image image = d.images.*find_frame_image(output)->member;
+        const std::size_t end = first_step_after(d.plan, end_scope(d, *last));
+        const auto step = image ? last_write(d.plan, image, end) : std::nullopt;
+        if (step && is_step_of(d, stage, *step)) want(result, output, image, end);
+    }
+
+    const auto execution = execute(d, peeks.options());
+    if (!execution) return execution.error();
+    remember(d, *execution);
+    if (!is_known) {
+        found_.emplace(Found{loaded_->key, std::move(keys), {}, {}});
+        for (const PeekedImage& image : before) found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
+    }
+    Inspected inspected{.choice = d.choices.at(stage), .result = {}};
+    for (const PeekedImage& image : result) inspected.result.emplace(image.name, in_double(execution->peeked[image.peek]));
+    return inspected;
+}
+
+Result<Run> DeviceSession::run_with_acts(const Request& request) {
+    auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Declaration& d = *declared;
+    Peeks peeks;
+    std::vector<PeekedImage> outputs;
+    std::vector<std::vector<PeekedImage>> of_acts;
+    for (const auto& [output, image] : d.outputs)
+        if (const auto step = last_write(d.plan, image, d.plan.steps.size()))
+            outputs.push_back({output, peeks.add(*step, image)});
+    std::vector<PeekedImage> tables;
+    for (const auto& [output, source] : d.tables)
+        if (const auto step = last_write(d.plan, source.second, d.plan.steps.size()))
+            tables.push_back({output, peeks.add(*step, source.second)});
+    for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(peek_outputs(d, act, peeks));
+
+    const auto execution = execute(d, peeks.options());
+    if (!execution) return execution.error();
+    Run run = finished(d, *execution);
+    for (const PeekedImage& image : outputs) run.images.emplace(image.name, execution->peeked[image.peek]);
+    for (const PeekedImage& table : tables)
+        run.tables.emplace(table.name, table_of(*d.tables.at(table.name).first, execution->peeked[table.peek]));
+    for (std::size_t i = 0; i < of_acts.size(); ++i) {
+        run.acts.push_back(describe_act(d, d.frame.acts[i]));
+        for (const PeekedImage& image : of_acts[i]) run.acts.back().images.emplace(image.name, execution->peeked[image.peek]);
+    }
+    return run;
+}
+
+Result<std::vector<StepImages>> DeviceSession::step_images(const Request& request, Stage stage) {
+    const auto declared = prepare(request, nullptr, Keep::all_images);
+    if (!declared) return declared.error();
+    const Plan& plan = declared->plan;
+    std::set<std::uint32_t> scopes;
+    for (const DeclaredAct& act : declared->frame.acts)
+        if (act.technique->stage == stage) scopes.insert(act.scope);
+    std::vector<StepImages> steps;
+    RunOptions options{.kept_images = KeptImages::left};
+    std::vector<std::size_t> places;  // of each peek, in steps
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        const Step& step = plan.steps[i].step;
+        if (!scopes.contains(step.scope)) continue;
+        for (const Image image : written_by(*declared, plan.steps[i])) {
+            options.peeks.push_back({i, image});
+            places.push_back(steps.size());
+        }
+        steps.push_back({i, plan.scopes[step.scope].name, step.name, {}});
+    }
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        steps[places[i]].images.emplace(plan.images[options.peeks[i].image.id].name, std::move(execution->peeked[i]));
+    return steps;
+}
+
+Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& request, glm::uvec2 pixel) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    const Extent& frame = declared->images.extent;
+    if (pixel.x >= frame.width || pixel.y >= frame.height)
+        return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", frame.width, frame.height, pixel.x, pixel.y);
+    const Plan& plan = declared->plan;
+    RunOptions options{.kept_images = KeptImages::left};
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+        for (const Image image : written_by(*declared, plan.steps[i]))
+            if (const auto texel = texel_under(declared->graph.shape(image), frame, pixel))
+                options.peeks.push_back({i, image, texel});
+    auto execution = execute(*declared, options);
+    if (!execution) return execution.error();
+    std::vector<StepImages> steps;
+    for (std::size_t i = 0; i < options.peeks.size(); ++i) {
+        const Peek& peek = options.peeks[i];
+        const Step& step = plan.steps[peek.step].step;
+        if (steps.empty() || steps.back().step != peek.step)
+            steps.push_back({peek.step, plan.scopes[step.scope].name, step.name, {}});
+        steps.back().images.emplace(plan.images[peek.image.id].name, std::move(execution->peeked[i]));
+    }
+    return steps;
+}
+
+Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std::uint32_t draw) {
+    Request for_depth = request;
+    for_depth.outputs = {"depth_layers"};
+    const auto run = this->run(for_depth);
+    if (!run) return run.error();
+    const Frame& frame = loaded_->frame;
+    const std::size_t count = frame.draws.size() + frame.emitters.size();
+    if (draw >= count) return fail(Fault::usage, "the frame has {} draws and emitters; there is no draw {}", count, draw);
+    const auto depth = run->images.find("depth_layers");
+    if (depth == run->images.end()) return strata::draw_cover(frame, draw, nullptr);
+    const ReferenceImage layers = in_double(depth->second);
+    return strata::draw_cover(frame, draw, &layers);
+}
+
+Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
+    const auto inspected = inspect(request, stage);
+    if (!inspected) return inspected.error();
+    if (const auto on = check_going(); !on) return on.error();
+    return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
+}
+
+Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
+    const auto inspected = inspect(request, stage);
+    if (!inspected) return inspected.error();
+    Accuracy accuracy = judge_stage({.frame = loaded_->frame,
+                                     .features = loaded_->features,
+                                     .choice = inspected->choice,
+                                     .before = found_->images,
+                                     .result = inspected->result,
+                                     .against = against,
+                                     .truth = truth,
+                                     .fragments = &found_->fragments,
+                                     .stop = stop_});
+    if (const auto on = check_going(); !on) return on.error();
+    return accuracy;
+}
+
+Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request& request) {
+    const auto inspected = inspect(request, Stage::transparency);
+    if (!inspected) return inspected.error();
+    if (const auto on = check_going(); !on) return on.error();
+    if (!found_->fragments) {
+        const auto depth = found_->images.find("depth_layers");
+        const View& view = loaded_->frame.view;
+        found_->fragments = strata::transparent_fragments(
+            loaded_->frame,
+            depth != found_->images.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples));
+    }
+    return &*found_->fragments;
+}
+
+}  // namespace strata

@@ -1,0 +1,29 @@
+// A stage's result against its technique's model and the stage's truth. No device.
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "passes/technique.h"
+#include "replay/session/session.h"
+
+namespace strata {
+
+struct JudgedStage {
+    const Frame& frame;
+    const Features& features;
+    const Choice& choice;
+    const ImageSet& before;
+    const ImageSet& result;
+    Against against = Against::model_and_truth;
+    const ImageSet* truth = nullptr;                    ///< null: computed here
+    std::optional<FragmentLists>* fragments = nullptr;  ///< as StageInput's
+    std::stop_token stop = {};                          ///< once requested, what is left is left out and the answer worth nothing
+};
+
+Accuracy judge_stage(const JudgedStage&);
+
+/// The technique's model on the stage's inputs, in double.
+ImageSet run_model(const JudgedStage&);
+
+}  // namespace strata

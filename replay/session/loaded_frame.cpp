@@ -1,0 +1,38 @@
+#include "replay/session/loaded_frame.h"
+
+#include <bit>
+#include <cmath>
+
+namespace strata {
+
+FrameVariant variant_of(const Request& request) {
+    return {request.frame, request.extent_divisor, request.samples, request.eye, request.force};
+}
+
+Result<std::unique_ptr<LoadedFrame>> load_frame(Frame recorded, const FrameVariant& variant) {
+    View& view = recorded.view;
+    if (variant.samples != 0 && variant.samples != 1 && variant.samples != 4)
+        return fail(Fault::usage, "samples are 1 or 4, not {}", variant.samples);
+    if (variant.samples != 0) view.samples = variant.samples;
+    if (variant.extent_divisor == 0 || view.width < variant.extent_divisor || view.height < variant.extent_divisor)
+        return fail(Fault::usage, "an extent of {} x {} cannot be divided by {}", view.width, view.height,
+                    variant.extent_divisor);
+    view.width /= variant.extent_divisor;
+    view.height /= variant.extent_divisor;
+    for (const EyeAxis& axis : eye_axes())
+        if (!std::isfinite(variant.eye.*axis.member)) return fail(Fault::usage, "the eye's {} is not a number", axis.name);
+    view = moved(view, variant.eye);
+
+    auto loaded = std::make_unique<LoadedFrame>(variant, std::move(recorded));
+    loaded->features = loaded->facts.features();
+    loaded->key = (variant.frame << 24) ^ (std::uint64_t(variant.extent_divisor) << 8) ^ loaded->frame.view.samples;
+    for (const EyeAxis& axis : eye_axes())
+        loaded->key = std::rotl(loaded->key, 1) ^ std::bit_cast<std::uint64_t>(variant.eye.*axis.member) * 0x9e3779b97f4a7c15ull;
+    for (const Feature feature : variant.force) {
+        loaded->features.set(feature, "forced");
+        loaded->key ^= 1ull << (32 + static_cast<unsigned>(feature) % 32);
+    }
+    return loaded;
+}
+
+}  // namespace strata

@@ -1,0 +1,258 @@
+#include "replay/session/session.h"
+
+#include <algorithm>
+
+#include "capture_format/nearest_name.h"
+#include "replay/counted.h"
+#include "replay/measure/host_memory.h"
+#include "replay/measure/lap.h"
+#include "replay/scene/fit_textures.h"
+#include "replay/session/describe_run.h"
+#include "replay/session/device_session.h"
+
+namespace strata {
+namespace {
+
+// Kept stage outputs: a 1080p frame at four samples is about 1 GiB of them.
+constexpr std::uint64_t memo_budget_bytes = std::uint64_t(1) << 30;
+
+Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
+    std::vector<std::string_view> known;
+    for (std::size_t i = plan.steps.size(); i-- > 0;) {
+        known.push_back(plan.steps[i].step.name);
+        if (known.back().find(wanted) != std::string_view::npos) return i;
+    }
+    return fail(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
+}
+
+}  // namespace
+
+DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source, std::uint64_t memory_budget)
+    : device_(std::move(device)),
+      executor_(Executor::create(*device_)),
+      scene_(*executor_),
+      memo_(*executor_, memo_budget_bytes),
+      memory_budget_(memory_budget),
+      source_(std::move(source)) {}
+
+std::size_t DeviceSession::frame_count() const {
+    if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame_count();
+    return std::get<std::vector<Frame>>(source_).size();
+}
+
+Result<Frame> DeviceSession::frame(std::size_t index) {
+    const std::size_t count = frame_count();
+    if (index >= count)
+        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"), index);
+    if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
+    return std::get<std::vector<Frame>>(source_)[index];
+}
+
+Result<Run> DeviceSession::run(const Request& request) {
+    if (request.acts == Acts::brought_back) return run_with_acts(request);
+    RunOptions options;
+    auto declared = request.once ? prepare(request, nullptr, Keep::outputs) : prepare_with_memo(request, options);
+    if (!declared) return declared.error();
+    Declaration& d = *declared;
+    if (!request.until.empty()) {
+        const auto until = find_step(d.plan, request.until);
+        if (!until) {
+            memo_.drop_unfilled();
+            return until.error();
+        }
+        options.until = *until;
+    }
+    const auto execution = execute(d, options);
+    if (!execution) return execution.error();
+    Run run = finished(d, *execution);
+    if (options.until) memo_.drop_unfilled();
+    else remember(d, *execution);
+    return run;
+}
+
+Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request> requests) {
+    std::vector<Run> runs;
+    loaded_.reset();
+    for (Request request : requests) {
+        request.once = true;  // what the memo keeps belongs to the capture's frames
+        const FrameVariant variant = variant_of(request);
+        auto loaded = !loaded_ || loaded_->variant != variant ? load(made, variant) : Result<void>();
+        auto run = loaded ? this->run(request) : Result<Run>(loaded.error());
+        if (!run) {
+            loaded_.reset();
+            return run.error();
+        }
+        runs.push_back(*std::move(run));
+    }
+    loaded_.reset();
+    return runs;
+}
+
+Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
+    auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    return PlannedFrame{std::move(declared->plan), std::move(declared->frame.skipped)};
+}
+
+Result<void> DeviceSession::check_going() const {
+    if (stop_.stop_requested()) return fail(Fault::stopped, "stopped");
+    if (is_lost_) return fail(Fault::device_failed, "the device was lost and does nothing any more; open the capture again");
+    return {};
+}
+
+Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
+    if (const auto on = check_going(); !on) return on.error();
+    const FrameVariant variant = variant_of(request);
+    times_ = {};
+    Lap lap;
+    if (!loaded_ || loaded_->variant != variant) {
+        auto recorded = frame(request.frame);
+        if (!recorded) return recorded.error();
+        if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
+        times_.load = lap();
+    }
+    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
+    if (!declared) memo_.drop_unfilled();
+    times_.declare = lap();
+    return declared;
+}
+
+Result<void> DeviceSession::load(Frame frame, const FrameVariant& variant) {
+    auto loaded = load_frame(std::move(frame), variant);
+    if (!loaded) return loaded.error();
+    loaded_ = *std::move(loaded);
+    loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
+    not_uploaded_ = scene_records(loaded_->facts);
+    scene_.describe(*not_uploaded_);
+    return {};
+}
+
+Result<void> DeviceSession::check_buffers(const Plan& plan) const {
+    for (const BufferRecord& buffer : plan.buffers)
+        if (buffer.bytes > device().max_buffer_bytes)
+            return fail(Fault::device_lacks,
+                        "'{}' takes {} MiB and {} binds at most {} MiB at once; replay with a smaller extent or settings "
+                        "that take less",
+                        buffer.name, buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20);
+    return {};
+}
+
+template <typename Action>
+std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
+    try {
+        return action();
+    } catch (const DeviceLost& failure) {
+        is_lost_ = true;
+        return fail(Fault::device_failed, "{}; open the capture again", failure.what());
+    } catch (const DeviceFailure& failure) {
+        return fail(Fault::device_failed, "{}", failure.what());
+    }
+}
+
+void DeviceSession::upload_scene() {
+    if (!not_uploaded_) return;
+    Lap lap;
+    if (memory_budget_ != 0) {  // the old frame's memory goes first
+        executor_->forget_plan();
+        scene_.forget();
+    }
+    scene_.upload(*not_uploaded_);
+    not_uploaded_.reset();
+    times_.upload = lap();
+}
+
+void DeviceSession::make_remembered(const Plan& plan) {
+    for (const BufferRecord& buffer : plan.buffers)
+        if (buffer.remembered && !remembered_.contains(buffer.import->key)) {
+            executor_->upload(*buffer.import, std::vector<std::byte>(buffer.bytes));
+            remembered_.insert(buffer.import->key);
+        }
+}
+
+void DeviceSession::forget_memo() {
+    memo_.clear();
+    remembered_.clear();
+}
+
+Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
+    auto execution = try_execute(d, options);
+    if (execution) {
+        times_.device = execution->host_ms;
+        return execution;
+    }
+    memo_.drop_unfilled();
+    if (stop_.stop_requested()) return check_going().error();
+    if (execution.error().fault == Fault::device_failed) remembered_.clear();  // the frame may have got halfway
+    return execution;
+}
+
+Result<Execution> DeviceSession::try_execute(const Declaration& d, RunOptions options) {
+    if (const auto on = check_going(); !on) return on.error();
+    options.stop = stop_;
+    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
+    const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
+    if (!uses_memo)
+        if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
+    return guarded([&]() -> Result<Execution> {
+        upload_scene();
+        make_remembered(d.plan);
+        return executor_->run(d.plan, options);
+    });
+}
+
+Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
+    Run run = describe_run(d);
+    run.counters = read_counters(d, execution);
+    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
+    run.counters = summed(std::move(run.counters));
+    run.images = images_of(d, execution);
+    run.tables = tables_of(d, execution);
+    run.notes = loaded_->notes;
+    if (const std::size_t replaced = shader_sets_.empty() ? 0 : shader_sets_.back()->compiled.size())
+        run.notes.push_back(fmt::format("{} replaced at run time", counted(replaced, "shader")));
+    run.pipelines_created = execution.pipelines_created;
+    run.host_ms = times_;
+    const DeviceMemory memory = executor_->memory();
+    run.memory.plan = memory.plan;
+    run.memory.memo = memo_.held();
+    run.memory.scene = memory.imports - std::min(memory.imports, run.memory.memo);
+    run.memory.allocated = memory.allocated;
+    run.memory.peak_allocated = memory.peak_allocated;
+    run.memory.host_peak = host_peak_bytes();
+    return run;
+}
+
+void DeviceSession::remember(const Declaration& d, const Execution& execution) {
+    for (const auto& [key, scope] : d.memo_writes) memo_.commit(key, read_counters(d, execution, scope));
+}
+
+namespace {
+
+Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, DeviceSession::Source source) {
+    auto device = Device::open(choice);
+    if (!device) return device.error();
+    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source), choice.memory_budget));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path, const DeviceChoice& choice, Partial partial) {
+    auto capture = Capture::open(path, partial);
+    if (!capture) return capture.error();
+    if (capture->frame_count() == 0) return fail(Fault::bad_input, "{} holds no frame", path.string());
+    return open_session(choice, *std::move(capture));
+}
+
+Result<std::unique_ptr<Session>> Session::open(std::vector<Frame> frames, const DeviceChoice& choice) {
+    return open_session(choice, std::move(frames));
+}
+
+Result<std::vector<ActImages>> Session::act_images(Request request) {
+    request.outputs.clear();
+    request.acts = Acts::brought_back;
+    auto run = this->run(request);
+    if (!run) return run.error();
+    return std::move(run->acts);
+}
+
+}  // namespace strata

@@ -1,0 +1,205 @@
+// Open a capture on a device, choose techniques, run, read back, peek, judge: the one API of CLI, inspector and tests.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "capture_format/reader.h"
+#include "passes/graph/plan.h"
+#include "replay/gpu/device.h"
+#include "replay/images/draw_cover.h"
+#include "replay/images/host_image.h"
+#include "replay/measure/timing.h"
+#include "replay/session/eye_move.h"
+#include "replay/session/frame_plan.h"
+#include "replay/session/memo.h"
+#include "replay/session/memory_need.h"
+
+namespace strata {
+
+/// Whether a run brings back what every act gave (Run::acts). Then every act is executed, whatever the memo holds.
+enum class Acts { left, brought_back };
+
+/// What to replay and what to bring back.
+struct Request {
+    std::size_t frame = 0;                ///< index in the capture
+    std::vector<std::string> uses, sets;  ///< as on the command line, see choose()
+    std::vector<Feature> force;           ///< features switched on though the frame lacks them
+    std::vector<std::string> outputs = {
+        "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
+    std::string until;                 ///< last step to run: part of its name; empty: all
+    std::uint32_t extent_divisor = 1;  ///< replays at extent / divisor, for quick truths
+    std::uint32_t samples = 0;         ///< overrides the recorded samples when not 0
+    EyeMove eye = {};                  ///< against the recorded one
+    Acts acts = Acts::left;            ///< not with `until`
+    bool once = false;                 ///< nothing is kept for later runs that share stages with this one
+    friend bool operator==(const Request&, const Request&) = default;
+};
+
+struct StepRecord {
+    std::string scope, name;                ///< "transparency: transparency/weighted", the shader
+    std::optional<Spread> ms;               ///< with timing
+    std::vector<double> ms_by_repeat = {};  ///< what ms is the spread of, in turn
+};
+
+/// Called with what is being done and the share that is done, 0..1.
+using Progress = std::function<void(std::string_view what, double done)>;
+
+/// What a run held, in bytes.
+struct RunMemory {
+    std::uint64_t scene = 0, memo = 0, plan = 0;      ///< on the device when it was done
+    std::uint64_t allocated = 0, peak_allocated = 0;  ///< taken from the device now, and the most since the session opened
+    std::uint64_t host_peak = 0;                      ///< the process's, see host_peak_bytes()
+    MemoryOverTime over_time;                         ///< by stage and step
+};
+
+/// Where a run spent the host's time, in milliseconds.
+struct RunTimes {
+    double load = 0, declare = 0, upload = 0;  ///< frame decoded and turned into records; graph compiled; scene to the device
+    HostTimes device;
+};
+
+/// What one act of a stage's technique gave: those of the stage's outputs (StageInfo::outputs) that it wrote, as it left them.
+struct ActImages {
+    Stage stage, at;     ///< whose technique, and where in the frame: combine's second act stands at film
+    std::string label;   ///< "transparency", or "combine at film"
+    std::string choice;  ///< "technique key=value ..."
+    std::map<std::string, HostImage> images;
+};
+
+/// What a DebugTable held.
+struct NumberTable {
+    std::vector<TableColumn> columns;
+    std::vector<std::vector<double>> rows;
+};
+
+/// What one run gave.
+struct Run {
+    std::vector<StepRecord> steps;
+    std::vector<SkippedStage> skipped;
+    std::vector<CulledStep> culled;
+    std::vector<CounterRecord> counters;
+    std::map<std::string, HostImage> images;     ///< by the names asked for; names the frame does not have are absent
+    std::map<std::string, NumberTable> tables;   ///< the debug tables among the names asked for
+    std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
+    std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
+    std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
+    std::map<std::string, std::vector<double>> stage_ms_by_repeat;  ///< what stage_ms is the spread of, in turn
+    std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
+    std::uint32_t width = 0, height = 0, samples = 1;
+    std::uint64_t image_bytes = 0, buffer_bytes = 0;
+    std::map<std::string, std::uint64_t> stage_bytes;  ///< images and buffers first used by the stage's technique
+    RunMemory memory;
+    RunTimes host_ms;
+    std::size_t acts_executed = 0, acts_from_memo = 0;
+    std::size_t pipelines_created = 0;  ///< during this run
+    std::vector<std::string> notes;     ///< what had to be reduced to fit the device; shaders that are not those built in
+    std::vector<ActImages> acts;        ///< with Acts::brought_back, in the order of the frame
+};
+
+/// What a step of the plan wrote, read back right after it.
+struct StepImages {
+    std::size_t step = 0;                     ///< its place in the plan
+    std::string scope, name;                  ///< as in StepRecord
+    std::map<std::string, HostImage> images;  ///< by their names in the graph
+};
+
+/// A texel where result and model differ most, relative as in Tolerance.
+struct WorstTexel {
+    std::string image;
+    std::uint32_t x = 0, y = 0, layer = 0;
+    glm::dvec4 got{0}, wanted{0};
+};
+
+/// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
+struct Accuracy {
+    std::vector<Figure> method;                            ///< from the stage's judge
+    std::optional<double> flip;                            ///< mean of FLIP against the truth, of a stage that makes radiance
+    double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
+    std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
+    WorstTexel worst;
+    std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
+    std::string incomparable;   ///< why the result and its model or truth cannot be compared; those errors are infinite
+};
+
+/// What Session::reload_shaders did.
+struct ReloadedShaders {
+    std::vector<std::string> replaced;  ///< names of those that differ from the ones built in now
+    std::size_t compiled = 0;           ///< the others of them were, by an earlier reload
+};
+
+/// What a result is compared with. The model of a frame of a million samples takes minutes, and who asks for the model alone
+/// waits for no truth.
+enum class Against { model_and_truth, model, truth };
+
+class Session {
+public:
+    static Result<std::unique_ptr<Session>> open(const std::filesystem::path& capture, const DeviceChoice&,
+                                                 Partial = Partial::refused);
+    /// Frames made in code (tests, scenarios).
+    static Result<std::unique_ptr<Session>> open(std::vector<Frame> frames, const DeviceChoice&);
+    virtual ~Session() = default;
+
+    virtual const DeviceInfo& device() const = 0;
+    /// The capture it was opened on; null for frames made in code.
+    virtual const Capture* capture() const = 0;
+    std::string capture_id() const { return capture() ? capture()->id() : "made in code"; }
+    virtual std::size_t frame_count() const = 0;
+    virtual Result<Frame> frame(std::size_t) = 0;
+
+    /// Runs once. Stage outputs that are still valid come from the memo.
+    virtual Result<Run> run(const Request&) = 0;
+    /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread.
+    virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;
+    /// The plan of a request, without running it.
+    struct PlannedFrame {
+        Plan plan;
+        std::vector<SkippedStage> skipped;
+    };
+    virtual Result<PlannedFrame> plan(const Request&) = 0;
+    /// Any image after any step: step by index in the plan, image by its name in the graph.
+    virtual Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) = 0;
+    /// What every stage gave, act by act in the order of the frame. Everything is executed; Request::outputs do not matter.
+    Result<std::vector<ActImages>> act_images(Request);
+    /// What every step of a stage's acts wrote, in order, by the plan that keeps every image and so leaves nothing out.
+    virtual Result<std::vector<StepImages>> step_images(const Request&, Stage) = 0;
+    /// What a pixel is after every step that writes it, by the request's plan: images of one texel with all their layers and
+    /// slices. Of images at lower resolution (tiles) the texel that covers the pixel; what does not lie on the screen, and what
+    /// has several samples, is not among them (its layers are).
+    virtual Result<std::vector<StepImages>> pixel_steps(const Request&, glm::uvec2 pixel) = 0;
+    /// Which pixels show a draw of the frame (an emitter after the draws), row by row from the top: the draw in double, held
+    /// against the depth the request's techniques leave.
+    virtual Result<std::vector<Cover>> draw_cover(const Request&, std::uint32_t draw) = 0;
+    /// The stage's truth on what the earlier stages gave, in double: seconds for a small frame.
+    virtual Result<ImageSet> truth(const Request&, Stage) = 0;
+    /// Runs the request's technique of a stage and compares with its model and with the stage's truth (computed unless given).
+    virtual Result<Accuracy> judge(const Request&, Stage, Against = Against::model_and_truth,
+                                   const ImageSet* truth = nullptr) = 0;
+
+    /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
+    /// nothing when the frame and what made its depth are the same as the last time. Valid until the next call.
+    virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
+    /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
+    virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
+
+    /// Compiles the shaders that a folder (its passes/...) has other sources for than those built in, and uses them from here on;
+    /// the rest are those built in. On failure, which says FILE:LINE of what is wrong, all stay as they were; so they do when one
+    /// of the requests that are shown would have no plan with them. Stage outputs that depend on none of them stay valid.
+    virtual Result<ReloadedShaders> reload_shaders(const std::filesystem::path& folder, std::span<const Request> shown = {}) = 0;
+
+    /// Once a stop is requested, from any thread, every call fails with Fault::stopped before the next thing it would do: load a
+    /// frame, compile a pipeline, submit to the device, compute a truth, a row of a model. A new token lets it go on.
+    virtual void stop_when(std::stop_token) = 0;
+
+    /// Drops every kept stage output and what frames left to the next (Graph::remember).
+    virtual void forget_memo() = 0;
+};
+
+}  // namespace strata

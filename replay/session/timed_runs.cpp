@@ -1,0 +1,125 @@
+// Timing several requests beside each other: what they have in common is executed, and timed, once per repeat.
+#include "replay/session/describe_run.h"
+#include "replay/session/device_session.h"
+
+namespace strata {
+namespace {
+
+/// The steps of an act by name, in order.
+using ActCosts = std::vector<std::pair<std::string, StepCost>>;
+/// What one repeat has executed, by what tells equal acts from others.
+using ExecutedActs = std::map<std::string, ActCosts>;
+
+/// Tells the scopes of a request apart: acts by what they depend on, so that equal acts of two requests are the same one; what
+/// is no act (debug views) by the request.
+class ScopeNames {
+public:
+    ScopeNames(const Declaration& d, std::size_t request) : request_(request) {
+        for (std::size_t i = 0; i < d.act_keys.size(); ++i)
+            keys_.emplace(d.graph.scopes()[d.frame.acts[i].scope].name, d.act_keys[i]);
+    }
+    std::string operator()(const std::string& scope) const {
+        const auto key = keys_.find(scope);
+        return key == keys_.end() ? fmt::format("{} of {}", scope, request_) : fmt::format("{} with {:x}", scope, key->second);
+    }
+
+private:
+    std::map<std::string, std::uint64_t> keys_;
+    std::size_t request_;
+};
+
+void add_executed(const Declaration& d, const Execution& execution, const ScopeNames& name, ExecutedActs& acts) {
+    ExecutedActs now;
+    for (std::size_t i = 0; i < d.plan.steps.size(); ++i) {
+        const Step& step = d.plan.steps[i].step;
+        now[name(d.plan.scopes[step.scope].name)].emplace_back(step.name, execution.step_costs[i]);
+    }
+    for (auto& [scope, costs] : now) acts.insert_or_assign(scope, std::move(costs));
+}
+
+/// The costs of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
+std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& steps, const ScopeNames& name,
+                                              const ExecutedActs& acts) {
+    std::map<std::string, std::size_t> next;
+    std::vector<StepCost> costs;
+    for (const StepRecord& step : steps) {
+        const std::string scope = name(step.scope);
+        const auto act = acts.find(scope);
+        if (act == acts.end()) return {};
+        std::size_t& at = next[scope];
+        while (at < act->second.size() && act->second[at].first != step.name) ++at;
+        if (at == act->second.size()) return {};
+        costs.push_back(act->second[at++].second);
+    }
+    return costs;
+}
+
+/// What an execution with the memo gave, for a run that describes the whole frame.
+void add_results(Run& whole, Run executed) {
+    executed.memory.over_time = std::move(whole.memory.over_time);
+    whole.memory = std::move(executed.memory);
+    whole.counters = std::move(executed.counters);
+    whole.notes = std::move(executed.notes);
+    whole.host_ms = executed.host_ms;
+    whole.images = std::move(executed.images);
+    whole.tables = std::move(executed.tables);
+}
+
+}  // namespace
+
+Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    auto execution = execute(*declared, {.timestamps = Timestamps::on});
+    if (!execution) return execution.error();
+    TimedRun timed{finished(*declared, *execution), std::move(execution->step_costs)};
+    return timed;
+}
+
+Result<Run> DeviceSession::plan_run(const Request& request) {
+    const auto declared = prepare(request, nullptr, Keep::outputs);
+    if (!declared) return declared.error();
+    return describe_run(*declared);
+}
+
+Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
+    std::vector<Run> runs;
+    std::vector<std::vector<std::vector<StepCost>>> step_costs(requests.size());  // [request][repeat][step]
+    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {                   // the first of each warms up
+        memo_.clear();
+        ExecutedActs acts;
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            if (progress)
+                progress(repeat == 0 ? "warming up" : fmt::format("timing, {} of {}", repeat, repeats),
+                         double(repeat * requests.size() + i) / double((repeats + 1) * requests.size()));
+            if (repeat == 0) {
+                auto planned = plan_run(requests[i]);
+                if (!planned) return planned.error();
+                runs.push_back(*std::move(planned));
+            }
+            std::optional<std::vector<StepCost>> costs;
+            if (requests.size() > 1) {
+                const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
+                if (!declared) return declared.error();
+                const auto execution = execute(*declared, {.timestamps = Timestamps::on});
+                if (!execution) return execution.error();
+                remember(*declared, *execution);
+                const ScopeNames name(*declared, i);
+                add_executed(*declared, *execution, name, acts);
+                costs = costs_of(runs[i].steps, name, acts);
+                if (repeat == 0) add_results(runs[i], finished(*declared, *execution));
+            }
+            if (!costs) {
+                auto alone = time_alone(requests[i]);
+                if (!alone) return alone.error();
+                costs = std::move(alone->step_costs);
+                if (repeat == 0) runs[i] = std::move(alone->run);
+            }
+            if (repeat > 0) step_costs[i].push_back(*std::move(costs));
+        }
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) add_costs(runs[i], step_costs[i]);
+    return runs;
+}
+
+}  // namespace strata

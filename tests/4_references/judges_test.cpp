@@ -1,0 +1,204 @@
+// The judges of the stages: a result against the truth, on images small enough to work their figures out by hand. Those of
+// culling and shadows have tests beside their truths, too.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "passes/combine/judge.h"
+#include "passes/edges/judge.h"
+#include "passes/gbuffer/judge.h"
+#include "passes/lighting/judge.h"
+#include "passes/reference/difference.h"
+#include "passes/transparency/judge.h"
+#include "tests/4_references/tiny_frame.h"
+
+namespace strata {
+
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+
+using Figures = std::map<std::string, double>;
+
+Figures by_name(const std::vector<Figure>& figures) {
+    Figures named;
+    for (const Figure& figure : figures) named[figure.name] = figure.value;
+    return named;
+}
+
+/// Two equal images of 2 x 1 with two layers, 3 in every channel.
+struct Pair {
+    ReferenceImage truth{2, 1, 2, glm::dvec4(3)}, got = truth;
+};
+
+}  // namespace
+
+TEST(difference, is_of_every_color_channel_every_texel_and_every_layer) {
+    for (int channel = 0; channel < 3; ++channel)
+        for (std::size_t texel = 0; texel < 4; ++texel) {
+            Pair pair;
+            pair.got.texels[texel][channel] = 1;
+            const Difference d = difference(pair.got, pair.truth);
+            EXPECT_DOUBLE_EQ(d.rmse, std::sqrt(4. / 12));
+            EXPECT_DOUBLE_EQ(d.relative, std::sqrt(4. / (12 * 9)));
+            EXPECT_DOUBLE_EQ(d.worst, 2);
+            EXPECT_DOUBLE_EQ(d.bias, -2. / 12);
+        }
+}
+
+TEST(difference, leaves_out_what_is_undecided_on_either_side) {
+    Pair pair;
+    pair.got.texels[0].x = pair.got.texels[3].x = 100;
+    pair.got.undecided = {true, false, false, false};
+    pair.truth.undecided = {false, false, false, true};
+    EXPECT_EQ(difference(pair.got, pair.truth).worst, 0);
+    EXPECT_EQ(difference(pair.got, pair.truth).compared, 2u);
+}
+
+TEST(difference, of_nan_on_one_side_is_infinite_and_on_both_sides_nothing) {
+    for (std::size_t texel = 0; texel < 4; ++texel) {
+        Pair pair;
+        pair.got.texels[texel].z = nan_value;
+        const Difference d = difference(pair.got, pair.truth);
+        EXPECT_EQ(d.rmse, endless);
+        EXPECT_EQ(d.relative, endless);
+        EXPECT_EQ(d.worst, endless);
+        pair.truth.texels[texel].z = nan_value;
+        EXPECT_EQ(difference(pair.got, pair.truth).rmse, 0);
+        EXPECT_EQ(difference(pair.got, pair.truth).worst, 0);
+    }
+}
+
+TEST(lighting_judge, gives_the_rmse_in_radiance_relative_and_the_worst) {
+    Pair pair;
+    pair.got.at(1, 0, 1).y = 0;
+    const Frame frame = tiny::frame(2, 1);
+    const Figures figures = by_name(lighting_judge({{"light", pair.got}}, {{"light", pair.truth}}, {frame, {}}));
+    EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt(9. / 12));
+    EXPECT_DOUBLE_EQ(figures.at("relative rmse"), std::sqrt(1. / 12));
+    EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
+}
+
+TEST(combine_judge, judges_the_picture_first_and_radiance_where_the_truth_has_it) {
+    Pair display, color;
+    display.got.at(0, 0).x = 2;
+    color.got.at(1, 0, 1).z = 6;
+    const Frame frame = tiny::frame(2, 1);
+    const ImageSet got{{"display", display.got}, {"color", color.got}};
+    const auto both = combine_judge(got, {{"display", display.truth}, {"color", color.truth}}, {frame, {}});
+    ASSERT_EQ(both.size(), 3u);
+    EXPECT_DOUBLE_EQ(both[0].value, std::sqrt(1. / 12));
+    EXPECT_DOUBLE_EQ(both[1].value, 1);
+    EXPECT_DOUBLE_EQ(both[2].value, std::sqrt(1. / 12));
+    EXPECT_EQ(combine_judge(got, {{"display", display.truth}}, {frame, {}}).size(), 2u) << "color was drawn over";
+}
+
+TEST(edges_judge, tells_missed_edges_from_needless_ones) {
+    ReferenceImage truth(4, 1), got(4, 1);
+    truth.texels[0].x = truth.texels[1].x = 1;
+    got.texels[1].x = got.texels[2].x = got.texels[3].x = 1;
+    const Frame frame = tiny::frame(4, 1, 4);
+    const Figures figures = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
+    EXPECT_EQ(figures.at("missed"), 25);
+    EXPECT_EQ(figures.at("needless"), 50);
+    EXPECT_EQ(figures.at("shaded per sample"), 75);
+}
+
+namespace {
+
+/// Four samples in a row, three of them of a surface at 5 m that faces the eye.
+ImageSet decoded_surfaces() {
+    ImageSet images{{"surface_normal", ReferenceImage(4, 1, 1, {0, 0, -1, 5})},
+                    {"surface_color", ReferenceImage(4, 1, 1, {.5, .5, .5, .5})},
+                    {"surface_material", ReferenceImage(4, 1, 1, {0, .5, .5, 0})}};
+    images.at("surface_normal").texels[3] = glm::dvec4(0);
+    return images;
+}
+
+Figures gbuffer_figures(const ImageSet& got, const ImageSet& truth) {
+    const Frame frame = tiny::frame(4, 1);
+    return by_name(gbuffer_judge(got, truth, {frame, {}}));
+}
+
+}  // namespace
+
+TEST(gbuffer_judge, finds_nothing_in_equal_surfaces) {
+    for (const auto& [name, value] : gbuffer_figures(decoded_surfaces(), decoded_surfaces()))
+        EXPECT_NEAR(value, 0, 1e-12) << name;
+}
+
+TEST(gbuffer_judge, gives_each_attribute_a_figure_of_its_own) {
+    const ImageSet truth = decoded_surfaces();
+    ImageSet got = truth;
+    const double angle = std::numbers::pi / 6;
+    got.at("surface_normal").texels[2] = {std::sin(angle), 0, -std::cos(angle), 6};
+    got.at("surface_color").texels[0] = {.5, .8, .5, .2};
+    got.at("surface_material").texels[1] = {0, .9, .4, 0};
+    const Figures figures = gbuffer_figures(got, truth);
+    EXPECT_NEAR(figures.at("normal angle rms"), 30 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("normal angle worst"), 30, 1e-9);
+    EXPECT_NEAR(figures.at("position rms"), .2 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("base color rmse"), std::sqrt(.09 / 9), 1e-9);
+    EXPECT_NEAR(figures.at("roughness rmse"), .3 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("metallic rmse"), .4 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("occlusion rmse"), .1 / std::sqrt(3), 1e-9);
+    EXPECT_EQ(figures.at("coverage differs"), 0);
+}
+
+TEST(gbuffer_judge, counts_surfaces_that_are_missing_or_too_many_and_leaves_out_undecided_samples) {
+    ImageSet truth = decoded_surfaces(), got = truth;
+    got.at("surface_normal").texels[0] = glm::dvec4(0);
+    got.at("surface_normal").texels[3] = {0, 0, -1, 5};
+    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 2);
+    truth.at("surface_normal").undecided = {true, false, false, false};
+    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 1);
+}
+
+TEST(gbuffer_judge, takes_nan_for_an_infinite_error) {
+    const ImageSet truth = decoded_surfaces();
+    for (const int channel : {0, 1, 2}) {
+        ImageSet got = truth;
+        got.at("surface_normal").texels[1][channel] = nan_value;
+        EXPECT_EQ(gbuffer_figures(got, truth).at("normal angle rms"), endless) << channel;
+        EXPECT_EQ(gbuffer_figures(got, truth).at("normal angle worst"), endless) << channel;
+    }
+    ImageSet got = truth;
+    got.at("surface_color").texels[1].y = nan_value;
+    EXPECT_EQ(gbuffer_figures(got, truth).at("base color rmse"), endless);
+    got.at("surface_normal").texels[1].w = nan_value;
+    EXPECT_EQ(gbuffer_figures(got, truth).at("coverage differs"), 1) << "a depth that is NaN is no surface";
+}
+
+/// NaN is displayed as black: a black pixel of the truth must not excuse it.
+TEST(transparency_judge, takes_nan_for_wrong_wherever_it_is) {
+    ReferenceImage truth(4, 1), got(4, 1);
+    got.texels[3].y = nan_value;
+    const Frame frame = tiny::frame(4, 1);
+    const Figures figures = by_name(transparency_judge({{"color", got}}, {{"color", truth}}, {frame, {}}));
+    EXPECT_EQ(figures.at("rmse"), endless);
+    EXPECT_EQ(figures.at("worst"), endless);
+    EXPECT_EQ(figures.at("P99"), endless);
+    EXPECT_EQ(figures.at("over 10 %"), 25);
+    EXPECT_EQ(figures.at("off by 1/255"), 25);
+}
+
+TEST(transparency_judge, sees_every_channel_and_the_last_texel_of_the_last_layer) {
+    for (int channel = 0; channel < 3; ++channel) {
+        Pair pair;
+        pair.got.at(1, 0, 1)[channel] = 6;
+        Frame frame = tiny::frame(2, 1);
+        frame.film.white = 8;  // both are below it
+        const Figures figures = by_name(transparency_judge({{"color", pair.got}}, {{"color", pair.truth}}, {frame, {}}));
+        EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt(9. / 12));
+        EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
+        EXPECT_DOUBLE_EQ(figures.at("bias"), 3. / 12);
+        EXPECT_DOUBLE_EQ(figures.at("P99"), 3 / 3.01);
+        EXPECT_EQ(figures.at("over 10 %"), 25);
+        EXPECT_EQ(figures.at("off by 1/255"), 25);
+    }
+}
+
+}  // namespace strata

@@ -1,0 +1,132 @@
+// What the scenarios of transparency claim about themselves, counted on their fragments.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ranges>
+#include <vector>
+
+#include "capture_format/frame_features.h"
+#include "captures/scenarios.h"
+#include "passes/reference/fragments.h"
+#include "passes/scene/object_order.h"
+
+namespace strata {
+namespace {
+
+Frame build(std::string_view name, std::uint32_t width = 64, std::uint32_t height = 36) {
+    return (*find_scenario(name))->build(0, {.width = width, .height = height});
+}
+
+/// With nothing opaque before them.
+FragmentLists all_fragments(const Frame& frame) {
+    return transparent_fragments(frame, ReferenceImage(frame.view.width, frame.view.height, frame.view.samples));
+}
+
+/// Front to back over black.
+double composited(std::span<const Fragment> fragments) {
+    std::vector<Fragment> sorted(fragments.begin(), fragments.end());
+    std::ranges::sort(sorted, {}, &Fragment::depth);
+    double color = 0, transmittance = 1;
+    for (const Fragment& fragment : sorted) {
+        color += transmittance * fragment.color.x;
+        transmittance *= fragment.transmittance.x;
+    }
+    return color;
+}
+
+TEST(TransparentScenarios, ThinLayersAreTwoNumbers) {
+    const Frame frame = build("thin_layers");
+    const FragmentLists fragments = all_fragments(frame);
+    EXPECT_EQ(fragments.total(), 200u * 64 * 36);
+    for (const std::uint32_t x : {0u, 31u}) EXPECT_NEAR(composited(fragments.at(x, 18)), .296181, 1e-6);
+    for (const std::uint32_t x : {32u, 63u}) EXPECT_NEAR(composited(fragments.at(x, 18)), .569839, 1e-6);
+}
+
+TEST(TransparentScenarios, AParticleStormIsEightLayersDeepAtAnyExtent) {
+    for (const auto& [width, height] : {std::pair(64u, 36u), std::pair(150u, 40u)}) {
+        const double layers = double(all_fragments(build("particle_storm", width, height)).total()) / (width * height);
+        EXPECT_GT(layers, 7) << width;
+        EXPECT_LT(layers, 9) << width;
+    }
+}
+
+TEST(TransparentScenarios, TheFacadeHasThreeSkinsThenSmokeThenCars) {
+    const Frame frame = build("facade_at_150m");
+    EXPECT_NEAR(glm::length(frame.view.origin - glm::dvec3(0, 3, 0)), 150, .1);
+    std::vector<double> skins, cars;  // how far behind the facade
+    for (const Draw& draw : frame.draws) {
+        if (draw.name.ends_with("glass")) skins.push_back(-draw.to_world[3].z);
+        if (draw.name == "car") cars.push_back(-draw.to_world[3].z);
+    }
+    std::ranges::sort(skins);
+    ASSERT_EQ(skins.size(), 30u);
+    EXPECT_NEAR(skins[10] - skins[9], .3, 1e-9);
+    EXPECT_NEAR(skins[20] - skins[19], .3, 1e-9);
+    EXPECT_EQ(cars.size(), 6u);
+    for (const Particle& puff : frame.emitters.at(0).particles) {
+        EXPECT_GT(-puff.center.z, skins.back());
+        EXPECT_LT(-puff.center.z, std::ranges::min(cars));
+    }
+    EXPECT_GT(all_fragments(frame).deepest(), 6u);
+}
+
+TEST(TransparentScenarios, TheTailLightsCoverIsInFrontOfEveryLensThoughItsMiddleIsNot) {
+    const Frame frame = build("tail_light");
+    EXPECT_TRUE(frame_features(frame).has(Feature::chromatic));
+    const FragmentLists fragments = all_fragments(frame);
+    std::size_t over_red = 0;
+    for (std::uint32_t y = 0; y < fragments.height(); ++y)
+        for (std::uint32_t x = 0; x < fragments.width(); ++x) {
+            const std::span<const Fragment> list = fragments.at(x, y);  // the cover is submitted first
+            if (list.size() != 2 || list[1].transmittance.y > .1) continue;
+            ++over_red;
+            EXPECT_GT(list[1].depth - list[0].depth, .002);
+            EXPECT_LT(list[1].depth - list[0].depth, .006);
+        }
+    EXPECT_GT(over_red, 100u);
+    const std::vector<std::uint32_t> sorted = back_to_front_draws(frame);
+    EXPECT_NE(frame.draws[sorted.back()].name, "clear cover");
+    EXPECT_NE(frame.draws[sorted.front()].name, "clear cover");
+}
+
+TEST(TransparentScenarios, InterfacesAreOrderedByLayerAndTestedByDepth) {
+    const Frame frame = build("interface_layers", 96, 54);
+    ASSERT_TRUE(frame_features(frame).has(Feature::interface_layers));
+    const double near = double(frame.view.near);
+    const FragmentLists fragments = all_fragments(frame);
+    std::size_t deepest = 0;
+    for (std::uint32_t pixel = 0; pixel < 96 * 54; ++pixel) {
+        const std::span<const Fragment> list = fragments.at(pixel % 96, pixel / 96);
+        std::vector<double> depths;
+        for (const Fragment& fragment : list) depths.push_back(fragment.depth);
+        std::ranges::sort(depths);
+        const auto world = std::ranges::lower_bound(depths, near) - depths.begin();
+        EXPECT_LE(world, 3);
+        if (world < 3) continue;
+        ++deepest;
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(depths[i], near / double(4 - i), 1e-8);
+    }
+    EXPECT_GT(deepest, 100u);
+}
+
+TEST(TransparentScenarios, AnExplosionBurnsInsideItsSmoke) {
+    const Frame frame = build("explosion");
+    const Features features = frame_features(frame);
+    for (const Feature feature : {Feature::emissive, Feature::distortion, Feature::soft_particles})
+        EXPECT_TRUE(features.has(feature)) << name(feature);
+    EXPECT_FALSE(features.has(Feature::additive)) << "fire covers, so that every method can be held against it";
+    // In the middle of the picture fire has smoke on both sides.
+    const FragmentLists fragments = all_fragments(frame);
+    const auto burns = [](const Fragment& fragment) { return fragment.emission.x > 0; };
+    const std::span<const Fragment> middle = fragments.at(32, 18);
+    ASSERT_TRUE(std::ranges::any_of(middle, burns));
+    const double fire = std::ranges::find_if(middle, burns)->depth;
+    const auto smokes = [&](bool before) {
+        return std::ranges::any_of(middle, [&](const Fragment& f) { return !burns(f) && (f.depth < fire) == before; });
+    };
+    EXPECT_TRUE(smokes(true));
+    EXPECT_TRUE(smokes(false));
+}
+
+}  // namespace
+}  // namespace strata

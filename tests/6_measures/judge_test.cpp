@@ -1,0 +1,226 @@
+// The judge: a result against its model and the stage's truth. Every verdict about a technique rests on it, so its numbers are
+// worked out by hand here.
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "replay/session/frame_plan.h"
+#include "replay/session/judgement.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+/// A method of the transparency stage whose model gives the images that were there before.
+struct Judged {
+    Technique technique{.stage = Stage::transparency,
+                        .name = "transparency/made_here",
+                        .model = [](const StageInput& input, const Settings&) { return input.before; }};
+    Frame frame;
+    Features features;
+    ImageSet model, result;
+
+    /// Both images are 3 x 2 with two layers, and 2 in every channel: the root mean square is 2.
+    Judged() { model["color"] = result["color"] = ReferenceImage(3, 2, 2, glm::dvec4(2)); }
+
+    Accuracy against_model() const {
+        const Choice choice{&technique, {}};
+        return judge_stage({frame, features, choice, model, result, Against::model});
+    }
+    Accuracy against_truth(const ImageSet& truth) const {
+        const Choice choice{&technique, {}};
+        return judge_stage({frame, features, choice, model, result, Against::truth, &truth});
+    }
+    ReferenceImage& wanted() { return model.at("color"); }
+    ReferenceImage& got() { return result.at("color"); }
+};
+
+TEST(Judge, FindsNothingBetweenEqualImages) {
+    const Accuracy accuracy = Judged().against_model();
+    EXPECT_EQ(accuracy.incomparable, "");
+    EXPECT_EQ(accuracy.model_rmse, 0);
+    EXPECT_EQ(accuracy.model_worst, 0);
+    EXPECT_EQ(accuracy.compared, 12u);
+    EXPECT_EQ(accuracy.undecided, 0u);
+    EXPECT_EQ(accuracy.trivial, 0u);
+}
+
+/// 3 instead of 2 is wrong by a half; of four channels of twelve texels that is sqrt(1/4 / 48).
+TEST(Judge, FindsADifferenceInAnyChannelAlone) {
+    for (const glm::length_t channel : {0, 1, 2, 3}) {
+        Judged judged;
+        judged.got().at(1, 0)[channel] = 3;
+        const Accuracy accuracy = judged.against_model();
+        EXPECT_DOUBLE_EQ(accuracy.model_worst, .5) << "channel " << channel;
+        EXPECT_DOUBLE_EQ(accuracy.model_rmse, std::sqrt(.25 / 48)) << "channel " << channel;
+        EXPECT_EQ(accuracy.worst.got[channel], 3);
+        EXPECT_EQ(accuracy.worst.wanted[channel], 2);
+    }
+}
+
+TEST(Judge, FindsADifferenceInAnyTexelAndSaysWhereItIs) {
+    for (std::uint32_t layer = 0; layer < 2; ++layer)
+        for (std::uint32_t y = 0; y < 2; ++y)
+            for (std::uint32_t x = 0; x < 3; ++x) {
+                Judged judged;
+                judged.got().at(x, y, layer).z = 1;
+                const Accuracy accuracy = judged.against_model();
+                EXPECT_DOUBLE_EQ(accuracy.model_rmse, std::sqrt(.25 / 48));
+                EXPECT_EQ(accuracy.worst.image, "color");
+                EXPECT_EQ(accuracy.worst.x, x);
+                EXPECT_EQ(accuracy.worst.y, y);
+                EXPECT_EQ(accuracy.worst.layer, layer);
+            }
+}
+
+TEST(Judge, NamesTheWorstOfSeveralTexels) {
+    Judged judged;
+    judged.got().at(0, 0).x = 2.5;
+    judged.got().at(1, 1, 1).y = 6;
+    judged.got().at(2, 1, 1).z = 4;
+    const Accuracy accuracy = judged.against_model();
+    EXPECT_DOUBLE_EQ(accuracy.model_worst, 2);
+    EXPECT_DOUBLE_EQ(accuracy.model_rmse, std::sqrt((.0625 + 4 + 1) / 48));
+    EXPECT_EQ(accuracy.worst.x, 1u);
+    EXPECT_EQ(accuracy.worst.layer, 1u);
+}
+
+/// Half the texels are 0: the root mean square is sqrt(2). A 0 that became 1 is wrong by 1 / sqrt(2), a 2 by 1/2.
+TEST(Judge, MeasuresAgainstTheValueOrTheRootMeanSquareWhicheverIsLarger) {
+    Judged judged;
+    for (std::size_t i = 0; i < 6; ++i) judged.got().texels[i] = judged.wanted().texels[i] = glm::dvec4(0);
+    judged.got().texels[0].x = 1;
+    EXPECT_DOUBLE_EQ(judged.against_model().model_worst, std::sqrt(.5));
+    judged.got().texels[0].x = 0;
+    judged.got().texels[7].x = 1;
+    EXPECT_DOUBLE_EQ(judged.against_model().model_worst, .5);
+    EXPECT_EQ(judged.against_model().trivial, 6u);
+}
+
+TEST(Judge, CountsOneChannelOnlyWhereTheImageHasOne) {
+    Judged judged;
+    judged.got().channels = judged.wanted().channels = 1;
+    judged.got().at(0, 0).y = 9;  // means nothing
+    judged.got().at(1, 0).x = 3;
+    EXPECT_DOUBLE_EQ(judged.against_model().model_rmse, std::sqrt(.25 / 12));
+}
+
+TEST(Judge, LeavesOutWhatTheModelCannotDecide) {
+    Judged judged;
+    judged.wanted().undecided.assign(12, false);
+    judged.wanted().undecided[11] = true;
+    judged.wanted().texels[11] = glm::dvec4(1e6);  // is not part of the root mean square
+    judged.got().texels[0].x = 3;
+    const Accuracy accuracy = judged.against_model();
+    EXPECT_DOUBLE_EQ(accuracy.model_worst, .5);
+    EXPECT_DOUBLE_EQ(accuracy.model_rmse, std::sqrt(.25 / 44));
+    EXPECT_EQ(accuracy.compared, 11u);
+    EXPECT_EQ(accuracy.undecided, 1u);
+}
+
+TEST(Judge, TakesNanOnOneSideForAnInfiniteErrorAndOnBothSidesForNone) {
+    Judged judged;
+    judged.got().at(2, 1, 1).w = not_a_number;
+    EXPECT_EQ(judged.against_model().model_worst, infinity);
+    EXPECT_EQ(judged.against_model().model_rmse, infinity);
+    EXPECT_EQ(judged.against_model().worst.layer, 1u);
+    judged.wanted().at(2, 1, 1).w = not_a_number;
+    EXPECT_EQ(judged.against_model().model_worst, 0);
+    judged.got().at(2, 1, 1).w = 2;
+    EXPECT_EQ(judged.against_model().model_worst, infinity);
+}
+
+/// The texels beside it are judged as ever.
+TEST(Judge, IsNotBlindedByATexelOfTheModelThatIsNotFinite) {
+    for (const double odd : {not_a_number, infinity}) {
+        Judged judged;
+        judged.got().texels[5] = judged.wanted().texels[5] = glm::dvec4(odd);
+        judged.got().texels[6] = judged.wanted().texels[6] = glm::dvec4(0);
+        EXPECT_EQ(judged.against_model().model_worst, 0);
+        judged.got().texels[0].y = 3;
+        EXPECT_DOUBLE_EQ(judged.against_model().model_worst, .5);
+    }
+}
+
+TEST(Judge, SumsUpOverAllImages) {
+    Judged judged;
+    judged.model["depth_layers"] = judged.result["depth_layers"] = ReferenceImage(3, 2, 1, glm::dvec4(1));
+    judged.got().at(0, 0).x = 3;
+    judged.result["depth_layers"].at(2, 0).x = 2;
+    const Accuracy accuracy = judged.against_model();
+    EXPECT_DOUBLE_EQ(accuracy.model_rmse, std::sqrt((.25 / 4 + 1. / 4) / 18));
+    EXPECT_EQ(accuracy.worst.image, "depth_layers");
+}
+
+/// A result that was cut to the model's size, or an image that was passed over, would look perfect.
+void expect_incomparable(const Judged& judged, const std::string& sentence) {
+    const Accuracy accuracy = judged.against_model();
+    EXPECT_THAT(accuracy.incomparable, HasSubstr(sentence));
+    EXPECT_EQ(accuracy.model_rmse, infinity);
+    EXPECT_EQ(accuracy.model_worst, infinity);
+    EXPECT_EQ(accuracy.compared, 0u);
+}
+
+TEST(Judge, RefusesAResultOfAnotherShape) {
+    const struct {
+        ReferenceImage image;
+        std::string sentence;
+    } cases[] = {{ReferenceImage(4, 2, 2, glm::dvec4(2)), "color is 4 x 2 with 2 layers, the model's is 3 x 2 with 2 layers"},
+                 {ReferenceImage(2, 2, 2, glm::dvec4(2)), "color is 2 x 2"},
+                 {ReferenceImage(2, 3, 2, glm::dvec4(2)), "color is 2 x 3"},
+                 {ReferenceImage(3, 2, 1, glm::dvec4(2)), "color is 3 x 2 with 1 layer,"},
+                 {ReferenceImage(3, 2, 4, glm::dvec4(2)), "color is 3 x 2 with 4 layers"}};
+    for (const auto& each : cases) {
+        Judged judged;
+        judged.got() = each.image;
+        expect_incomparable(judged, each.sentence);
+    }
+    Judged judged;
+    judged.got().channels = 3;
+    expect_incomparable(judged, "color has 3 channels, the model's has 4");
+}
+
+TEST(Judge, RefusesAResultThatLacksAnImageOrHasOneThatTheModelDoesNotGive) {
+    Judged judged;
+    judged.result.clear();
+    expect_incomparable(judged, "the model gives color, the result does not have it");
+    judged.result = std::exchange(judged.model, {});
+    expect_incomparable(judged, "the model gives no image of this frame");
+    judged.model["light"] = judged.result["light"] = ReferenceImage(1, 1);
+    expect_incomparable(judged, "the result has color, the model does not give it");
+}
+
+/// No model reads them.
+TEST(Judge, DoesNotAskAModelForImagesThatOnlyTheirTechniqueCanRead) {
+    Judged judged;
+    judged.technique.stage = Stage::shadows;
+    judged.model = judged.result = {{"visibility", ReferenceImage(1, 1, 1, glm::dvec4(1))}};
+    judged.result["shadow_maps"] = ReferenceImage(1, 1);
+    EXPECT_EQ(judged.against_model().incomparable, "");
+}
+
+TEST(Judge, RefusesATruthOfAnotherExtentAndCallsEveryFigureInfinite) {
+    Judged judged;
+    const ImageSet equal = judged.result;
+    EXPECT_EQ(judged.against_truth(equal).incomparable, "");
+    EXPECT_EQ(judged.against_truth(equal).method.front().value, 0);
+    const ImageSet larger{{"color", ReferenceImage(6, 4, 2, glm::dvec4(2))}};
+    const Accuracy accuracy = judged.against_truth(larger);
+    EXPECT_EQ(accuracy.incomparable, "color is 3 x 2 with 2 layers, the truth's is 6 x 4 with 2 layers");
+    ASSERT_EQ(accuracy.method.size(), judged.against_truth(equal).method.size());
+    for (const Figure& figure : accuracy.method) EXPECT_EQ(figure.value, infinity) << figure.name;
+    EXPECT_EQ(accuracy.flip, std::nullopt);
+
+    judged.result.clear();
+    EXPECT_EQ(judged.against_truth(equal).incomparable, "the truth has color, the result does not have it");
+    EXPECT_EQ(judged.against_truth({}).incomparable, "the truth of transparency gives no image of this frame");
+    EXPECT_EQ(judged.against_truth({}).method.front().value, infinity);
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,168 @@
+#include "ui/compare/compare_side.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/ranges.h>
+
+#include "replay/expectations/expectation_check.h"
+#include "replay/images/image_io.h"
+
+namespace strata::ui {
+namespace {
+
+bool is_replay(Source source) {
+    return source == Source::replay || source == Source::recorded || source == Source::kept || source == Source::variant;
+}
+
+/// "combine at film" is an act of combine.
+bool is_of(std::string_view label, const std::optional<Stage>& stage) {
+    return !stage || label == name(*stage) || label.starts_with(fmt::format("{} at ", name(*stage)));
+}
+
+Result<SidePicture> picture_after(Session& session, const Request& request, const Subject& subject) {
+    auto acts = session.act_images(request);
+    if (!acts) return acts.error();
+    for (std::size_t i = acts->size(); i-- > 0;) {
+        ActImages& act = (*acts)[i];
+        const auto image = act.images.find(subject.image);
+        if (image == act.images.end() || !is_of(act.label, subject.after)) continue;
+        return SidePicture{.image = std::make_shared<HostImage>(std::move(image->second)), .about = act.choice};
+    }
+    return fail(Fault::usage, "{} writes no '{}' in this frame", name(*subject.after), subject.image);
+}
+
+std::string images_with_truth() {
+    std::set<std::string_view> images;
+    for (const StageInfo& stage : stages())
+        if (stage.truth) images.insert(stage.outputs.begin(), stage.outputs.end());
+    return fmt::format("{}", fmt::join(images, ", "));
+}
+
+Result<SidePicture> true_picture(Session& session, const Request& request, const Subject& subject) {
+    if (!subject.after)
+        return fail(Fault::usage, "no stage of this frame writes '{}' and has a truth; {} have one", subject.image,
+                    images_with_truth());
+    const StageInfo& stage = info(*subject.after);
+    if (!stage.truth) return fail(Fault::usage, "nobody knows the truth of {}", stage.name);
+    const auto truth = session.truth(request, stage.stage);
+    if (!truth) return truth.error();
+    const auto image = truth->find(subject.image);
+    if (image == truth->end()) return fail(Fault::usage, "the truth of {} has no '{}'", stage.name, subject.image);
+    SidePicture made = picture_of(image->second);
+    made.about = fmt::format("truth of {}, in double", stage.name);
+    return made;
+}
+
+/// This device's newest of the frame and its choices, else the newest of any device.
+const Expectation* best_of(std::span<const Expectation> all, const Expectation& got) {
+    if (const Expectation* own = newest_for(all, got)) return own;
+    const auto same = [&](const Expectation& each) { return same_frame_and_choices(each, got); };
+    const auto found = std::find_if(all.rbegin(), all.rend(), same);
+    return found == all.rend() ? nullptr : &*found;
+}
+
+Result<SidePicture> kept_picture(const Capture& capture, const ExpectedImage& image, const Expectation& expected) {
+    auto texels = capture.expected_image(image.texels, bytes(image.shape));
+    if (!texels) return texels.error();
+    return SidePicture{.image = std::make_shared<HostImage>(HostImage{image.shape, *std::move(texels)}),
+                       .about = fmt::format("expected on {}", text(expected.on))};
+}
+
+}  // namespace
+
+Request variant_of(Request request, const Technique& technique, const Settings& settings) {
+    const std::string stage = fmt::format("{}/", name(technique.stage));
+    std::erase_if(request.uses, [&](const std::string& use) { return use.starts_with(stage); });
+    std::erase_if(request.sets, [&](const std::string& set) { return set.starts_with(stage); });
+    request.uses.emplace_back(technique.name);
+    for (const std::string& line : settings.lines()) request.sets.push_back(fmt::format("{}:{}", technique.name, line));
+    return request;
+}
+
+std::optional<Stage> stage_of_truth(const std::string& image, std::span<const SkippedStage> skipped) {
+    for (std::size_t i = stages().size(); i-- > 0;) {
+        const StageInfo& stage = stages()[i];
+        const bool writes = std::ranges::find(stage.outputs, image) != stage.outputs.end();
+        const bool runs = std::ranges::find(skipped, stage.stage, &SkippedStage::stage) == skipped.end();
+        if (writes && runs && stage.truth) return stage.stage;
+    }
+    return {};
+}
+
+Result<SidePicture> expected_picture(Session& session, Request request, const Subject& subject) {
+    if (!session.capture()) return fail(Fault::expectation_missing, "the frames were made in code: nothing is expected of them");
+    const auto all = expectations_of(*session.capture());
+    if (!all) return all.error();
+    request.outputs.clear();
+    request.acts = Acts::brought_back;
+    const auto run = session.run(request);
+    if (!run) return run.error();
+    const Expectation got = expectation_of(session, request, *run);
+    const Expectation* expected = best_of(*all, got);
+    if (!expected)
+        return fail(Fault::expectation_missing,
+                    "the capture expects nothing of frame {}; 'strata accept' writes what is expected", request.frame);
+    for (std::size_t i = expected->acts.size(); i-- > 0;) {
+        const ExpectedAct& act = expected->acts[i];
+        const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);
+        if (image == act.images.end() || !is_of(act.label, subject.after)) continue;
+        if (!image->texels.empty()) return kept_picture(*session.capture(), *image, *expected);
+        const auto now = run->acts[i].images.find(subject.image);
+        const bool same = now != run->acts[i].images.end() && hash_of(now->second) == image->hash;
+        return fail(Fault::expectation_missing,
+                    "only the hash of '{}' is kept ({} what the recorded choices give here); 'strata accept --with-images' keeps "
+                    "pictures",
+                    subject.image, same ? "it is that of" : "it is not that of");
+    }
+    return fail(Fault::expectation_missing, "nothing is expected of '{}'", subject.image);
+}
+
+void ComparedSide::show(const SideWish& wish, Services& services) {
+    if (is_replay(wish.source) && !wish.subject.after) show_replay(wish, services);
+    else show_job(wish, services);
+}
+
+void ComparedSide::show_replay(const SideWish& wish, Services& services) {
+    if (job_) job_->progress.cancel();
+    job_.reset();
+    wish_.reset();
+    services.replayer.show(place_, wish.request);
+    busy_ = !services.replayer.is_current(place_);
+    const Error* error = services.replayer.error(place_);
+    message_ = error ? error->sentence : "";
+    const auto replay = services.replayer.shown(place_);
+    if (!replay || replay->request != wish.request) return;
+    picture_ = {.image = replay->image(replay, wish.subject.image)};
+    subject_ = wish.subject;
+    if (!picture_.image) message_ = fmt::format("this frame has no '{}'", wish.subject.image);
+}
+
+void ComparedSide::show_job(const SideWish& wish, Services& services) {
+    const bool is_new = !wish_ || *wish_ != wish;
+    busy_ = is_new || job_ != nullptr;
+    if (is_new && !ImGui::IsAnyItemActive()) start(wish, services);
+    if (!job_ || !job_->result()) return;
+    const Result<SidePicture>& result = *job_->result();
+    message_ = result ? "" : result.error().sentence;
+    picture_ = result ? *result : SidePicture();
+    subject_ = wish_->subject;
+    job_.reset();
+}
+
+void ComparedSide::start(const SideWish& wish, Services& services) {
+    if (job_) job_->progress.cancel();
+    wish_ = wish;
+    message_.clear();
+    if (wish.source == Source::file) {
+        job_ = ui::start<SidePicture>(services.host, [wish](Progress&) { return read_picture(wish.file, wish.subject.image); });
+        return;
+    }
+    job_ = services.replayer.start<SidePicture>([wish](Session& session, Progress&) {
+        if (wish.source == Source::truth) return true_picture(session, wish.request, wish.subject);
+        if (wish.source == Source::expectation) return expected_picture(session, wish.request, wish.subject);
+        return picture_after(session, wish.request, wish.subject);
+    });
+}
+
+}  // namespace strata::ui

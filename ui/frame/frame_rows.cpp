@@ -1,0 +1,105 @@
+#include "ui/frame/frame_rows.h"
+
+#include <algorithm>
+
+#include "replay/counted.h"
+
+namespace strata::ui {
+namespace {
+
+std::vector<FrameAct> acts_of(const std::vector<PlanRow>& steps) {
+    std::vector<FrameAct> acts;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const PlanRow& step = steps[i];
+        if (acts.empty() || acts.back().scope != step.scope)
+            acts.push_back({.scope = step.scope, .face = face_of(step.scope, step.stage), .stage = step.stage, .first = i});
+        FrameAct& act = acts.back();
+        act.end = i + 1;
+        act.barriers += step.barriers;
+        act.draws += step.draws;
+        act.made_bytes += step.made_bytes;
+        act.alive_bytes = std::max(act.alive_bytes, step.alive_bytes);
+    }
+    return acts;
+}
+
+/// The measured steps of an act's scope are in one place, too.
+void take_times(FrameRows& rows, FrameAct& act, const std::vector<PlanRow>& steps, const std::vector<StepRecord>& timed) {
+    const auto begin = std::ranges::find(timed, act.scope, &StepRecord::scope);
+    const auto first = static_cast<std::size_t>(begin - timed.begin());
+    bool has_all = true;
+    for (std::size_t i = act.first; i < act.end; ++i) {
+        const std::size_t place = first + i - act.first;
+        const bool is_same =
+            place < timed.size() && timed[place].scope == act.scope && timed[place].name == steps[i].name && timed[place].ms;
+        if (is_same) rows.timed[i] = place;
+        has_all = has_all && is_same;
+    }
+    if (has_all) act.ms = spread_of_sum(timed, first, first + act.end - act.first);
+}
+
+}  // namespace
+
+FrameRows frame_rows(const Replay& replay, const FrameTimes* times) {
+    FrameRows rows{.acts = acts_of(replay.steps), .timed = {}};
+    rows.timed.resize(replay.steps.size());
+    for (FrameAct& act : rows.acts) {
+        act.is_executed = std::ranges::find(replay.run.steps, act.scope, &StepRecord::scope) != replay.run.steps.end();
+        if (times) take_times(rows, act, replay.steps, times->run.steps);
+    }
+    return rows;
+}
+
+std::size_t FrameRows::executed() const {
+    return static_cast<std::size_t>(std::ranges::count(acts, true, &FrameAct::is_executed));
+}
+
+std::optional<std::size_t> FrameRows::step_timed_as(std::size_t place) const {
+    const auto step = std::ranges::find(timed, std::optional(place));
+    return step == timed.end() ? std::nullopt : std::optional(static_cast<std::size_t>(step - timed.begin()));
+}
+
+std::optional<Spread> spread_of_sum(const std::vector<StepRecord>& steps, std::size_t first, std::size_t end) {
+    std::vector<double> sums;
+    for (std::size_t i = first; i < end; ++i) {
+        sums.resize(std::max(sums.size(), steps[i].ms_by_repeat.size()));
+        for (std::size_t repeat = 0; repeat < steps[i].ms_by_repeat.size(); ++repeat)
+            sums[repeat] += steps[i].ms_by_repeat[repeat];
+    }
+    return sums.empty() ? std::nullopt : std::optional(spread_of(sums));
+}
+
+std::string time_text(const Spread& spread) {
+    // Three digits of what counts: a column holds no more.
+    const int digits = spread.median >= 1000 ? 0 : spread.median >= 100 ? 1 : spread.median >= .1 ? 2 : 3;
+    return spread.mad > 0 ? fmt::format("{:.{}f} \xc2\xb1{:.{}f}", spread.median, digits, spread.mad, digits)
+                          : fmt::format("{:.{}f}", spread.median, digits);
+}
+
+std::string face_of(std::string_view scope, Stage stage) {
+    const std::size_t colon = scope.find(": ");
+    if (colon == std::string_view::npos) return std::string(scope);
+    const std::string_view at = scope.substr(0, colon), technique = scope.substr(colon + 2);
+    return at == name(stage) ? std::string(technique) : fmt::format("{} at {}", technique, at);
+}
+
+std::string short_name(std::string_view step) { return std::string(step.substr(step.rfind('/') + 1)); }
+
+std::string executed_text(const FrameRows& rows) {
+    const std::size_t executed = rows.executed();
+    return fmt::format("{} of {} executed, {} kept", executed, counted(rows.acts.size(), "act"), rows.acts.size() - executed);
+}
+
+std::optional<std::size_t> step_beside(const std::vector<std::size_t>& steps, std::optional<std::size_t> selected,
+                                       int direction) {
+    if (steps.empty()) return {};
+    if (!selected) return direction > 0 ? steps.front() : steps.back();
+    if (direction > 0) {
+        const auto next = std::ranges::upper_bound(steps, *selected);
+        return next == steps.end() ? std::nullopt : std::optional(*next);
+    }
+    const auto at = std::ranges::lower_bound(steps, *selected);
+    return at == steps.begin() ? std::nullopt : std::optional(*std::prev(at));
+}
+
+}  // namespace strata::ui

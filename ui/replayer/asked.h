@@ -1,0 +1,84 @@
+// What a panel asks the session again and again as what is pinned or chosen changes. The answer is computed on the session's
+// thread; what nobody waits for any more is stopped, so that pictures need not wait for it either.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "ui/replayer/replayer.h"
+
+namespace strata::ui {
+
+template <typename Question, typename Answer>
+class Asked {
+public:
+    using Compute = std::function<Result<Answer>(Session&, Progress&, const Question&)>;
+
+    Asked() = default;
+    Asked(const Asked&) = delete;
+    Asked& operator=(const Asked&) = delete;
+    ~Asked() { withdraw(); }
+
+    /// Once per frame with what is to be known now; costs nothing while that stays the same. While the picture "A" is on its way
+    /// the session is left to it.
+    void ask(Replayer& replayer, const Question& question, const Compute& compute) {
+        if (!replayer.is_current("A")) return withdraw();
+        take();
+        if (asked_ == question) return;
+        withdraw();
+        asked_ = question;
+        error_.clear();
+        job_ = replayer.start<Answer>(
+            [question, compute](Session& session, Progress& progress) { return compute(session, progress, question); });
+    }
+    /// Stops what is being computed; the next ask() begins it anew.
+    void withdraw() {
+        take();
+        if (!job_) return;
+        drop();
+        asked_.reset();
+    }
+    /// Stops what is being computed until something else is asked, or again().
+    void stop() {
+        if (!job_) return;
+        drop();
+        error_ = "stopped";
+    }
+    void again() { asked_.reset(); }
+
+    /// Of the latest question that was answered well; null at first, and where the present one failed.
+    const Answer* answer() const { return answer_ && error_.empty() ? &answer_->second : nullptr; }
+    const Question* answered() const { return answer() ? &answer_->first : nullptr; }
+    /// A number that changes with every answer.
+    std::size_t version() const { return version_; }
+    const std::string& error() const { return error_; }
+    /// Null while nothing is being computed.
+    const Progress* progress() const { return job_ && !job_->result() ? &job_->progress : nullptr; }
+
+private:
+    void take() {
+        if (!job_ || !job_->result()) return;
+        const Result<Answer>& result = *job_->result();
+        if (result) {
+            answer_.emplace(*asked_, *result);
+            ++version_;
+        } else {
+            error_ = result.error().sentence;
+        }
+        job_.reset();
+    }
+    void drop() {
+        job_->progress.cancel();
+        job_.reset();
+    }
+
+    std::optional<Question> asked_;
+    std::optional<std::pair<Question, Answer>> answer_;
+    std::size_t version_ = 0;
+    std::string error_;
+    JobOf<Answer> job_;
+};
+
+}  // namespace strata::ui

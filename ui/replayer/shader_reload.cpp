@@ -1,0 +1,49 @@
+#include "ui/replayer/shader_reload.h"
+
+#include <filesystem>
+
+#include "replay/counted.h"
+#include "ui/window/theme.h"
+
+namespace strata::ui {
+
+void ShaderReload::start(const Model& model, Replayer& replayer) {
+    if (job_) return;
+    job_ = replayer.start<ReloadedShaders>([folder = model.shaders, request = model.request()](Session& session, ui::Progress&) {
+        return session.reload_shaders(folder, std::span(&request, 1));
+    });
+}
+
+void ShaderReload::take_result(Model& model, Services& services) {
+    if (!job_ || !job_->result()) return;
+    const Result<ReloadedShaders> done = *job_->result();
+    job_.reset();
+    error_ = done ? "" : done.error().sentence;
+    if (!done) {
+        services.log.push_back(
+            {LogLine::Kind::failed, services.seconds, fmt::format("{}\nthe shaders stay as they were", error_)});
+        return;
+    }
+    model.uses_shaders = !done->replaced.empty();
+    says_ = model.uses_shaders ? fmt::format("{} of {}", counted(done->replaced.size(), "changed shader"),
+                                             std::filesystem::absolute(model.shaders).lexically_normal().string())
+                               : "";
+    services.log.push_back(
+        {LogLine::Kind::said, services.seconds,
+         fmt::format("shaders: {}, {} compiled now", says_.empty() ? "all are those built in" : says_, done->compiled)});
+    services.replayer.show_again();
+}
+
+void ShaderReload::draw(Widgets& widgets) const {
+    if (job_) {
+        widgets.text("shaders", "compiling shaders", &palette().warning);
+    } else if (!error_.empty()) {
+        widgets.text("shaders", "\xe2\x9a\xa0 shader error", &palette().bad);
+        widgets.help(error_);
+    } else if (!says_.empty()) {
+        widgets.text("shaders", "changed shaders", &palette().accent);
+        widgets.help(says_);
+    }
+}
+
+}  // namespace strata::ui

@@ -1,0 +1,284 @@
+#include "ui/report/report_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "replay/counted.h"
+#include "replay/report/table.h"
+#include "replay/report/variants.h"
+#include "ui/window/theme.h"
+
+namespace strata::ui {
+namespace {
+
+constexpr double worth_a_logarithm = 10;
+
+bool is_measured(const Measurement& row) { return row.accuracy.not_supported.empty(); }
+
+const Measurement* first_measured(const Report& report) {
+    const auto found = std::ranges::find_if(report.rows, is_measured);
+    return found == report.rows.end() ? nullptr : &*found;
+}
+
+std::optional<double> figure_of(const Measurement& row, std::string_view name) {
+    for (const Figure& figure : errors_of(row))
+        if (figure.name == name) return figure.value;
+    return {};
+}
+
+ReportColumn error_column(const Report& report, const Figure& figure) {
+    ReportColumn column{.kind = ReportColumn::Kind::error,
+                        .head = figure.name,
+                        .label = figure.unit.empty() ? figure.name : fmt::format("{} ({})", figure.name, figure.unit),
+                        .is_detail = figure.is_detail};
+    for (const Measurement& row : report.rows) column.values.push_back(figure_of(row, figure.name));
+    return column;
+}
+
+/// A cost that has a spread.
+ReportColumn time_column(const Report& report, std::string head, std::string label,
+                         std::optional<Spread> (*spread_of_row)(const Measurement&)) {
+    ReportColumn column{.kind = ReportColumn::Kind::cost, .head = std::move(head), .label = std::move(label)};
+    for (const Measurement& row : report.rows) {
+        const auto spread = is_measured(row) ? spread_of_row(row) : std::nullopt;
+        column.values.push_back(spread ? std::optional(spread->median) : std::nullopt);
+        column.spreads.push_back(spread ? spread->mad : 0);
+    }
+    return column;
+}
+
+ReportColumn plain_column(const Report& report, std::string head, std::string label,
+                          std::optional<double> (*value_of_row)(const Measurement&)) {
+    ReportColumn column{.kind = ReportColumn::Kind::cost, .head = std::move(head), .label = std::move(label)};
+    for (const Measurement& row : report.rows) column.values.push_back(is_measured(row) ? value_of_row(row) : std::nullopt);
+    return column;
+}
+
+void add_costs(const Report& report, std::vector<ReportColumn>& columns) {
+    using Row = const Measurement&;
+    columns.push_back(
+        time_column(report, "ms", "ms of the stage", [](Row row) -> std::optional<Spread> { return row.stage_ms; }));
+    if (!report.time_unit.empty())
+        columns.push_back(time_column(report, fmt::format("\xc3\x97 {}", below_stage(report.time_unit)),
+                                      fmt::format("times as long as {}", below_stage(report.time_unit)),
+                                      [](Row row) { return row.time; }));
+    columns.push_back(
+        time_column(report, "frame ms", "ms of the frame", [](Row row) -> std::optional<Spread> { return row.frame_ms; }));
+    columns.back().is_detail = true;
+    columns.push_back(plain_column(report, "bytes/px", "bytes per pixel",
+                                   [](Row row) -> std::optional<double> { return std::round(row.bytes_per_pixel); }));
+    columns.push_back(plain_column(report, "invocations", "shader invocations", [](Row row) {
+        return row.invocations ? std::optional(static_cast<double>(*row.invocations)) : std::nullopt;
+    }));
+    columns.back().is_detail = true;
+}
+
+/// What stands with a point under the mouse.
+std::string note_of(const Report& report, const ReportAxes& axes, std::size_t row, bool on_front) {
+    const std::string& settings = report.rows[row].settings;
+    std::string note = settings.empty() ? "default settings" : settings;
+    if (!axes.cost.spreads.empty())
+        note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), counted(report.repeats, "turn"));
+    if (on_front) note += "\nnothing is both more accurate and cheaper";
+    return note + "\nclick applies it";
+}
+
+/// Adds a row's point to a series.
+struct PlotMaker {
+    const Report& report;
+    const ReportAxes& axes;
+    std::vector<bool> on_front;
+    ReportPlot plot;
+
+    bool has_place(std::size_t row) const {
+        const auto error = axes.error.size(row), cost = axes.cost.size(row);
+        return error && cost && (*error > 0 || axes.error_scale == AxisScale::linear) &&
+               (*cost > 0 || axes.cost_scale == AxisScale::linear);
+    }
+    void begin(std::string label, SeriesKind kind, const ImVec4& color) {
+        plot.series.push_back({.label = std::move(label), .kind = kind, .points = {}, .color = color});
+        plot.rows.emplace_back();
+    }
+    void add(std::size_t row) {
+        PlotSeries& series = plot.series.back();
+        series.points.emplace_back(*axes.cost.size(row), *axes.error.size(row));
+        series.notes.push_back(note_of(report, axes, row, on_front[row]));
+        if (series.kind == SeriesKind::scatter && !axes.cost.spreads.empty()) series.spreads.push_back(axes.cost.spreads[row]);
+        plot.rows.back().push_back(row);
+    }
+};
+
+void add_methods(PlotMaker& maker) {
+    for (const Technique* technique : techniques_of(maker.report.stage)) {
+        std::vector<std::size_t> own;
+        for (std::size_t i = 0; i < maker.report.rows.size(); ++i)
+            if (maker.report.rows[i].technique == technique->name && maker.has_place(i)) own.push_back(i);
+        if (own.empty()) continue;
+        maker.begin(below_stage(technique->name), SeriesKind::scatter, color_of_method(technique->name));
+        for (const std::size_t row : own) maker.add(row);
+    }
+}
+
+void add_front(PlotMaker& maker) {
+    ImVec4 color = palette().text;
+    color.w = .6f;
+    maker.begin("Pareto front", SeriesKind::step, color);
+    for (const std::size_t row : sorted_rows(maker.axes.cost, SortOrder::ascending))
+        if (maker.on_front[row] && maker.has_place(row)) maker.add(row);
+}
+
+}  // namespace
+
+std::optional<double> ReportColumn::size(std::size_t row) const {
+    return values[row] ? std::optional(std::abs(*values[row])) : std::nullopt;
+}
+
+bool ReportColumn::has_signs() const {
+    return std::ranges::any_of(values, [](const std::optional<double>& value) { return value && *value < 0; });
+}
+
+std::string ReportColumn::axis_label() const {
+    return has_signs() ? fmt::format("|{}|{}", head, label.substr(std::min(head.size(), label.size()))) : label;
+}
+
+std::vector<ReportColumn> columns_of(const Report& report) {
+    std::vector<ReportColumn> columns;
+    const Measurement* first = first_measured(report);
+    if (!first) return columns;
+    for (const Figure& figure : errors_of(*first)) columns.push_back(error_column(report, figure));
+    add_costs(report, columns);
+    std::erase_if(columns, [](const ReportColumn& column) {
+        return std::ranges::none_of(column.values, [](const std::optional<double>& value) { return value.has_value(); });
+    });
+    return columns;
+}
+
+const ReportColumn& column_of(std::span<const ReportColumn> columns, ReportColumn::Kind kind, std::string_view label) {
+    const ReportColumn* first = nullptr;
+    for (const ReportColumn& column : columns) {
+        if (column.kind != kind) continue;
+        if (column.label == label) return column;
+        if (!first || (first->is_detail && !column.is_detail)) first = &column;
+    }
+    assert(first);  // a report with a measured row has an error and a time
+    return *first;
+}
+
+AxisScale natural_scale(const ReportColumn& column) {
+    double low = HUGE_VAL, high = 0;
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+        const auto size = column.size(row);
+        if (!size) continue;
+        low = std::min(low, *size);
+        high = std::max(high, *size);
+    }
+    return low > 0 && high >= worth_a_logarithm * low ? AxisScale::logarithmic : AxisScale::linear;
+}
+
+std::vector<bool> front_of(const ReportColumn& error, const ReportColumn& cost) {
+    std::vector<Standing> standings;
+    for (std::size_t row = 0; row < error.values.size(); ++row) {
+        const auto spent = cost.size(row);
+        standings.push_back({.error = spent ? error.size(row) : std::nullopt, .time = spent.value_or(0)});
+    }
+    return pareto_front(standings, &Standing::time);
+}
+
+std::vector<std::size_t> sorted_rows(const ReportColumn& column, SortOrder order) {
+    std::vector<std::size_t> rows(column.values.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::ranges::stable_sort(rows, {}, [&](std::size_t row) {
+        const auto size = column.size(row);
+        return std::pair(!size, size ? (order == SortOrder::ascending ? *size : -*size) : 0);
+    });
+    return rows;
+}
+
+std::string cell_text(const ReportColumn& column, std::size_t row) {
+    if (!column.values[row]) return "\xe2\x80\x93";
+    const std::string text = short_number(*column.values[row]);
+    return column.spreads.empty() ? text : fmt::format("{} \xc2\xb1 {}", text, short_number(column.spreads[row]));
+}
+
+std::string name_of(const Measurement& row) { return below_stage(label(row.technique, row.settings)); }
+
+std::optional<PlotPoint> ReportPlot::point_of(std::size_t row) const {
+    for (std::size_t s = 0; s < rows.size(); ++s)
+        for (std::size_t p = 0; p < rows[s].size(); ++p)
+            if (rows[s][p] == row) return PlotPoint{s, p};
+    return {};
+}
+
+ReportPlot plot_of(const Report& report, const ReportAxes& axes, std::optional<std::size_t> now) {
+    PlotMaker maker{report, axes, front_of(axes.error, axes.cost), {}};
+    for (std::size_t row = 0; row < report.rows.size(); ++row)
+        if (axes.error.size(row) && axes.cost.size(row) && !maker.has_place(row)) ++maker.plot.without_place;
+    add_methods(maker);
+    add_front(maker);
+    if (now && maker.has_place(*now)) {
+        maker.begin("shown now", SeriesKind::scatter, palette().text);
+        maker.add(*now);
+    }
+    return std::move(maker.plot);
+}
+
+ImVec4 color_of_method(std::string_view technique) {
+    const auto found = find_technique(technique);
+    return found ? color_of_stage(index_in_stage(**found)) : palette().dim;
+}
+
+std::vector<ReportRemark> remarks_of(const Report& report) {
+    std::vector<ReportRemark> remarks;
+    std::map<std::pair<std::string, std::string>, std::vector<const Measurement*>> unable;
+    for (const Measurement& row : report.rows) {
+        if (!is_measured(row)) unable[{row.technique, row.accuracy.not_supported}].push_back(&row);
+        else if (std::string doubt = implementation_doubt(row); !doubt.empty())
+            remarks.push_back({name_of(row), std::move(doubt), true});
+    }
+    for (const auto& [key, rows] : unable)
+        remarks.push_back({rows.size() == 1 ? name_of(*rows.front())
+                                            : fmt::format("{} at {}", below_stage(key.first), counted(rows.size(), "setting")),
+                           fmt::format("cannot do this frame: {}", key.second)});
+    return remarks;
+}
+
+Request report_base(Request request, Stage stage) {
+    const auto is_own = [prefix = fmt::format("{}/", name(stage))](const std::string& text) { return text.starts_with(prefix); };
+    std::erase_if(request.uses, is_own);
+    std::erase_if(request.sets, is_own);
+    request.outputs = Request().outputs;
+    return request;
+}
+
+Request request_of(const Measurement& row, Request base) {
+    base.uses.push_back(row.technique);
+    for (const std::string& set : sets_of(row)) base.sets.push_back(fmt::format("{}:{}", row.technique, set));
+    return base;
+}
+
+std::vector<std::string> sets_of(const Measurement& row) {
+    std::vector<std::string> sets;
+    std::istringstream words(row.settings);
+    for (std::string word; words >> word;) sets.push_back(word);
+    return sets;
+}
+
+std::optional<std::size_t> row_of(const Report& report, const Choice& choice) {
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+        const Measurement& row = report.rows[i];
+        if (!is_measured(row) || row.technique != choice.technique->name) continue;
+        Settings settings(choice.technique->params);
+        bool known = true;
+        for (const std::string& set : sets_of(row)) {
+            const std::size_t equals = std::min(set.find('='), set.size() - 1);
+            known = known && settings.set(std::string_view(set).substr(0, equals), std::string_view(set).substr(equals + 1));
+        }
+        if (known && settings == choice.settings) return i;
+    }
+    return {};
+}
+
+}  // namespace strata::ui

@@ -1,0 +1,12 @@
+// A technique's parameter as a widget: wherever one is set, it looks and is clicked the same.
+#pragma once
+
+#include "passes/technique.h"
+#include "ui/widgets/widgets.h"
+
+namespace strata::ui {
+
+/// "value": a list of its choices or a slider over its range. The new value where a hand changed it.
+std::optional<double> draw_value(Widgets&, const Param&, double value);
+
+}  // namespace strata::ui
