@@ -6,6 +6,11 @@
 
 namespace strata {
 
+std::span<const Technique> techniques() {
+    static const std::vector<Technique> kept = technique_table();
+    return kept;
+}
+
 Result<const Technique*> find_technique(std::string_view name) {
     std::vector<std::string_view> known;
     for (const Technique& technique : techniques()) {

@@ -10,6 +10,9 @@
 
 namespace strata {
 
+/// What the function of every technique on the list returns; written by the build.
+std::vector<Technique> technique_table();
+
 /// Every technique on the list, in the list's order.
 std::span<const Technique> techniques();
 

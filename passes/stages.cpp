@@ -2,15 +2,21 @@
 // is left out with its techniques' own acts; what another stage's technique does at this point of the frame still happens.
 #include "passes/stages.h"
 
-#include <cassert>
-
 namespace strata {
 
-const StageInfo& info(Stage stage) {
-    const StageInfo& found = stages()[static_cast<std::size_t>(stage)];
-    assert(found.stage == stage && "a stage says which it is in its own folder");
-    return found;
+std::span<const StageInfo> stages() {
+    static const std::vector<StageInfo> kept = [] {
+        std::vector<StageInfo> table = stage_table();
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            table[i].stage = static_cast<Stage>(i);
+            table[i].name = stage_names[i];
+        }
+        return table;
+    }();
+    return kept;
 }
+
+const StageInfo& info(Stage stage) { return stages()[static_cast<std::size_t>(stage)]; }
 
 std::optional<Stage> find_stage(std::string_view name) {
     for (const StageInfo& stage : stages())

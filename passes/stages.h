@@ -39,9 +39,9 @@ using Truth = ImageSet (*)(const StageInput&);
 using Judge = std::vector<Figure> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
 struct StageInfo {
-    Stage stage;
-    std::string_view name;
-    std::string_view purpose;
+    Stage stage = {};  ///< set by stages(), as is its name
+    std::string_view name = {};
+    std::string_view purpose;  ///< what it does, for people: "shades opaque surfaces with all lights"
     /// Why a frame with these features does not need the stage, or nothing.
     std::optional<std::string> (*unwanted)(const Features&);
     /// Images of frame_images.h the stage writes; the first is the one that is judged and shown.
@@ -51,6 +51,9 @@ struct StageInfo {
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong.
     std::vector<std::string_view> scenarios;
 };
+
+/// What the stage.cpp of every folder on the list says; written by the build.
+std::vector<StageInfo> stage_table();
 
 /// Every stage, in the order of a frame.
 std::span<const StageInfo> stages();

@@ -1,5 +1,5 @@
-# add_techniques(target stage/name...): compiles each folder's sources and shaders, collects its *_test.cpp for the test
-# programs, and writes what must know all techniques: the table, the embedded shaders with their sources and the G-buffer decoders.
+# add_techniques(target stage/name...): compiles all shaders, collects every *_test.cpp for the test programs, and writes what must
+# know all techniques: the table, the embedded shaders with their sources and the G-buffer decoders.
 
 set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
 
@@ -108,20 +108,42 @@ std::span<const char* const> glsl_options() {
     target_sources(${target} PRIVATE ${generated_passes}/embedded_sources.cpp)
 endfunction()
 
-# add_stages(target name...): each folder's stage.cpp, the enumeration of stages and their table, in the order of a frame.
-function(add_stages target)
+# write_table(target name type header namespace/function...): defines name(), which returns what every function returns, in the
+# list's order.
+function(write_table target name type header)
     set(declarations "")
     set(rows "")
-    foreach(stage IN LISTS ARGN)
-        string(APPEND declarations "namespace ${stage} { StageInfo stage(); }\n")
-        string(APPEND rows "        ${stage}::stage(),\n")
+    foreach(entry IN LISTS ARGN)
+        get_filename_component(namespace ${entry} DIRECTORY)
+        get_filename_component(function ${entry} NAME)
+        string(APPEND declarations "namespace ${namespace} { ${type} ${function}(); }\n")
+        string(APPEND rows "        ${namespace}::${function}(),\n")
     endforeach()
+    file(CONFIGURE OUTPUT ${generated_passes}/${name}.cpp CONTENT
+"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
+#include \"${header}\"
+
+namespace strata {
+${declarations}
+std::vector<${type}> ${name}() {
+    return {
+${rows}    };
+}
+}  // namespace strata
+" @ONLY)
+    target_sources(${target} PRIVATE ${generated_passes}/${name}.cpp)
+endfunction()
+
+# add_stages(target name...): each folder's stage.cpp, the enumeration of stages with their names, and their table.
+function(add_stages target)
     list(JOIN ARGN ",\n    " enumerators)
+    list(JOIN ARGN "\",\n    \"" names)
     file(CONFIGURE OUTPUT ${generated_passes}/stage.h CONTENT
 "// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace strata {
 
@@ -130,48 +152,14 @@ enum class Stage : std::uint32_t {
     count_,
 };
 
+inline constexpr std::string_view stage_names[] = {
+    \"${names}\",
+};
+
 }  // namespace strata
 " @ONLY)
-    file(CONFIGURE OUTPUT ${generated_passes}/stage_table.cpp CONTENT
-"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
-#include \"passes/stages.h\"
-
-namespace strata {
-${declarations}
-std::span<const StageInfo> stages() {
-    static const std::vector<StageInfo> table{
-${rows}    };
-    return table;
-}
-}  // namespace strata
-" @ONLY)
-    target_sources(${target} PRIVATE ${generated_passes}/stage_table.cpp)
-endfunction()
-
-# The table of techniques.
-function(write_technique_table target)
-    set(declarations "")
-    set(rows "")
-    foreach(technique IN LISTS ARGN)
-        get_filename_component(stage ${technique} DIRECTORY)
-        get_filename_component(name ${technique} NAME)
-        string(APPEND declarations "namespace ${stage} { Technique ${name}(); }\n")
-        string(APPEND rows "        ${stage}::${name}(),\n")
-    endforeach()
-    file(CONFIGURE OUTPUT ${generated_passes}/technique_table.cpp CONTENT
-"// Written by passes/techniques.cmake from the list in passes/CMakeLists.txt.
-#include \"passes/registry.h\"
-
-namespace strata {
-${declarations}
-std::span<const Technique> techniques() {
-    static const std::vector<Technique> table{
-${rows}    };
-    return table;
-}
-}  // namespace strata
-" @ONLY)
-    target_sources(${target} PRIVATE ${generated_passes}/technique_table.cpp)
+    list(TRANSFORM ARGN APPEND /stage)
+    write_table(${target} stage_table StageInfo passes/stages.h ${ARGN})
 endfunction()
 
 # A switch over the decode.glsl of every G-buffer technique, in the list's order (index_in_stage).
@@ -198,25 +186,15 @@ ${cases}    return no_surface();
 endfunction()
 
 function(add_techniques target)
-    set(listed "")
-    set(tests "")
     foreach(technique IN LISTS ARGN)
-        set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${technique})
         get_filename_component(name ${technique} NAME)
-        if(NOT EXISTS ${folder}/${name}.cpp)
-            message(FATAL_ERROR "technique ${technique} is on the list in passes/CMakeLists.txt, but there is no ${folder}/${name}.cpp")
+        set(source ${CMAKE_CURRENT_SOURCE_DIR}/${technique}/${name}.cpp)
+        if(NOT EXISTS ${source})
+            message(FATAL_ERROR "technique ${technique} is on the list in passes/CMakeLists.txt, but there is no ${source}")
         endif()
-        list(APPEND listed ${technique})
-        file(GLOB technique_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-        file(GLOB technique_tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
-        if(technique_tests)
-            list(REMOVE_ITEM technique_sources ${technique_tests})
-        endif()
-        target_sources(${target} PRIVATE ${technique_sources})
-        list(APPEND tests ${technique_tests})
     endforeach()
-    write_technique_table(${target} ${listed})
-    write_gbuffer_decoders(${listed})
+    write_table(${target} technique_table Technique passes/registry.h ${ARGN})
+    write_gbuffer_decoders(${ARGN})
 
     set(spirv "")
     file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag)
@@ -225,5 +203,6 @@ function(add_techniques target)
     endforeach()
     embed_shaders(${target} ${spirv})
     embed_sources(${target})
+    file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cpp)
     set_property(GLOBAL PROPERTY strata_technique_tests ${tests})
 endfunction()

@@ -11,9 +11,7 @@ std::optional<std::string> always_wanted(const Features&) { return std::nullopt;
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::combine,
-            .name = "combine",
-            .purpose = "light, emission and fog become radiance, and radiance a picture",
+    return {.purpose = "adds light, emission and fog, and makes a picture of the sum",
             .unwanted = always_wanted,
             .outputs = {"color", "display"},
             .truth = combine_truth,

@@ -14,9 +14,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::culling,
-            .name = "culling",
-            .purpose = "which opaque draws are drawn",
+    return {.purpose = "chooses the opaque draws that are drawn",
             .unwanted = unwanted,
             .outputs = {"visible"},
             .truth = culling_truth,

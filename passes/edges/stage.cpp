@@ -14,9 +14,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::edges,
-            .name = "edges",
-            .purpose = "pixels whose samples are shaded one by one",
+    return {.purpose = "finds pixels whose samples are shaded one by one",
             .unwanted = unwanted,
             .outputs = {"edges"},
             .truth = edges_truth,

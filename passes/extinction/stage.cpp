@@ -12,9 +12,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::extinction,
-            .name = "extinction",
-            .purpose = "from which depth on nothing shows through what is transparent",
+    return {.purpose = "finds the depth behind which smoke and glass hide everything",
             .unwanted = unwanted,
             .outputs = {},
             .scenarios = {}};

@@ -11,13 +11,6 @@ std::optional<std::string> unwanted(const Features& features) {
 
 }  // namespace
 
-StageInfo stage() {
-    return {.stage = Stage::film,
-            .name = "film",
-            .purpose = "grain and fading of the recorded picture",
-            .unwanted = unwanted,
-            .outputs = {"display"},
-            .scenarios = {}};
-}
+StageInfo stage() { return {.purpose = "adds grain and fading", .unwanted = unwanted, .outputs = {"display"}, .scenarios = {}}; }
 
 }  // namespace strata::film

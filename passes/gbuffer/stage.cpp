@@ -11,9 +11,7 @@ std::optional<std::string> always_wanted(const Features&) { return std::nullopt;
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::gbuffer,
-            .name = "gbuffer",
-            .purpose = "the nearest opaque surface of every sample",
+    return {.purpose = "stores the nearest opaque surface of every sample",
             .unwanted = always_wanted,
             .outputs = {"surface_normal", "surface_color", "surface_material", "emission", "depth_layers", "depth", "gbuffer0",
                         "gbuffer1", "gbuffer2"},

@@ -12,12 +12,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::indirect,
-            .name = "indirect",
-            .purpose = "light that comes by way of other surfaces",
-            .unwanted = unwanted,
-            .outputs = {"indirect"},
-            .scenarios = {}};
+    return {.purpose = "adds light that other surfaces reflect", .unwanted = unwanted, .outputs = {"indirect"}, .scenarios = {}};
 }
 
 }  // namespace strata::indirect

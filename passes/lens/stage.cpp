@@ -13,12 +13,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::lens,
-            .name = "lens",
-            .purpose = "what the camera's optics do to the picture",
-            .unwanted = unwanted,
-            .outputs = {"color"},
-            .scenarios = {}};
+    return {.purpose = "adds bloom, depth of field and distortion", .unwanted = unwanted, .outputs = {"color"}, .scenarios = {}};
 }
 
 }  // namespace strata::lens

@@ -14,9 +14,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::lighting,
-            .name = "lighting",
-            .purpose = "what surfaces reflect of the lights",
+    return {.purpose = "shades opaque surfaces with all lights",
             .unwanted = unwanted,
             .outputs = {"light"},
             .truth = lighting_truth,

@@ -12,12 +12,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::occlusion,
-            .name = "occlusion",
-            .purpose = "how much of the ambient light reaches a surface",
-            .unwanted = unwanted,
-            .outputs = {"occlusion"},
-            .scenarios = {}};
+    return {.purpose = "darkens ambient light in corners", .unwanted = unwanted, .outputs = {"occlusion"}, .scenarios = {}};
 }
 
 }  // namespace strata::occlusion

@@ -12,9 +12,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::rain,
-            .name = "rain",
-            .purpose = "what water does to surfaces",
+    return {.purpose = "wets surfaces and draws falling drops",
             .unwanted = unwanted,
             .outputs = {"gbuffer0", "gbuffer1"},
             .scenarios = {}};

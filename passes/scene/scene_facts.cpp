@@ -77,8 +77,7 @@ std::size_t SceneFacts::derived() const {
     for (const bool is_made :
          {features_.is_made(), lists_.is_made(), lights_.is_made(), bounds_.is_made(), views_[0].is_made(), views_[1].is_made(),
           transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), texture_uses_[0].is_made(),
-          texture_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(),
-          highest_interface_layer_.is_made()})
+          texture_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made()})
         made += is_made ? 1 : 0;
     return made;
 }

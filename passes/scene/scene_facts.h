@@ -63,7 +63,8 @@ public:
     /// Of everything transparent; 0 where nothing is in an interface layer.
     std::uint32_t highest_interface_layer() const;
 
-    /// How many members were derived so far, row bounds once per extent and possible spectra once per set of features: asking for a member again adds nothing.
+    /// How many members were derived so far, row bounds once per extent and possible spectra once per set of features: asking for
+    /// a member again adds nothing.
     std::size_t derived() const;
 
 private:

@@ -14,9 +14,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::shadows,
-            .name = "shadows",
-            .purpose = "how much of each light reaches a surface",
+    return {.purpose = "draws the shadow maps of all lights",
             .unwanted = unwanted,
             .outputs = {"visibility", "shadow_maps"},
             .truth = shadows_truth,

@@ -13,12 +13,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::sun_shafts,
-            .name = "sun_shafts",
-            .purpose = "sunlight scattered by the air",
-            .unwanted = unwanted,
-            .outputs = {},
-            .scenarios = {}};
+    return {.purpose = "adds sunlight that fog and dust scatter", .unwanted = unwanted, .outputs = {}, .scenarios = {}};
 }
 
 }  // namespace strata::sun_shafts

@@ -15,9 +15,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.stage = Stage::transparency,
-            .name = "transparency",
-            .purpose = "everything that lets light through, blended over the opaque frame",
+    return {.purpose = "blends glass, smoke and sparks over the opaque frame",
             .unwanted = unwanted,
             .outputs = {"color"},
             .truth = transparency_truth,

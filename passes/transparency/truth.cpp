@@ -1,6 +1,6 @@
 #include "passes/transparency/truth.h"
 
-#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/distortion/model.h"
 
 namespace strata {
 

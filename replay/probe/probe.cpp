@@ -9,7 +9,7 @@
 #include "capture_format/nearest_name.h"
 #include "passes/reference/ordering.h"
 #include "passes/registry.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/probe/probe_frame.h"
 

@@ -45,7 +45,7 @@ TEST(Evolution, TheSchemaConformsToEveryReleasedOne) {
 
 TEST(Evolution, AChangedTypeIsNoticed) {
     const TemporaryFile changed("changed.fbs");
-    std::string text = read_text(schema);
+    std::string text = file_text(schema);
     text.replace(text.find("mips:uint"), 9, "mips:long");
     write_file(changed.path(), bytes_of(text));
     EXPECT_NE(conform(source / "capture_format/schema/released/capture_1.fbs", changed.path()), 0);

@@ -42,7 +42,7 @@ Result<void> record_as_the_readme_says() {
 
 TEST(Readme, ItsCodeIsTheCodeOfThisTest) {
     const std::filesystem::path source = STRATA_SOURCE_DIR;
-    const std::string readme = read_text(source / "README.md"), here = read_text(source / "tests/1_capture/readme_test.cpp");
+    const std::string readme = file_text(source / "README.md"), here = file_text(source / "tests/1_capture/readme_test.cpp");
     const std::size_t begin = readme.find("```cpp\n", readme.find("## Record your own renderer")) + 7;
     std::istringstream lines(readme.substr(begin, readme.find("```\n", begin) - begin));
     std::string indented;

@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/file_text.h"
 
 namespace strata {
 
@@ -35,15 +36,9 @@ private:
 };
 
 inline std::vector<std::byte> read_file(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    const std::string text = file_text(path);
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};
-}
-
-inline std::string read_text(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = read_file(path);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 inline void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {

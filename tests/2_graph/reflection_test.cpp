@@ -54,10 +54,10 @@ TEST(Reflection, IntegerImagesAndColorOutputsAreRead) {
 
 TEST(Reflection, AShaderThatChoosesALayerIsKnown) {
     const auto chooses = [](std::string_view name) { return ShaderLibrary::built_in().find(name)->chooses_layer; };
-    EXPECT_TRUE(chooses("transparency/voxel/splat_multiply.vert"));
-    EXPECT_TRUE(chooses("transparency/voxel/choose_slice.geom"));
+    EXPECT_TRUE(chooses("transparency/voxel/factors/splat_multiply.vert"));
+    EXPECT_TRUE(chooses("transparency/voxel/factors/choose_slice.geom"));
     EXPECT_FALSE(chooses("shaders/draw.vert"));
-    EXPECT_EQ(ShaderLibrary::built_in().find("transparency/voxel/choose_slice.geom")->stage, ShaderStage::geometry);
+    EXPECT_EQ(ShaderLibrary::built_in().find("transparency/voxel/factors/choose_slice.geom")->stage, ShaderStage::geometry);
 }
 
 TEST(Reflection, NestedStructsAreFlattened) {

@@ -6,7 +6,7 @@
 
 #include "passes/registry.h"
 #include "passes/transparency/moments/model.h"
-#include "passes/transparency/voxel/column.h"
+#include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/wavelet/model.h"
 #include "replay/probe/probe.h"
 #include "tests/support/session.h"

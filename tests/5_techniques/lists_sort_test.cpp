@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/plan.h"
-#include "passes/transparency/lists.shared.h"
+#include "passes/transparency/lists/lists.shared.h"
 #include "tests/support/device.h"
 #include "tests/support/session.h"
 
@@ -53,14 +53,14 @@ protected:
         Buffer of_groups = graph.create("group starts", groups * sizeof(std::uint32_t));
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
         graph.clear(counters, 0);
-        graph.compute("transparency/lists_scan_cells.comp")
+        graph.compute("transparency/lists/scan_cells.comp")
             .loads("Counts", counted)
             .stores("Starts", within)
             .stores("GroupStarts", of_groups)
             .updates("Counters", counters)
             .push(band)
             .groups({groups, 1, 1});
-        graph.compute("transparency/lists_scan_groups.comp").updates("GroupStarts", of_groups).push(band).groups({1, 1, 1});
+        graph.compute("transparency/lists/scan_groups.comp").updates("GroupStarts", of_groups).push(band).groups({1, 1, 1});
         graph.keep(within);
         graph.keep(of_groups);
         const Execution done = shared_executor().run(must(compile(graph, ShaderLibrary::built_in())), {});
@@ -82,7 +82,7 @@ protected:
         graph.copy(import(graph, "keys", keys), listed);
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
         graph.clear(counters, 0);
-        graph.compute("transparency/lists_sort.comp")
+        graph.compute("transparency/lists/sort.comp")
             .loads("Counts", import(graph, "counts", lengths))
             .loads("Starts", import(graph, "starts", places))
             .loads("GroupStarts", import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)))

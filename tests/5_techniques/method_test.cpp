@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, MethodAgainstTruth, testing::ValuesIn(judged
                          [](const auto& name) { return name.param; });
 
 /// The first scenario of the stage, the plainest, that needs it at four samples; nothing where none does.
-std::optional<std::string_view> plainest_scenario(const StageInfo& stage) {
+std::optional<std::string_view> first_scenario(const StageInfo& stage) {
     const auto needs_it = [&](std::string_view scenario) { return !unneeded(on_scenario(scenario, 4), stage.stage); };
     const auto found = std::ranges::find_if(stage.scenarios, needs_it);
     return found == stage.scenarios.end() ? std::nullopt : std::optional(*found);
@@ -146,7 +146,7 @@ std::optional<std::string_view> plainest_scenario(const StageInfo& stage) {
 
 TEST(MethodFigures, AreNumbersAtFourSamplesToo) {
     for (const StageInfo& stage : stages()) {
-        const auto scenario = plainest_scenario(stage);
+        const auto scenario = first_scenario(stage);
         for (const Technique* technique : techniques_of(stage.stage)) {
             ASSERT_TRUE(scenario) << stage.name << " has no scenario";
             const std::vector<Figure> figures = judged(*technique, {std::string(technique->name), std::string(*scenario), 4});

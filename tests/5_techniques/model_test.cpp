@@ -2,6 +2,8 @@
 // is an implementation error: a bug. By default a quarter of it is judged, at 4 samples: method_test.cpp judges all of it at 1.
 #include <algorithm>
 #include <ostream>
+#include <ranges>
+#include <stdexcept>
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -72,23 +74,21 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) { expect_agreement(GetParam(), {}); }
 INSTANTIATE_TEST_SUITE_P(Diagonal, Matrix, testing::ValuesIn(diagonal_cases()), judged_case_name);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, Matrix, testing::ValuesIn(all_cases()), judged_case_name);
 
-/// The last scenario of its stage, the richest, that the technique can do.
-std::string richest_scenario(const Technique& technique) {
-    const auto scenarios = info(technique.stage).scenarios;
+/// The first of the scenarios, or of them from the last on, that needs the stage and that the technique can do.
+template <typename Scenarios>
+std::string first_it_can(const Technique& technique, const Scenarios& scenarios) {
     const auto can = [&](std::string_view scenario) {
-        return !unsupported(technique, frame_features(scenario_frames(scenario).front()));
+        const Features features = frame_features(scenario_frames(scenario).front());
+        return !unsupported(technique, features) && !info(technique.stage).unwanted(features);
     };
-    const auto found = std::ranges::find_if(scenarios.rbegin(), scenarios.rend(), can);
-    return std::string(found == scenarios.rend() ? scenarios.back() : *found);
+    const auto found = std::ranges::find_if(scenarios, can);
+    if (found == std::ranges::end(scenarios)) throw std::logic_error(fmt::format("no scenario for {}", technique.name));
+    return std::string(*found);
 }
 
-/// The first scenario of its stage, the plainest, that the technique can do.
-std::string plainest_scenario(const Technique& technique) {
-    for (const std::string_view scenario : info(technique.stage).scenarios)
-        if (const Features features = frame_features(scenario_frames(scenario).front());
-            !unsupported(technique, features) && !info(technique.stage).unwanted(features))
-            return std::string(scenario);
-    return richest_scenario(technique);
+std::string plainest_scenario(const Technique& technique) { return first_it_can(technique, info(technique.stage).scenarios); }
+std::string richest_scenario(const Technique& technique) {
+    return first_it_can(technique, std::views::reverse(info(technique.stage).scenarios));
 }
 
 class EveryChoice : public testing::TestWithParam<Case> {};

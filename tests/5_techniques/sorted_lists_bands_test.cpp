@@ -24,8 +24,8 @@ std::size_t steps_called(const Run& run, std::string_view name) {
 TEST(SortedListsMemory, IsSharedByBandsOfRowsThatGiveTheSameBits) {
     const auto session = scenario_session("glass_and_smoke", 4);
     const auto whole = run_with_pool(*session, "64"), banded = run_with_pool(*session, "0.01");
-    EXPECT_EQ(steps_called(whole, "transparency/lists_sort.comp"), 1u);
-    EXPECT_GT(steps_called(banded, "transparency/lists_sort.comp"), 3u);
+    EXPECT_EQ(steps_called(whole, "transparency/lists/sort.comp"), 1u);
+    EXPECT_GT(steps_called(banded, "transparency/lists/sort.comp"), 3u);
     EXPECT_EQ(whole.images.at("color").texels, banded.images.at("color").texels);
     for (const std::string_view counter : {"fragments", "deepest", "dropped"})
         EXPECT_EQ(counted(whole, counter), counted(banded, counter)) << counter;

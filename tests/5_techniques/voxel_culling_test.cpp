@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "passes/transparency/function_model.h"
-#include "passes/transparency/voxel/column.h"
-#include "passes/transparency/voxel/depth_curve.h"
-#include "passes/transparency/voxel/segment.h"
-#include "passes/transparency/voxel/volume.h"
+#include "passes/transparency/functions/model.h"
+#include "passes/transparency/voxel/slices/depth_curve.h"
+#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/volume/column.h"
+#include "passes/transparency/voxel/volume/volume.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 

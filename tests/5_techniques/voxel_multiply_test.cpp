@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "passes/transparency/voxel/factors_model.h"
+#include "passes/transparency/voxel/factors/model.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
-#include "passes/transparency/function_prepass.h"
-#include "passes/transparency/voxel/dimensions.h"
-#include "passes/transparency/voxel/segment.h"
-#include "passes/transparency/voxel/sparse.h"
+#include "passes/transparency/low_resolution/prepass.h"
+#include "passes/transparency/voxel/sparse/sparse.h"
+#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 

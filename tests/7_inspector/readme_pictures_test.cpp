@@ -13,6 +13,7 @@
 #include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/accept.h"
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 
 namespace strata::ui {
@@ -20,14 +21,9 @@ namespace {
 
 const std::filesystem::path kept = STRATA_SOURCE_DIR "/ui/pictures";
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// Runs the commands that a script's head tells people. Without what it measures, which takes minutes, unless all is asked for.
 void make(const std::string& name, bool measures = true) {
-    std::istringstream script(text_of(kept / (name + ".script")));
+    std::istringstream script(file_text(kept / (name + ".script")));
     std::ofstream played(folder() / (name + ".script"));
     std::vector<std::string> commands;
     for (std::string line; std::getline(script, line);) {
@@ -48,7 +44,7 @@ void make(const std::string& name, bool measures = true) {
 class ReadmePictures : public testing::Test {
 protected:
     void SetUp() override {
-        const std::string here = strata("--list-gpus").out, there = text_of(kept / "made_on.txt");
+        const std::string here = strata("--list-gpus").out, there = file_text(kept / "made_on.txt");
         if (accepting()) must(write_whole_file(kept / "made_on.txt", here));
         else if (here != there) GTEST_SKIP() << "they were made on " << there << "and this is " << here;
     }
@@ -97,7 +93,7 @@ TEST_F(ReadmePictures, AroundAReportIsWhatItsScriptMakes) {
     accept("cost");
     const HostImage made = must(read_png(folder() / "cost.png")), expected = must(read_png(kept / "cost.png"));
     ASSERT_EQ(made.shape, expected.shape);
-    const auto tree = nlohmann::json::parse(text_of(folder() / "cost.json"));
+    const auto tree = nlohmann::json::parse(file_text(folder() / "cost.json"));
     std::size_t regions = 0;
     for (const auto& widget : tree["widgets"]) {
         const std::string path = widget["path"];

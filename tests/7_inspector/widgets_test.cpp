@@ -1,15 +1,14 @@
 // What widgets say: help where the mouse rests, in letters that the font has.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
 #include "tests/7_inspector/desk.h"
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 
 namespace strata::ui {
@@ -90,9 +89,7 @@ TEST(Font, HasEveryGlyphThatTheCodeNames) {
     std::size_t glyphs = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(STRATA_SOURCE_DIR "/ui")) {
         if (entry.path().extension() != ".cpp") continue;
-        std::stringstream source;
-        source << std::ifstream(entry.path()).rdbuf();
-        const std::string text = source.str();
+        const std::string text = file_text(entry.path());
         for (std::sregex_iterator at(text.begin(), text.end(), escaped), end; at != end; ++at, ++glyphs) {
             std::string bytes;
             for (std::size_t i = 2; i < at->str().size(); i += 4)

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <thread>
@@ -13,16 +12,12 @@
 #include <fmt/format.h>
 
 #include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
 
 namespace strata {
 namespace {
 
 constexpr std::chrono::seconds patience(20);
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The header of XWDFile.h: 32-bit words, the largest byte first.
 enum XwdWord {
@@ -47,19 +42,19 @@ std::uint32_t word(const std::string& file, std::size_t index) {
 
 std::string printed_by(const std::string& line) {
     const std::string whole = fmt::format("cd {} && {{ {}; }} >printed.txt 2>printed_errors.txt", folder().string(), line);
-    if (std::system(whole.c_str()) == 0) return contents(folder() / "printed.txt");
-    throw std::runtime_error(fmt::format("{}: {}", line, contents(folder() / "printed_errors.txt")));
+    if (std::system(whole.c_str()) == 0) return file_text(folder() / "printed.txt");
+    throw std::runtime_error(fmt::format("{}: {}", line, file_text(folder() / "printed_errors.txt")));
 }
 
 Screen::Screen(int wide, int high) {
     server_ = start("Xvfb", fmt::format("-displayfd 1 -screen 0 {}x{}x24 -nolisten tcp", wide, high), "display.txt");
     const auto is_ready = [] {
-        const std::string said = contents(folder() / "display.txt");
+        const std::string said = file_text(folder() / "display.txt");
         return said.size() > 1 && said.ends_with('\n') && std::isdigit(static_cast<unsigned char>(said[said.size() - 2]));
     };
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!is_ready() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::string said = contents(folder() / "display.txt");
+    std::string said = file_text(folder() / "display.txt");
     if (!is_ready()) throw std::runtime_error(fmt::format("Xvfb does not start: {}", said));
     // Where a display is taken it says so, and tries the next.
     said.pop_back();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
 
 namespace strata {
 namespace {
@@ -16,10 +17,7 @@ using testing::HasSubstr;
 class Diff : public testing::Test {
 protected:
     void SetUp() override { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
-    static std::string contents(const std::string& name) {
-        std::ifstream file(folder() / name);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
+    static std::string contents(const std::string& name) { return file_text(folder() / name); }
     static bool exists(const std::string& name) { return std::filesystem::exists(folder() / name); }
 };
 

@@ -1,7 +1,4 @@
 // Expectations through the tool: accepted once, met ever after, and every way not to meet them with its exit code.
-#include <fstream>
-#include <sstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +7,7 @@
 #include "capture_format/recorder.h"
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -21,11 +19,7 @@ using testing::Not;
 
 void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
 
-std::string bytes_of_panes() {
-    std::ostringstream bytes;
-    bytes << std::ifstream(folder() / "panes.strata", std::ios::binary).rdbuf();
-    return bytes.str();
-}
+std::string bytes_of_panes() { return file_text(folder() / "panes.strata"); }
 
 /// As if the capture had been accepted by a program that gave other bits for one image.
 void expect_otherwise(const std::string& act, const std::string& image) {

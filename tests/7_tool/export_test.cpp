@@ -1,6 +1,5 @@
 // strata export and import --deep: one file of one kind per call, whole, and the same for equal runs.
 #include <fstream>
-#include <iterator>
 
 #include <flatbuffers/idl.h>
 #include <gmock/gmock.h>
@@ -13,6 +12,7 @@
 #include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/deep_exr.h"
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -21,10 +21,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::string contents_of(const std::string& name) {
-    std::ifstream file(folder() / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string contents_of(const std::string& name) { return file_text(folder() / name); }
 
 TEST(Export, WantsExactlyOneKind) {
     ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
@@ -83,8 +80,7 @@ TEST(Export, WritesTheFrameAsJsonThatTheSchemaReadsBackBitForBit) {
     const std::string text = contents_of("room.json");
     EXPECT_EQ(json::parse(text)["view"]["samples"], 1);
     flatbuffers::Parser parser;
-    std::ifstream schema(STRATA_SOURCE_DIR "/capture_format/schema/capture.fbs");
-    ASSERT_TRUE(parser.Parse(std::string(std::istreambuf_iterator<char>(schema), {}).c_str())) << parser.error_;
+    ASSERT_TRUE(parser.Parse(file_text(STRATA_SOURCE_DIR "/capture_format/schema/capture.fbs").c_str())) << parser.error_;
     ASSERT_TRUE(parser.Parse(text.c_str())) << parser.error_;
     // Read by flatbuffers' own parser into the frame that was recorded, which gives the same text: no digit was lost.
     const std::span parsed(parser.builder_.GetBufferPointer(), parser.builder_.GetSize());

@@ -1,11 +1,10 @@
 // strata isa: what RADV makes of a frame's pipelines for GPUs that are not there, against our own arithmetic.
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/7_tool/process.h"
+#include "tests/support/file_text.h"
 
 namespace strata {
 namespace {
@@ -112,8 +111,7 @@ TEST(Isa, DumpsTheDisassemblyAndWhereThereIsNoneTheCompilersLastForm) {
     ASSERT_EQ(made.code, 0) << made.err;
     std::size_t assembly = 0, ir = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder() / "code")) {
-        std::ifstream file(entry.path());
-        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const std::string text = file_text(entry.path());
         EXPECT_GT(text.size(), 200u) << entry.path();
         if (entry.path().extension() == ".s") {
             EXPECT_THAT(text, HasSubstr("s_endpgm")) << entry.path();

@@ -7,23 +7,15 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/file_text.h"
+
 namespace strata {
-namespace {
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::filesystem::path folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -44,7 +36,7 @@ Finished strata_after(const std::string& line, const std::string& arguments) {
     const std::string in = folder().string();
     const int status = std::system(
         ("cd " + in + " && " + line + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
-    return {WEXITSTATUS(status), contents(folder() / "stdout.txt"), contents(folder() / "stderr.txt")};
+    return {WEXITSTATUS(status), file_text(folder() / "stdout.txt"), file_text(folder() / "stderr.txt")};
 }
 
 pid_t start(const std::string& program, const std::string& arguments, const std::string& output) {

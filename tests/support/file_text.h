@@ -10,7 +10,7 @@ namespace strata {
 
 /// Empty where it cannot be read.
 inline std::string file_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
+    std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

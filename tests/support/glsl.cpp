@@ -6,9 +6,9 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "tests/support/file_text.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -19,11 +19,6 @@ constexpr std::string_view preamble = R"(#version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 )";
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 }  // namespace
 
@@ -37,7 +32,7 @@ Shader glsl(const std::string& name, std::string_view source, const std::string&
         fmt::format("glslangValidator --quiet --target-env vulkan1.3 '-I{}' -I" STRATA_SOURCE_DIR " -o {} {} > {}",
                     include_folder, spirv, glsl, log);
     const bool compiled = std::system(command.c_str()) == 0;
-    const std::string said = read_text(log), bytes = read_text(spirv);
+    const std::string said = file_text(log), bytes = file_text(spirv);
     for (const std::string& file : {glsl, spirv, log}) std::filesystem::remove(file);
     if (!compiled) throw std::runtime_error(name + ": " + said);
     auto& code = codes.emplace_back(bytes.size() / sizeof(std::uint32_t));

@@ -41,8 +41,7 @@ std::uint32_t shaded_features(const FrameImages& frame, const TiledParams& param
 
 /// Every spectrum that cull.comp may write. A tile with lights beyond its records is said to need everything.
 std::vector<std::uint32_t> spectra_of_tiles(const FrameImages& frame, const TiledParams& params, const TileMemory& memory) {
-    std::vector<std::uint32_t> spectra =
-        frame.facts->possible_spectra(shaded_features(frame, params));
+    std::vector<std::uint32_t> spectra = frame.facts->possible_spectra(shaded_features(frame, params));
     if (!memory.lists_every_light) spectra.push_back(every_light_feature);
     return spectra;
 }

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/functions/outputs.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };

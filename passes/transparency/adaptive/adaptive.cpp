@@ -1,9 +1,9 @@
 // Adaptive transparency: T(z) of a sample as a step curve of a few nodes, compressed as fragments come.
 #include "passes/technique.h"
 #include "passes/transparency/adaptive/adaptive.shared.h"
-#include "passes/transparency/function_draw.h"
-#include "passes/transparency/function_motion.h"
-#include "passes/transparency/lists.h"
+#include "passes/transparency/functions/draw.h"
+#include "passes/transparency/functions/motion.h"
+#include "passes/transparency/lists/lists.h"
 
 namespace strata::transparency {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "passes/transparency/function_model.h"
+#include "passes/transparency/functions/model.h"
 
 namespace strata::transparency {
 namespace {

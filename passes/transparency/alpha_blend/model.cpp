@@ -1,6 +1,6 @@
 // Alpha blending in double: one object after another in painter's order, its triangles as they were submitted.
+#include "passes/transparency/distortion/model.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion_model.h"
 
 namespace strata::transparency {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/distortion/model.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {

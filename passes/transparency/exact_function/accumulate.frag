@@ -3,11 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/function_outputs.glsl"
-#include "passes/transparency/lists.shared.h"
+#include "passes/transparency/functions/outputs.glsl"
+#include "passes/transparency/lists/lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/list_events.glsl"
+#include "passes/transparency/lists/events.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };

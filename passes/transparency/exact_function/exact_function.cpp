@@ -2,9 +2,9 @@
 // exact they can be when T(z) is.
 #include "passes/technique.h"
 #include "passes/transparency/exact_function/exact_function.shared.h"
-#include "passes/transparency/function_draw.h"
-#include "passes/transparency/function_motion.h"
-#include "passes/transparency/lists.h"
+#include "passes/transparency/functions/draw.h"
+#include "passes/transparency/functions/motion.h"
+#include "passes/transparency/lists/lists.h"
 
 namespace strata::transparency {
 

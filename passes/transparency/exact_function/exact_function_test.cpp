@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/transparency/function_model.h"
+#include "passes/transparency/functions/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"

@@ -1,7 +1,7 @@
 // The step function in double.
+#include "passes/transparency/functions/model.h"
 #include "passes/technique.h"
 #include "passes/transparency/exact_function/exact_function.shared.h"
-#include "passes/transparency/function_model.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {

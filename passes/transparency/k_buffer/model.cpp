@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/distortion/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 

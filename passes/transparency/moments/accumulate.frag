@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
 #include "passes/transparency/moments/moments.shared.h"
-#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/functions/outputs.glsl"
 
 layout(push_constant, scalar) uniform Push { MomentsPush push; };
 #include "passes/transparency/moments/quantization.glsl"

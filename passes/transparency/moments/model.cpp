@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "passes/reference/ordering.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/moments/canonical.h"
 #include "passes/transparency/rounding.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "passes/technique.h"
-#include "passes/transparency/function_model.h"
+#include "passes/transparency/functions/model.h"
 #include "passes/transparency/moments/moments.shared.h"
 
 namespace strata::transparency {

@@ -1,7 +1,7 @@
 // What moment-based transparency's C++ and shaders share.
 #ifndef PASSES_TRANSPARENCY_MOMENTS_SHARED_H
 #define PASSES_TRANSPARENCY_MOMENTS_SHARED_H
-#include "passes/transparency/function.shared.h"
+#include "passes/transparency/functions/function.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif

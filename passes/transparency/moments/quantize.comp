@@ -3,14 +3,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/lists.shared.h"
+#include "passes/transparency/lists/lists.shared.h"
 #include "passes/transparency/moments/moments.shared.h"
 
 layout(push_constant, scalar) uniform Push {
     Band band;
     MomentsPush push;
 };
-#include "passes/transparency/list_events.glsl"
+#include "passes/transparency/lists/events.glsl"
 #include "passes/transparency/moments/quantization.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -4,7 +4,7 @@
 #ifndef PASSES_TRANSPARENCY_MOMENTS_WARP_GLSL
 #define PASSES_TRANSPARENCY_MOMENTS_WARP_GLSL
 #include "passes/transparency/moments/moments.shared.h"
-#include "passes/transparency/optical_depth.glsl"
+#include "passes/transparency/functions/optical_depth.glsl"
 
 layout(constant_id = 10) const uint kind = moments_power4;
 

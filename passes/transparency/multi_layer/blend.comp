@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push {
     Band band;
     float log_nearest, buckets_per_log;
 };
-#include "passes/transparency/list_events.glsl"
+#include "passes/transparency/lists/events.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint layers = 4u;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "passes/reference/ordering.h"
-#include "passes/transparency/distortion_model.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/distortion/model.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"
 
 namespace strata::transparency {

@@ -3,9 +3,9 @@
 
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion.h"
-#include "passes/transparency/function_prepass.h"
-#include "passes/transparency/lists.h"
+#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/multi_layer/multi_layer.shared.h"
 
 namespace strata::transparency {

@@ -3,12 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/distortion.glsl"
-#include "passes/transparency/lists.shared.h"
+#include "passes/transparency/distortion/distortion.glsl"
+#include "passes/transparency/lists/lists.shared.h"
 #include "passes/transparency/luminance.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/list_events.glsl"
+#include "passes/transparency/lists/events.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint distorts = 0u;  // 1: there are offsets and the background to read

@@ -8,7 +8,7 @@
 
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
-#include "passes/transparency/distortion_model.h"
+#include "passes/transparency/distortion/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/stochastic/subset.shared.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "passes/technique.h"
-#include "passes/transparency/distortion.h"
+#include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 

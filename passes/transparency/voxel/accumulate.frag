@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/functions/outputs.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
 layout(push_constant, scalar) uniform Push { VoxelPush push; };
-#include "passes/transparency/voxel/read.glsl"
+#include "passes/transparency/voxel/volume/read.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { VoxelCounters counters; };

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "passes/reference/ordering.h"
-#include "passes/transparency/voxel/depth_curve.h"
-#include "passes/transparency/voxel/depth_warp.h"
-#include "passes/transparency/voxel/dimensions.h"
-#include "passes/transparency/voxel/segment.h"
+#include "passes/scene/scene_facts.h"
+#include "passes/transparency/voxel/slices/depth_curve.h"
+#include "passes/transparency/voxel/slices/depth_warp.h"
+#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::transparency {
@@ -23,12 +24,13 @@ Frame particle_and(std::uint32_t layer) {
 
 TEST(VoxelInterfaces, HaveSlicesInFrontOfTheWorlds) {
     const VoxelParams params{.slices = 128};
-    EXPECT_EQ(of_volume(params, layers_of(particle_and(0))).slices, 128u);
-    EXPECT_EQ(of_volume(params, layers_of(particle_and(3))).slices, 131u);
-    EXPECT_EQ(of_world(params, layers_of(particle_and(3))).slices, 128u);
+    const Frame without = particle_and(0), third = particle_and(3), last = particle_and(255);
+    EXPECT_EQ(of_volume(params, SceneFacts(without)).slices, 128u);
+    EXPECT_EQ(of_volume(params, SceneFacts(third)).slices, 131u);
+    EXPECT_EQ(of_world(params, SceneFacts(third)).slices, 128u);
     const VoxelParams most{.slices = most_slices};
-    EXPECT_EQ(of_volume(most, layers_of(particle_and(255))).slices, most_slices);
-    EXPECT_EQ(of_world(most, layers_of(particle_and(255))).slices, most_slices - 255);
+    EXPECT_EQ(of_volume(most, SceneFacts(last)).slices, most_slices);
+    EXPECT_EQ(of_world(most, SceneFacts(last)).slices, most_slices - 255);
 }
 
 TEST(VoxelInterfaces, AreNotInTheRangeThatTheCurveCuts) {

@@ -6,29 +6,30 @@
 
 #include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
-#include "passes/transparency/function_model.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/functions/model.h"
 #include "passes/transparency/hash.shared.h"
-#include "passes/transparency/voxel/color_column.h"
-#include "passes/transparency/voxel/column.h"
-#include "passes/transparency/voxel/depth_curve.h"
-#include "passes/transparency/voxel/depth_warp.h"
-#include "passes/transparency/voxel/factors_model.h"
-#include "passes/transparency/voxel/segment.h"
-#include "passes/transparency/voxel/sparse.h"
-#include "passes/transparency/voxel/zero_depth.h"
+#include "passes/transparency/low_resolution/prepass.h"
+#include "passes/transparency/voxel/factors/model.h"
+#include "passes/transparency/voxel/slices/depth_curve.h"
+#include "passes/transparency/voxel/slices/depth_warp.h"
+#include "passes/transparency/voxel/sparse/sparse.h"
+#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/volume/color_column.h"
+#include "passes/transparency/voxel/volume/column.h"
+#include "passes/transparency/voxel/zero_depth/zero_depth.h"
 
 namespace strata::transparency {
 namespace {
 
-/// Whether three channels share a word (docs/algorithms/transparency.md 6.4): only where words are sums, and not in a sparse volume.
+/// Whether three channels share a word (docs/algorithms/transparency.md 6.4): only where words are sums, and not in a sparse
+/// volume.
 bool shares_words(const VoxelParams& params, std::uint32_t channels) {
     const bool adds_in_fields = params.splat != splat_words && params.splat != splat_multiply;
     return channels == 3 && params.packing == packing_rgb10 && adds_in_fields && params.volume != volume_sparse;
 }
 
-/// What a column takes (docs/algorithms/transparency.md 6.4): planes of words of 32 bits with 4, 3 or 2 slices of 8, 10 or 16 bits
-/// each, or one. Where three channels share words there is a word for every slice, and a plane of what is grey.
+/// What a column takes (docs/algorithms/transparency.md 6.4): planes of words of 32 bits with 4, 3 or 2 slices of 8, 10 or 16
+/// bits each, or one. Where three channels share words there is a word for every slice, and a plane of what is grey.
 std::uint64_t bytes_of_column(const VoxelParams& params, std::uint32_t channels) {
     static constexpr std::uint32_t slices_of_a_word[] = {4, 3, 2, 1};
     const std::uint32_t together = params.splat == splat_words ? 1 : slices_of_a_word[params.bits];
@@ -36,7 +37,8 @@ std::uint64_t bytes_of_column(const VoxelParams& params, std::uint32_t channels)
     return shares_words(params, channels) ? 4 * params.slices + plane : channels * plane;
 }
 
-/// The frame's volume, by the numbers of docs/algorithms/transparency.md and not by what the device is given (dimensions.h).
+/// The frame's volume, by the numbers of docs/algorithms/transparency.md and not by what the device is given
+/// (volume/dimensions.h).
 struct ModelVolume {
     VoxelParams params;  ///< slices: the world's, behind those of interface layers
     std::uint32_t interfaces = 0, divisor = 1;

@@ -1,4 +1,4 @@
-// The method on whole images: columns of a prepass (column.h), filtered and read by every fragment.
+// The method on whole images: columns of a prepass (volume/column.h), filtered and read by every fragment.
 #pragma once
 
 #include "passes/technique.h"

@@ -1,5 +1,5 @@
 // What a draw adds to where colors are packed: a material that lets the same of every channel through, as particles do, is grey.
-// color_column.h has the same of a frame.
+// volume/color_column.h has the same of a frame.
 #ifndef PASSES_TRANSPARENCY_VOXEL_SOURCES_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_SOURCES_GLSL
 #include "passes/shaders/scene.glsl"

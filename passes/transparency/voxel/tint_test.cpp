@@ -1,12 +1,12 @@
 // Facts about color where T(z) has one channel (docs/algorithms/transparency.md 6.12).
-#include "passes/transparency/tint_model.h"
+#include "passes/transparency/functions/tint_model.h"
 
 #include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "passes/transparency/function_model.h"
+#include "passes/transparency/functions/model.h"
 #include "passes/transparency/sample_blend.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"

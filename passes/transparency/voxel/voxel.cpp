@@ -3,15 +3,15 @@
 
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/function_draw.h"
-#include "passes/transparency/function_motion.h"
-#include "passes/transparency/function_prepass.h"
-#include "passes/transparency/voxel/dimensions.h"
+#include "passes/transparency/functions/draw.h"
+#include "passes/transparency/functions/motion.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/ratios.h"
-#include "passes/transparency/voxel/views.h"
-#include "passes/transparency/voxel/volume.h"
+#include "passes/transparency/voxel/views/views.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
+#include "passes/transparency/voxel/volume/volume.h"
 #include "passes/transparency/voxel/voxel.shared.h"
-#include "passes/transparency/voxel/zero_depth.h"
+#include "passes/transparency/voxel/zero_depth/zero_depth.h"
 
 namespace strata::transparency {
 

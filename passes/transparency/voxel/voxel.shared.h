@@ -1,7 +1,7 @@
 // What voxel transparency's C++ and shaders share.
 #ifndef PASSES_TRANSPARENCY_VOXEL_SHARED_H
 #define PASSES_TRANSPARENCY_VOXEL_SHARED_H
-#include "passes/transparency/function.shared.h"
+#include "passes/transparency/functions/function.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif
@@ -109,7 +109,7 @@ struct VoxelPush {
     uint interfaces;              // layers: physical slices in front of the world's, the highest layer's first
 };
 
-// What warp.comp and blocks.comp find out, in front of their tables.
+// What slices/warp.comp and sparse/blocks.comp find out, in front of their tables.
 struct WarpHeader {
     uint halvings;        // of the finest slices until what is used fits
     uint virtual_slices;  // that are left: finest_slices >> halvings
@@ -125,7 +125,7 @@ const uint warp_used = 1u << 16u;
 const uint warp_begin = 1u << 17u;
 const uint warp_end = 1u << 18u;
 
-// What warp.comp leaves to the next frame.
+// What slices/warp.comp leaves to the next frame.
 struct VoxelHistory {
     float thickness;    // metres, of the nearest slice; 0: there was no frame
     uint finer_frames;  // in a row, that would have fitted into thinner ones
@@ -156,12 +156,12 @@ const uint tile_size = 8u;
 // A block is a word of each of a tile's columns, 256 bytes. A layer of the pool has so many of them each way: a MiB.
 const uint pool_blocks_across = 64u;
 const uint pool_blocks_per_layer = pool_blocks_across * pool_blocks_across;
-// In front of the marks that marks.glsl lays out: how many there are at each resolution, from 8192 slices down to one, and how
-// many words of the resolution chosen have got their place.
+// In front of the marks that sparse/marks.glsl lays out: how many there are at each resolution, from 8192 slices down to one, and
+// how many words of the resolution chosen have got their place.
 const uint words_placed = 14u;
 const uint first_mark = 15u;
-// Between what coverage.glsl makes of a triangle's corners and what its fragments interpolate: of depth, and of rays in z = 1.
-// Beyond `steepest`, distance over distance to the plane, a triangle's plane says nothing in float.
+// Between what slices/coverage.glsl makes of a triangle's corners and what its fragments interpolate: of depth, and of rays in z
+// = 1. Beyond `steepest`, distance over distance to the plane, a triangle's plane says nothing in float.
 const float depth_slack = 2e-6f;
 const float ray_slack = 1e-5f;
 const float steepest = 1000.0f;

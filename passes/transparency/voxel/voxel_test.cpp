@@ -1,9 +1,9 @@
 // Facts about voxel transparency (docs/algorithms/transparency.md 6: 6.2 to 6.7, and of 6.17 V1 to V5, V7, V8 and V11).
-#include "passes/transparency/voxel/column.h"
-#include "passes/transparency/voxel/depth_curve.h"
-#include "passes/transparency/voxel/dimensions.h"
 #include "passes/transparency/voxel/model.h"
-#include "passes/transparency/voxel/volume.h"
+#include "passes/transparency/voxel/slices/depth_curve.h"
+#include "passes/transparency/voxel/volume/column.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
+#include "passes/transparency/voxel/volume/volume.h"
 #include "tests/support/layers.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/transparency/function_model.h"
+#include "passes/transparency/functions/model.h"
 
 namespace strata::transparency {
 namespace {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/function_outputs.glsl"
+#include "passes/transparency/functions/outputs.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 layout(push_constant, scalar) uniform Push { WaveletPush push; };

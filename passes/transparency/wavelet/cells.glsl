@@ -2,7 +2,7 @@
 // that includes this declares `WaveletPush push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_WAVELET_CELLS_GLSL
 #define PASSES_TRANSPARENCY_WAVELET_CELLS_GLSL
-#include "passes/transparency/optical_depth.glsl"
+#include "passes/transparency/functions/optical_depth.glsl"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 layout(constant_id = 10) const uint rank = 2u;

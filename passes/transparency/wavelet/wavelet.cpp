@@ -6,10 +6,10 @@
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/function_draw.h"
-#include "passes/transparency/function_motion.h"
-#include "passes/transparency/function_prepass.h"
-#include "passes/transparency/lists.h"
+#include "passes/transparency/functions/draw.h"
+#include "passes/transparency/functions/motion.h"
+#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 
 namespace strata::transparency {

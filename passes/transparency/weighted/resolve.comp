@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/scene.glsl"
-#include "passes/transparency/bilinear.glsl"
+#include "passes/transparency/low_resolution/bilinear.glsl"
 #include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted/weights.glsl"
 

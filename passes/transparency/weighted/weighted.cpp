@@ -1,8 +1,8 @@
 // Weighted blended order-independent transparency: one additive pass, no order at all.
 #include "passes/technique.h"
-#include "passes/transparency/distortion.h"
+#include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted/weighted.shared.h"
 
 namespace strata::transparency {

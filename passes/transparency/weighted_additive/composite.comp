@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/bilinear.glsl"
+#include "passes/transparency/low_resolution/bilinear.glsl"
 #include "passes/transparency/sanitize.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 

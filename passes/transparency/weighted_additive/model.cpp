@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/transparency/distortion_model.h"
-#include "passes/transparency/low_draws_model.h"
+#include "passes/transparency/distortion/model.h"
+#include "passes/transparency/low_resolution/model.h"
 #include "passes/transparency/rounding.h"
 #include "passes/transparency/sample_blend.h"
 

@@ -2,9 +2,9 @@
 #include <cassert>
 
 #include "passes/technique.h"
-#include "passes/transparency/distortion.h"
+#include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/function_prepass.h"
+#include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
 namespace strata::transparency {

@@ -1,0 +1,230 @@
+#include "passes/transparency/functions/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "passes/transparency/distortion/model.h"
+#include "passes/transparency/functions/tint_model.h"
+#include "passes/transparency/low_resolution/model.h"
+#include "passes/transparency/rounding.h"
+
+namespace strata::transparency {
+namespace {
+
+/// Adds and rounds as blending into the format does.
+double blended(double sum, double term, std::uint32_t accumulation, SmallFloat format) {
+    return accumulation == accumulation_single ? sum + term : rounded(sum + term, format);
+}
+
+SmallFloat color_format(std::uint32_t accumulation, int channel) {
+    if (accumulation != accumulation_packed) return half_float;
+    return channel == 2 ? float10 : float11;
+}
+
+bool is_chromatic(const Frame& frame) { return frame_features(frame).has(Feature::chromatic); }
+
+struct Sums {
+    glm::dvec3 color{0}, extinction{0}, normalizer{0}, emission{0};
+    glm::dvec2 offset{0}, skew{0};
+
+    Sums& operator+=(const Sums& other) {
+        color += other.color;
+        extinction += other.extinction;
+        normalizer += other.normalizer;
+        emission += other.emission;
+        offset += other.offset;
+        skew += other.skew;
+        return *this;
+    }
+    friend Sums operator*(const Sums& s, double share) {
+        return {s.color * share,    s.extinction * share, s.normalizer * share,
+                s.emission * share, s.offset * share,     s.skew * share};
+    }
+};
+
+/// Adds N and X of one channel and the depths that skew, and returns what of the fragment is then skewed.
+Fragment tinted(const Fragment& fragment, double through, const Summing& how, Sums& sums) {
+    const glm::dvec2 depths = skew_depths(fragment, through * std::exp(-how.fog_density * fragment.depth));
+    const double t = luminance(fragment.transmittance);
+    const auto add = [&](double& sum, double term) { sum = blended(sum, term, how.accumulation, half_float); };
+    add(sums.normalizer.x, (1 - t) * through);
+    add(sums.normalizer.y, optical_depth_in_double(t));
+    for (int i = 0; i < 2; ++i) add(sums.skew[i], depths[i]);
+    Fragment seen = fragment;
+    if (how.tint != tint_corrected) return seen;
+    seen.color /= skew(depths);
+    seen.emission /= skew(depths);
+    return seen;
+}
+
+Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, const Summing& how) {
+    const std::uint32_t accumulation = how.accumulation;
+    Sums sums;
+    for (const Fragment& drawn : fragments) {
+        const glm::dvec3 through = transmittance(drawn);
+        if (how.unseen == Unseen::adds_nothing && through == glm::dvec3(0)) continue;
+        const Fragment fragment = how.tint != tint_total ? tinted(drawn, through.x, how, sums) : drawn;
+        for (int axis = 0; axis < 2; ++axis)
+            sums.offset[axis] =
+                blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), accumulation, half_float);
+        for (int c = 0; c < 3; ++c) {
+            // Grey extinction and weights are one half float each, whatever the color's format.
+            const SmallFloat color = color_format(accumulation, c), weight = how.chromatic ? color : half_float;
+            const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, accumulation, format); };
+            add(sums.color[c], std::min(fragment.color[c], double(largest_radiance)) * through[c], color);
+            add(sums.extinction[c], optical_depth_in_double(fragment.transmittance[c]), weight);
+            if (how.tint == tint_total) add(sums.normalizer[c], (1 - fragment.transmittance[c]) * through[c], weight);
+            add(sums.emission[c], std::min(fragment.emission[c], double(largest_radiance)) * through[c], color);
+        }
+    }
+    return sums;
+}
+
+double factor(double extinction, double normalizer) {
+    return normalizer > double(least_normalizer) ? -std::expm1(-extinction) / normalizer : 1;
+}
+
+glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind, std::uint32_t tint) {
+    const glm::dvec3 through = glm::exp(-sums.extinction);
+    if (tint != tint_total) {
+        const glm::dvec3 over = sums.color * factor(sums.normalizer.y, sums.normalizer.x) + sums.emission;
+        return behind * through + over * skew(sums.skew);
+    }
+    glm::dvec3 over = sums.emission;
+    for (int c = 0; c < 3; ++c) over[c] += sums.color[c] * factor(sums.extinction[c], sums.normalizer[c]);
+    return behind * through + over;
+}
+
+/// The numbers of every texel, and whether its coverage hangs on rounding.
+struct Projected {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::vector<double>> texels;
+    std::vector<bool> undecided;
+};
+
+Projected project(const StageInput& input, const PrepassModel& model) {
+    Frame low = input.frame;
+    const Extent extent = prepass_extent({low.view.width, low.view.height}, model.divisor);
+    low.view.width = extent.width;
+    low.view.height = extent.height;
+    low.view.samples = 1;
+    const ImageSet nothing;
+    const ImageSet& before = model.tested == PrepassModel::Tested::against_opaque ? input.before : nothing;
+    const FragmentLists lists =
+        transparent_fragments(low, farthest_depth(opaque_depth(before, input.before.at("color")), extent));
+    Projected projected{low.view.width, low.view.height, {}, {}};
+    for (std::uint32_t y = 0; y < low.view.height; ++y)
+        for (std::uint32_t x = 0; x < low.view.width; ++x) {
+            projected.texels.push_back(model.project(lists.at(x, y), glm::uvec2(x, y)));
+            projected.undecided.push_back(lists.undecided(x, y));
+        }
+    return projected;
+}
+
+/// The texel of another image under a pixel's center.
+glm::uvec2 texel_under(glm::uvec2 pixel, glm::uvec2 extent, glm::uvec2 other) {
+    return (2u * pixel + 1u) * other / (2u * extent);
+}
+
+/// What is read under a pixel's center.
+struct Read {
+    std::vector<double> numbers;
+    glm::uvec2 texel{0};  ///< the nearest
+    bool undecided = false;
+};
+
+/// Bilinear, clamped at the edges, or the nearest texel.
+Read read_at(const Projected& projected, const PrepassModel& model, glm::uvec2 extent, glm::uvec2 pixel) {
+    const glm::uvec2 size(projected.width, projected.height);
+    Read read{.texel = texel_under(pixel, extent, size)};
+    std::array<Tap, 4> taps = bilinear_taps(place_of(pixel, extent), size);
+    if (model.filter == PrepassModel::Filter::nearest) taps = {{{read.texel.x, read.texel.y, 1}}};
+    for (const Tap& tap : taps) {
+        if (tap.share == 0) continue;
+        const std::size_t texel = tap.y * projected.width + tap.x;
+        model.add(read.numbers, projected.texels[texel], tap.share);
+        read.undecided = read.undecided || projected.undecided[texel];
+    }
+    return read;
+}
+
+/// A T(z), and whether it hangs on rounding.
+struct Found {
+    Transmittance transmittance;
+    bool undecided = false;
+};
+/// For fragments drawn to a pixel (x, y, sample) of an image of `extent`: the frame's, or half of it.
+using Lookup = std::function<Found(std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent)>;
+
+ImageSet modelled(const StageInput& input, const Summing& how, const Lookup& lookup) {
+    const auto summed = [&](std::span<const Fragment> fragments, glm::uvec3 at, glm::uvec2 extent) -> LowSums<Sums>::Texel {
+        if (fragments.empty()) return {};
+        const Found found = lookup(fragments, at, extent);
+        return {sums_of(fragments, found.transmittance, how), found.undecided};
+    };
+    const ReferenceImage& before = input.before.at("color");
+    const glm::uvec2 extent(before.width, before.height), half = (extent + 1u) / 2u;
+    const LowSums<Sums> low(input, [&](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        return summed(fragments, glm::uvec3(texel, 0), half);
+    });
+    const PlacedBlend blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
+        auto [sums, undecided] = summed(fragments, at, extent);
+        const LowSums<Sums>::Texel read = low.at(place_of(glm::uvec2(at), extent));
+        sums += read.sums;
+        const bool bent = sums.offset != glm::dvec2(0);
+        const BlendedSample seen = bent ? seen_behind(before, at, sums.offset) : BlendedSample{behind};
+        return {resolved(sums, seen.radiance, how.tint), undecided || read.undecided || seen.undecided};
+    };
+    return {{"color", blended_at_full_resolution(before, input, blend)}};
+}
+
+}  // namespace
+
+void add_numbers(std::vector<double>& sum, std::span<const double> numbers, double share) {
+    sum.resize(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) sum[i] += share * numbers[i];
+}
+
+double optical_depth_in_double(double t) {
+    return t > 0 ? std::min(-std::log(t), double(largest_optical_depth)) : double(largest_optical_depth);
+}
+
+double channel_depth(const Fragment& f, std::size_t channel, std::size_t channels) {
+    const glm::dvec3 t = f.transmittance;
+    return optical_depth_in_double(channels == 3 ? t[static_cast<int>(channel)] : luminance(t));
+}
+
+glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const Transmittance& transmittance,
+                          const Summing& how) {
+    return resolved(sums_of(fragments, transmittance, how), behind, how.tint);
+}
+
+ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
+    const Summing how{accumulation, is_chromatic(input.frame)};
+    if (!frame_features(input.frame).has(Feature::low_resolution))
+        return modelled(input, how,
+                        [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
+    // T is that of all fragments, of whichever resolution, of the sample under the center.
+    const ReferenceImage& before = input.before.at("color");
+    const FragmentLists all = transparent_fragments(input.frame, opaque_depth(input.before, before));
+    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+        const glm::uvec2 pixel = texel_under(glm::uvec2(at), extent, {before.width, before.height});
+        return Found{function(all.at(pixel.x, pixel.y, at.z)), all.undecided(pixel.x, pixel.y, at.z)};
+    });
+}
+
+ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const PrepassModel& model) {
+    const Projected projected = project(input, model);
+    // What a T(z) looks up lives as long as the pixel does.
+    Read read;
+    const bool chromatic = is_chromatic(input.frame);
+    const Summing how{accumulation, chromatic, model.unseen, chromatic ? model.tint : tint_total,
+                      double(input.frame.fog.density)};
+    return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+        read = read_at(projected, model, extent, glm::uvec2(at));
+        return Found{model.function(read.numbers, read.texel), read.undecided};
+    });
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,47 @@
+#include "passes/transparency/functions/motion.h"
+
+#include "passes/scene/texture_uses.h"
+#include "passes/transparency/event_draw.h"
+
+namespace strata::transparency {
+namespace {
+
+/// By sample.
+Image opaque_motion(Graph& graph, const FrameImages& images) {
+    Image motion = graph.create("motion of what is opaque",
+                                Shape{.extent = images.extent, .format = Format::rg32f, .samples = images.samples});
+    graph.clear(motion, {});
+    if (images.opaque.count > 0) {
+        DrawPass draw = graph.draw("transparency/functions/opaque_motion", images.opaque);
+        fix_textures(draw, images, Surfaces::opaque).tests_depth(images.depth).covers(motion);
+    }
+    return by_sample(graph, motion);
+}
+
+}  // namespace
+
+Image motion_view(Graph& graph, const FrameImages& images, const FunctionSums& sums) {
+    Image picture = graph.create("motion view", Shape{.extent = images.extent, .format = Format::rgba32f});
+    const Image behind = opaque_motion(graph, images);
+    const FunctionSums read = by_sample(graph, sums);
+    over_sums(graph, "transparency/functions/motion.comp", images, read)
+        .samples("offset", read.full.offset)
+        .samples("low_offset", read.low.offset)
+        .samples("motion_behind", behind)
+        .stores("picture", picture)
+        .over(images.extent);
+    return picture;
+}
+
+DebugView motion_row(Image (*add)(Graph&, FrameImages&, const Settings&)) {
+    return {.name = "motion",
+            .help =
+                "red, green: how far right and down what is seen has moved since the frame before, by a camera that stood still; "
+                "alpha: what the background is seen with",
+            .unit = "pixels",
+            .low = 0,
+            .high = 16,
+            .add = add};
+}
+
+}  // namespace strata::transparency

@@ -1,0 +1,32 @@
+// Shades the band's fragments and stores each in its cell's list. The slot within the list comes from an atomic and differs from
+// run to run; what the sorted list says does not, because no two fragments of a sample have the same key.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/transparency/event.glsl"
+#include "passes/transparency/lists/lists.shared.h"
+
+layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/lists/lists.glsl"
+
+layout(early_fragment_tests) in;
+layout(set = 0, binding = 1, scalar) buffer Counts { uint counts[]; };
+layout(set = 0, binding = 4, scalar) writeonly buffer Keys { ListKey keys[]; };
+layout(set = 0, binding = 5, scalar) writeonly buffer Events { ListEvent events[]; };
+layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
+
+void main() {
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    if (!in_band(pixel.y)) return;  // bands have even rows: whole quads leave
+    const Event event = transparent_event();
+    if (!event.visible) return;
+    const uint cell = cell_of(pixel, gl_SampleID);
+    const uint node = list_start(cell) + atomicAdd(counts[cell], 1u);
+    if (node >= band.pool) {
+        atomicAdd(counters.dropped, 1u);
+        return;
+    }
+    keys[node] = ListKey(event.z, draws[in_draw].submission, gl_PrimitiveID, node);
+    events[node] = ListEvent(event.p, event.t, event.e);
+    if (distorts != 0u) offsets[node] = event.d;
+}

@@ -1,0 +1,66 @@
+// Sorts every list of the band in place, one thread per cell: z ascending, then later submission first; or by submission.
+// A shell sort with gaps shrinking by 5/11 (Gonnet and Baeza-Yates 1991); short lists are insertion sorted by its last round.
+// Not a bubble sort: lavapipe 22.3 miscompiles that, silently, from 8 elements on with run-time bounds.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "passes/transparency/lists/lists.shared.h"
+
+layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/lists/lists.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
+layout(constant_id = 0) const uint list_order = list_order_depth;
+layout(set = 0, binding = 4, scalar) buffer Keys { ListKey keys[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
+
+bool submitted_later(ListKey a, ListKey b) {
+    return a.draw != b.draw ? a.draw > b.draw : a.primitive > b.primitive;
+}
+
+bool comes_first(ListKey a, ListKey b) {
+    if (list_order == list_order_submission) return submitted_later(b, a);
+    return a.z != b.z ? a.z < b.z : submitted_later(a, b);
+}
+
+// Insertion sort of every gap-th key.
+void sort_gapped(uint first, uint count, uint gap) {
+    for (uint i = gap; i < count; ++i) {
+        const ListKey key = keys[first + i];
+        uint at = i;
+        while (at >= gap) {
+            const ListKey other = keys[first + at - gap];
+            if (!comes_first(key, other)) break;
+            keys[first + at] = other;
+            at -= gap;
+        }
+        keys[first + at] = key;
+    }
+}
+
+void sort_list(uint first, uint count) {
+    // Up to 12 keys plain insertion moves less than a first gapped round would save.
+    uint gap = count > 12u ? count * 5u / 11u : 1u;
+    while (gap > 1u) {
+        sort_gapped(first, count, gap);
+        gap = gap * 5u / 11u;
+    }
+    sort_gapped(first, count, 1u);
+}
+
+void main() {
+    const uvec3 at = gl_GlobalInvocationID;
+    if (at.x >= band.width || at.y >= band.rows) return;
+    const uint cell = cell_of(uvec2(at.x, at.y + band.first_row), at.z);
+    const uint start = list_start(cell), count = stored(start, counts[cell]);
+    sort_list(start, count);
+
+    const uint together = subgroupAdd(count), longest = subgroupMax(count);
+    if (subgroupElect()) {
+        atomicAdd(counters.fragments, together);
+        atomicAdd(counters.atomics, together);  // one each found its slot
+        atomicMax(counters.deepest, longest);
+    }
+}

@@ -1,0 +1,107 @@
+#include "passes/transparency/voxel/views/views.h"
+
+#include "passes/transparency/event_draw.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
+#include "passes/transparency/voxel/volume/volume.h"
+
+namespace strata::transparency {
+namespace {
+
+Image picture_of(Graph& graph, const FrameImages& images) {
+    return graph.create("voxel view", Shape{.extent = images.extent, .format = Format::rgba32f});
+}
+
+std::uint32_t most_rows(std::uint32_t shown, const VoxelPush& push) {
+    if (shown == table_divider) return 1;
+    return shown == table_histogram ? push.finest_slices : push.slices;
+}
+
+template <std::uint32_t shown>
+Image table(Graph& graph, FrameImages& images, const Settings& settings) {
+    const auto params = voxel_params(settings, *images.facts);
+    Volume volume = integrated_volume(graph, images, params);
+    Buffer counts = graph.create("slice counts", volume.push.slices * sizeof(SliceCounts));
+    graph.clear(counts, 0);
+    ComputePass counting = graph.compute("transparency/voxel/views/slice_counts.comp");
+    look_into(counting, volume, params)
+        .updates("Counts", counts)
+        .over({volume.push.width, volume.push.height, volume.push.channels});
+    const std::uint32_t rows = most_rows(shown, volume.push);
+    Image numbers = graph.create("slice table", Shape{.extent = {1, rows}, .format = Format::rgba32f});
+    ComputePass writing = graph.compute("transparency/voxel/views/slice_table.comp");
+    read_slices(writing, volume, params).loads("Counts", counts).stores("numbers", numbers).fixes("shown", shown).over({1, rows});
+    return numbers;
+}
+
+}  // namespace
+
+Image volume_view(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t shown) {
+    Volume volume = integrated_volume(graph, images, params);
+    Image picture = picture_of(graph, images);
+    ComputePass pass = graph.compute("transparency/voxel/views/view.comp");
+    look_into(pass, volume, params)
+        .stores("picture", picture)
+        .fixes("shown", shown)
+        .fixes("shown_slice", params.shown_slice)
+        .fixes("empty_in_front", static_cast<float>(slices_to_zero(params)))
+        .over(images.extent);
+    return picture;
+}
+
+Image warp_view(Graph& graph, const FrameImages& images, const VoxelParams& params) {
+    const Volume volume = integrated_volume(graph, images, params);
+    Image picture = picture_of(graph, images);
+    ComputePass pass = graph.compute("transparency/voxel/views/warp_view.comp");
+    read_slices(pass, volume, params).stores("picture", picture).over(images.extent);
+    return picture;
+}
+
+Image self_occlusion_view(Graph& graph, const FrameImages& images, const VoxelParams& params) {
+    const Volume volume = integrated_volume(graph, images, params);
+    Image least = graph.create("least read", Shape{.extent = images.extent, .format = Format::r32ui});
+    graph.clear(least, {{double(reads_nothing)}});
+    // Against the depth of what is opaque: nothing is culled, what is wholly hidden by itself counts.
+    DrawPass draw = draw_events(graph, "transparency/voxel/views/least_read", images.transparent, images);
+    read_volume(draw, volume, params, Resolution::full).updates("least_read", least).drops_other_colors();
+    Image picture = picture_of(graph, images);
+    graph.compute("transparency/voxel/views/self_occlusion_view.comp")
+        .samples("least_read", least)
+        .stores("picture", picture)
+        .over(images.extent);
+    return picture;
+}
+
+std::vector<DebugTable> voxel_tables() {
+    return {
+        {.name = "slices",
+         .help = "the physical slices that hold something: where each begins and ends (an interface layer's at 0), which of the "
+                 "virtual ones it is, how many "
+                 "tiles use it",
+         .columns = {{"begins", "m"}, {"ends", "m"}, {"virtual slice", ""}, {"tiles", ""}},
+         .add = table<table_slices>},
+        {.name = "runs",
+         .help = "what the depth warp leaves: stretches of depth with something in them, their first physical slice and how "
+                 "many they have",
+         .columns = {{"begins", "m"}, {"ends", "m"}, {"first slice", ""}, {"slices", ""}},
+         .add = table<table_runs>},
+        {.name = "histogram",
+         .help =
+             "all virtual slices: where each begins and ends, which physical one it has, -1 without, and how many columns of all "
+             "channels hold something in it",
+         .columns = {{"begins", "m"}, {"ends", "m"}, {"slice", ""}, {"filled", "columns"}},
+         .add = table<table_histogram>},
+        {.name = "overflows",
+         .help =
+             "the physical slices that hold something: where each begins, its number, in how many columns of all channels it is "
+             "the first to overflow or to be full",
+         .columns = {{"begins", "m"}, {"slice", ""}, {"overflowed", "columns"}, {"saturated", "columns"}},
+         .add = table<table_overflows>},
+        {.name = "divider",
+         .help =
+             "halvings of the finest slices' number, such as this frame needs and hysteresis does not hold, virtual slices that "
+             "are left, and used ones of these",
+         .columns = {{"halvings", ""}, {"needed", ""}, {"virtual slices", ""}, {"used", ""}},
+         .add = table<table_divider>}};
+}
+
+}  // namespace strata::transparency
