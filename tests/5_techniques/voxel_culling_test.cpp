@@ -8,7 +8,7 @@
 #include "passes/registry.h"
 #include "passes/transparency/functions/model.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
-#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/thick_events/segment_model.h"
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/voxel/volume/volume.h"
 #include "tests/5_techniques/voxel_name.h"

@@ -5,8 +5,8 @@
 
 #include "passes/registry.h"
 #include "passes/transparency/low_resolution/prepass.h"
-#include "passes/transparency/voxel/sparse/sparse.h"
-#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/sparse/sparse_model.h"
+#include "passes/transparency/voxel/thick_events/segment_model.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"

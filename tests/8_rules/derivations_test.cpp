@@ -54,9 +54,6 @@ constexpr std::array shows_references = {
 /// Still to be separated: this list only gets shorter.
 constexpr std::array to_be_separated = {
     Exception{"passes/scene/light_records", "the device's blockers are chosen by the references' code"},
-    Exception{"passes/transparency/voxel/depth_warp", "the model's slices, in a folder file that device code includes"},
-    Exception{"passes/transparency/voxel/segment", "the thickness of a draw's events, which the device's steps ask, too"},
-    Exception{"passes/transparency/voxel/sparse", "the pool's extent, for the device, and the model's tiles in one file"},
 };
 
 /// Parts of references that ask the scene. It is the second list that only gets shorter.

@@ -5,7 +5,18 @@
 #include <fstream>
 #include <set>
 
+#include "tests/support/file_text.h"
+
 namespace strata {
+namespace {
+
+/// A technique's folder and its source have one name; a room of a stage holds what its techniques share.
+bool has_own_source(const std::filesystem::path& folder) {
+    const std::string name = folder.filename().string();
+    return file_text(folder / (name + ".cpp")).find("\nTechnique " + name + "()") != std::string::npos;
+}
+
+}  // namespace
 
 std::vector<std::string> listed_techniques() {
     std::ifstream file(std::filesystem::path(STRATA_SOURCE_DIR) / "passes/CMakeLists.txt");
@@ -28,7 +39,7 @@ std::vector<std::string> technique_folders() {
     for (const auto& stage : std::filesystem::directory_iterator(passes)) {
         if (!stage.is_directory() || no_stages.contains(stage.path().filename().string())) continue;
         for (const auto& technique : std::filesystem::directory_iterator(stage.path()))
-            if (technique.is_directory()) folders.push_back(technique.path().lexically_relative(passes).generic_string());
+            if (has_own_source(technique.path())) folders.push_back(technique.path().lexically_relative(passes).generic_string());
     }
     std::ranges::sort(folders);
     return folders;

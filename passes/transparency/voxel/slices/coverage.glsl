@@ -1,5 +1,5 @@
 // Where a transparent triangle may be seen, without rasterizing it: between which depths, and in which columns
-// (docs/algorithms/transparency.md 6.8). depth_warp.cpp has the same in double. A shader that includes this declares `VoxelPush
+// (docs/algorithms/transparency.md 6.8). depth_warp_model.cpp has the same in double. A shader that includes this declares `VoxelPush
 // push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL

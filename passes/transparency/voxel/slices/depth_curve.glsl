@@ -1,4 +1,4 @@
-// Slices of depth_curve.h in float, and which of them are there (depth_warp.h). A shader that includes this declares `VoxelPush
+// Slices of depth_curve.h in float, and which of them are there (depth_warp_model.h). A shader that includes this declares `VoxelPush
 // push` in its push constants first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_DEPTH_CURVE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_DEPTH_CURVE_GLSL

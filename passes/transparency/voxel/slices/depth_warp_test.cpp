@@ -1,5 +1,5 @@
 // Facts about the table that leaves empty slices out (docs/algorithms/transparency.md 6.10, 6.11; of 6.17 V6 and V9).
-#include "passes/transparency/voxel/slices/depth_warp.h"
+#include "passes/transparency/voxel/slices/depth_warp_model.h"
 
 #include <algorithm>
 #include <cmath>

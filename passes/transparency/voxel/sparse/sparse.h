@@ -29,7 +29,4 @@ SparseNotes sparse_notes(const VoxelParams&, std::uint32_t slices, Extent column
 /// depth_curve(), its slices halved until the notes are no larger than the pool.
 DepthCurve sparse_curve(const VoxelParams&, DepthRange, Extent columns);
 
-/// How often slices must be halved for the blocks of a frame to fit: what blocks.comp finds, in double.
-std::uint32_t sparse_halvings(const VoxelParams&, const Frame&, Extent columns, std::uint32_t channels);
-
 }  // namespace strata::transparency

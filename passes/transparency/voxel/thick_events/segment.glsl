@@ -1,4 +1,4 @@
-// A thick event: its optical depth lies evenly between two depths and is added to every slice there. segment.h has the same in
+// A thick event: its optical depth lies evenly between two depths and is added to every slice there. segment_model.h has the same in
 // double. A shader that includes this includes event.glsl and volume/voxels.glsl first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_SEGMENT_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_SEGMENT_GLSL

@@ -1,5 +1,5 @@
 // Facts about thick events (docs/algorithms/transparency.md 6.5, thick objects).
-#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/thick_events/segment_model.h"
 
 #include <algorithm>
 #include <cmath>

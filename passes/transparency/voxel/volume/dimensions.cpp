@@ -41,6 +41,8 @@ std::uint32_t voxel_divisor(const VoxelParams& params, Extent extent, std::uint3
     return divisor;
 }
 
+bool has_segments(const VoxelParams& params) { return params.thickness == thickness_segment && params.splat != splat_multiply; }
+
 std::uint32_t voxel_tint(const VoxelParams& params, const Features& features) {
     return channel_count(params.channels, features) == 1 ? params.tint : tint_total;
 }

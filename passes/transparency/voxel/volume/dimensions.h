@@ -15,6 +15,9 @@ VoxelParams voxel_params(const Settings&, const SceneFacts&);
 VoxelParams of_world(VoxelParams, const SceneFacts&);
 VoxelParams of_volume(VoxelParams, const SceneFacts&);
 
+/// Whether soft particles are thick. What multiplies has one slice for each triangle.
+bool has_segments(const VoxelParams&);
+
 /// Of a texel of the prepass, of all channels.
 std::uint32_t voxel_words(const VoxelParams&, std::uint32_t channels);
 /// Of the prepass: what `resolution` says, doubled until the volume is at most 512 MiB, or a sparse one's pool has a block for

@@ -9,7 +9,6 @@
 #include "passes/transparency/voxel/factors/factors.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
 #include "passes/transparency/voxel/sparse/sparse.h"
-#include "passes/transparency/voxel/thick_events/segment.h"
 #include "passes/transparency/voxel/volume/color_column.h"
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
@@ -136,11 +135,17 @@ void give_blocks(Graph& graph, const VoxelParams& params, Volume& volume) {
         .groups(voxel_tiles(columns));
 }
 
+/// Soft particles of the world are as deep as they fade over before opaque surfaces.
 DepthRange range_of(const VoxelParams& params, const SceneFacts& facts) {
-    double deepest = 0;
-    for (const std::uint32_t index : facts.lists().transparent)
-        deepest = std::max(deepest, thickness_of(params, facts.frame(), index));
-    return voxel_range(params, facts.world_depths(), deepest, facts.frame().view.near);
+    const Frame& frame = facts.frame();
+    float deepest = 0;
+    if (has_segments(params))
+        for (const std::uint32_t index : facts.lists().transparent) {
+            if (index < frame.draws.size()) continue;
+            const Emitter& emitter = frame.emitters[index - frame.draws.size()];
+            if (emitter.layer == 0) deepest = std::max(deepest, emitter.soft_depth_fade);
+        }
+    return voxel_range(params, facts.world_depths(), double(deepest), frame.view.near);
 }
 
 /// All but images and buffers.

@@ -1,12 +1,10 @@
-#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/thick_events/segment_model.h"
 
 #include <algorithm>
 
 #include "passes/reference/ordering.h"
 
 namespace strata::transparency {
-
-bool has_segments(const VoxelParams& params) { return params.thickness == thickness_segment && params.splat != splat_multiply; }
 
 double thickness_of(const VoxelParams& params, const Fragment& f) {
     return has_segments(params) && f.layer == 0 ? f.soft_fade : 0;

@@ -1,4 +1,4 @@
-#include "passes/transparency/voxel/slices/depth_warp.h"
+#include "passes/transparency/voxel/slices/depth_warp_model.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "passes/reference/ordering.h"
 #include "passes/reference/shade.h"
 #include "passes/reference/triangles.h"
-#include "passes/transparency/voxel/thick_events/segment.h"
+#include "passes/transparency/voxel/thick_events/segment_model.h"
 
 namespace strata::transparency {
 namespace {

@@ -10,11 +10,10 @@
 #include "passes/reference/fragments.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"
 #include "passes/transparency/voxel/volume/column.h"
+#include "passes/transparency/voxel/volume/dimensions.h"
 
 namespace strata::transparency {
 
-/// Whether soft particles are thick. What multiplies has one slice for each triangle.
-bool has_segments(const VoxelParams&);
 /// How deep an event is along the view, in metres, or the events of a draw: what its emitter fades over before opaque surfaces.
 double thickness_of(const VoxelParams&, const Fragment&);
 double thickness_of(const VoxelParams&, const Frame&, std::uint32_t draw);
