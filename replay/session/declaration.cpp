@@ -179,7 +179,7 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
     d.choices = *choices;
     if (const auto filled = fill(d, request, sources, keep, {}); !filled) return filled.error();
     if (sources.memo) {
-        // Declaring costs microseconds: the first declaration tells what later acts read, the second one remembers it.
+        // Declaring is cheap (DECISIONS.md 13): the first declaration tells what later acts read, the second one remembers it.
         std::vector<bool> skip;
         for (const DeclaredAct& act : d.frame.acts) skip.push_back(feeds_buffers(d.graph, act.scope));
         auto wanted = images_read_later(d.graph, d.frame.acts);

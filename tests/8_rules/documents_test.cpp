@@ -79,7 +79,10 @@ const Places& places_of(const std::string& document) {
 
 /// How many references the lines have; adds a failure for each that leads nowhere.
 std::size_t check(const std::string& file, const std::vector<std::string>& lines) {
-    const std::vector<Reference> found = references(joined(lines));
+    static const std::regex bare("\\bchapter [0-9]");
+    const std::string text = joined(lines);
+    EXPECT_FALSE(std::regex_search(text, bare)) << file << " names a chapter and not its document";
+    const std::vector<Reference> found = references(text);
     for (const Reference& reference : found) {
         EXPECT_TRUE(places_of(reference.document).exist()) << file << " names docs/algorithms/" << reference.document;
         for (const std::string& place : reference.places)

@@ -18,7 +18,8 @@ constexpr std::uint64_t most_record_bytes = 64u << 20;
 
 std::uint32_t ceil_divide(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
 
-std::size_t light_count(const FrameImages& frame) { return frame.recorded->lights.size() + 1; }  // the sun, perhaps
+/// At least one: buffers are sized by it.
+std::size_t light_count(const FrameImages& frame) { return std::max<std::size_t>(frame.facts->lights().size(), 1); }
 
 bool is_prefiltered(const FrameImages& frame, const TiledParams& params) {
     if (params.prefilter == prefilter_automatic) return light_count(frame) > lights_worth_a_prefilter;

@@ -80,7 +80,7 @@ template <std::uint32_t shown>
 Image list_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return no_rows(graph);
     const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
-    const auto lights = static_cast<std::uint32_t>(std::min<std::size_t>(frame.recorded->lights.size() + 1, most_listed));
+    const auto lights = static_cast<std::uint32_t>(std::clamp<std::size_t>(frame.facts->lights().size(), 1, most_listed));
     const std::uint32_t rows_per_tile = std::clamp(most_rows / culled.count(), 1u, lights);
     Image numbers = numbers_of(graph, std::min(culled.count() * rows_per_tile, most_rows));
     graph.compute("lighting/tiled/list_table.comp")
