@@ -20,15 +20,13 @@ namespace strata {
 /// Most blockers and most portals of a light.
 inline constexpr std::size_t most_light_blockers = 32, most_light_portals = 32;
 
-/// A blocker in view space: center +- u half_u +- v half_v, v = cross(normal, u). Its halves are 1e-5 of the greater and 1e-5 m
-/// wider than recorded, so that a rounded position between two that share an edge is inside one of them
-/// (docs/algorithms/lighting.md 2.2).
+/// A blocker in view space: center +- u half_u +- v half_v. Its halves are 1e-5 of the greater and 1e-5 m wider than recorded, so
+/// that a rounded position between two that share an edge is inside one of them (docs/algorithms/lighting.md 2.2).
 struct PlacedBlocker {
-    glm::dvec3 center{0}, normal{0, 0, 1}, u{1, 0, 0};
+    glm::dvec3 center{0}, normal{0, 0, 1}, u{1, 0, 0}, v{0, 1, 0};
     double half_u = 0, half_v = 0;
     bool one_sided = false;  ///< stops only light from the normal's side, which is cross(u, v) of the record in the world
 };
-PlacedBlocker placed_blocker(const Frame&, const Blocker&);
 
 /// A portal in the (u, v) of its blocker, projected onto it along the blocker's normal. Exact where it lies parallel to the
 /// blocker or leans around one of its own axes; otherwise its outline would be a parallelogram, and the rectangle over its u side
@@ -38,7 +36,6 @@ struct PlacedPortal {
     glm::dvec2 turn{1, 0};      ///< cosine and sine from the blocker's u to the portal's
     std::uint32_t blocker = 0;  ///< index into Frame::blockers
 };
-PlacedPortal placed_portal(const Frame&, const Portal&, const PlacedBlocker&);
 
 struct LightBlocker {
     PlacedBlocker shape;

@@ -1,8 +1,10 @@
 #include "passes/scene/light_records.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "passes/reference/blockers.h"
+#include "passes/scene/light_blockers.h"
 #include "passes/scene/light_features.h"
 #include "passes/scene/light_list.h"
 #include "passes/scene/view_space.h"
@@ -38,26 +40,6 @@ LightRecord record(const Frame& frame, const Light& light) {
     };
 }
 
-BlockerRecord record(const PlacedBlocker& blocker) {
-    return {
-        .normal = glm::vec3(blocker.normal),
-        .half_u = float(blocker.half_u),
-        .center = glm::vec3(blocker.center),
-        .half_v = float(blocker.half_v),
-        .u = glm::vec3(blocker.u),
-        .one_sided = blocker.one_sided ? 1u : 0u,
-    };
-}
-
-BlockerPortalRecord record(const PlacedPortal& portal) {
-    return {
-        .center = glm::vec2(portal.center),
-        .half_extent = glm::vec2(portal.half_extent),
-        .turn = glm::vec2(portal.turn),
-        .blocker = portal.blocker,
-    };
-}
-
 // Keeps dot(n, p) + d >= 0 with p camera-relative.
 void add_clip_planes(const Frame& frame, const Light& light, LightRecords& made) {
     made.lights.back().first_clip = static_cast<uint>(made.clip_planes.size());
@@ -68,25 +50,25 @@ void add_clip_planes(const Frame& frame, const Light& light, LightRecords& made)
     }
 }
 
-void add_blockers(const LightBlockers& found, LightRecords& made) {
+void add_blockers(const LightBlockerRecords& found, LightRecords& made) {
     LightRecord& light = made.lights.back();
     light.first_blocker = static_cast<uint>(made.light_blockers.size());
     light.blockers = static_cast<uint>(found.blockers.size());
     light.first_portal = static_cast<uint>(made.blocker_portals.size());
     light.portals = static_cast<uint>(found.portals.size());
-    for (const LightBlocker& use : found.blockers) made.light_blockers.push_back({use.blocker, use.portals});
-    for (const PlacedPortal& portal : found.portals) made.blocker_portals.push_back(record(portal));
+    std::ranges::copy(found.blockers, std::back_inserter(made.light_blockers));
+    std::ranges::copy(found.portals, std::back_inserter(made.blocker_portals));
 }
 
 }  // namespace
 
 LightRecords light_records(const Frame& frame) {
     LightRecords made;
-    for (const Blocker& blocker : frame.blockers) made.blockers.push_back(record(placed_blocker(frame, blocker)));
+    made.blockers = blocker_records(frame);
     for (const Light& light : light_list(frame)) {
         made.lights.push_back(record(frame, light));
         add_clip_planes(frame, light, made);
-        add_blockers(light_blockers(frame, light), made);
+        add_blockers(light_blocker_records(frame, light), made);
     }
     return made;
 }

@@ -1,5 +1,5 @@
 // Thresholds of light blockers (docs/algorithms/lighting.md 2.2 and 2.3), metres unless said otherwise.
-// passes/reference/blockers.cpp has its own.
+// passes/reference/blockers.cpp has its own, and passes/scene/light_blockers.cpp has those of lights in double.
 #ifndef PASSES_SHADERS_BLOCKERS_SHARED_H
 #define PASSES_SHADERS_BLOCKERS_SHARED_H
 #include "passes/shader_interop.h"

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/reference/blockers.h"
+#include "passes/scene/light_blockers.h"
 #include "tests/support/blocker_cases.h"
 
 namespace strata {
@@ -165,12 +166,6 @@ TEST(BlockerCells, NothingChangesWhereTheEyeIsInABlocker) {  // docs/algorithms/
         }
 }
 
-/// A blocker as the device gets it, in float.
-BlockerRecord record(const PlacedBlocker& b) {
-    return {
-        .normal = b.normal, .half_u = float(b.half_u), .center = b.center, .half_v = float(b.half_v), .u = b.u, .one_sided = 0};
-}
-
 /// Two halves of a rectangle somewhere, a light before it, and of `points` behind them every other seen across the seam.
 struct Halves {
     BlockerCases grown, bare;  ///< as they are uploaded, and as wide as they were recorded
@@ -183,11 +178,12 @@ struct Halves {
         const glm::vec3 n = glm::normalize(somewhere()), u = glm::normalize(glm::cross(glm::dvec3(n), somewhere()));
         const glm::vec3 v = glm::cross(n, u);
         const glm::dvec3 center = 10. * somewhere(), from = center + glm::dvec3(n) + .5 * glm::dvec3(u) * within(random);
+        Frame frame;
         for (const double side : {-.5, .5}) {
-            const Blocker half{.center = center + side * glm::dvec3(u), .u = u, .v = v, .half_u = .5f, .half_v = 1};
-            grown.blockers.push_back(record(placed_blocker({}, half)));
+            frame.blockers.push_back({.center = center + side * glm::dvec3(u), .u = u, .v = v, .half_u = .5f, .half_v = 1});
             grown.light_blockers.push_back({static_cast<std::uint32_t>(grown.light_blockers.size()), 0});
         }
+        grown.blockers = blocker_records(frame);
         bare = grown;
         for (BlockerRecord& b : bare.blockers) b.half_u = .5f;
         light.position = from;
@@ -251,7 +247,7 @@ TEST(BlockerCells, NoLightLeavesAClosedBox) {  // docs/algorithms/lighting.md T2
 
 TEST(BlockerCells, TilesBehindAFaceOfAClosedBoxLoseTheLight) {  // docs/algorithms/lighting.md T2.10
     const ClosedBox box;
-    const LightBlockers all = light_blockers(box.frame, box.light);
+    const std::vector<BlockerRecord> all = blocker_records(box.frame);
     const auto edge = [](int i) { return float(i) / 22.5f; };
     int killed = 0, undecided = 0;
     for (int y = -22; y < 22; ++y)
@@ -259,8 +255,8 @@ TEST(BlockerCells, TilesBehindAFaceOfAClosedBoxLoseTheLight) {  // docs/algorith
             const lighting::TileRays<float> rays{edge(x), edge(x + 1), edge(y), edge(y + 1)};
             const Cell<float> cell = lighting::cell_between(rays, 7.f, 8.f);
             int full = 0, partial = 0;
-            for (const LightBlocker& use : all.blockers) {
-                const Reach told = lighting::classify(record(use.shape), glm::vec4(light_point(box.frame, box.light)), cell);
+            for (const BlockerRecord& face : all) {
+                const Reach told = lighting::classify(face, glm::vec4(light_point(box.frame, box.light)), cell);
                 full += told == Reach::full ? 1 : 0;
                 partial += told == Reach::partial ? 1 : 0;
             }

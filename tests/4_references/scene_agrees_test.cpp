@@ -1,16 +1,24 @@
 // What the device is given and what references start from, derived twice from the same frame, agree: for every scenario, and for
 // the cases by hand that no scenario has.
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
+#include "passes/reference/blockers.h"
 #include "passes/reference/bounds.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
+#include "passes/scene/light_records.h"
 #include "passes/scene/object_order.h"
 #include "passes/scene/scene_facts.h"
+#include "tests/4_references/random_blockers.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -87,6 +95,117 @@ TEST(Scene, AgreesWithReferencesOnLights) {
         for (const Allocation allocation : {Allocation::own, Allocation::need})
             EXPECT_EQ(shadowed_lights(facts.shadow_views(allocation)), mapped_lights(frame)) << name;
     }
+}
+
+/// The blockers and portals that the device is given of a light, in the reference's terms.
+LightBlockers given_blockers(const LightRecords& given, const LightRecord& light) {
+    LightBlockers result;
+    for (std::uint32_t i = 0; i < light.blockers; ++i) {
+        const auto& [blocker, portals] = given.light_blockers[light.first_blocker + i];
+        const BlockerRecord& b = given.blockers[blocker];
+        const glm::dvec3 normal(b.normal), u(b.u);
+        result.blockers.push_back({.shape = {b.center, normal, u, glm::cross(normal, u), b.half_u, b.half_v, b.one_sided != 0},
+                                   .blocker = blocker,
+                                   .portals = portals});
+    }
+    for (std::uint32_t i = 0; i < light.portals; ++i) {
+        const BlockerPortalRecord& p = given.blocker_portals[light.first_portal + i];
+        result.portals.push_back({p.center, p.half_extent, p.turn, p.blocker});
+    }
+    return result;
+}
+
+/// But for the rounding of records, which is a tenth of what a blocker grows by.
+bool is_near(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-6 * (1 + glm::length(b)); }
+bool is_near(double a, double b) { return std::abs(a - b) < 1e-6 * (1 + std::abs(b)); }
+
+bool is_same(const LightBlocker& a, const LightBlocker& b) {
+    return a.blocker == b.blocker && a.portals == b.portals && a.shape.one_sided == b.shape.one_sided &&
+           is_near(a.shape.center, b.shape.center) && is_near(a.shape.normal, b.shape.normal) && is_near(a.shape.u, b.shape.u) &&
+           is_near(a.shape.half_u, b.shape.half_u) && is_near(a.shape.half_v, b.shape.half_v);
+}
+
+/// In view space: the two may differ in the v axis that they measure along.
+bool is_same(const PlacedPortal& a, const PlacedBlocker& in_a, const PlacedPortal& b, const PlacedBlocker& in_b) {
+    const auto in_view = [](const PlacedBlocker& in, const glm::dvec2& flat) { return in.u * flat.x + in.v * flat.y; };
+    return a.blocker == b.blocker && is_near(in_view(in_a, a.center), in_view(in_b, b.center)) &&
+           is_near(in_view(in_a, a.turn * a.half_extent.x), in_view(in_b, b.turn * b.half_extent.x)) &&
+           is_near(a.half_extent.y, b.half_extent.y);
+}
+
+/// Whether both have the same blockers, portals and bits in the same order.
+bool is_same(const LightBlockers& a, const LightBlockers& b) {
+    if (a.blockers.size() != b.blockers.size() || a.portals.size() != b.portals.size()) return false;
+    for (std::size_t i = 0; i < a.blockers.size(); ++i)
+        if (!is_same(a.blockers[i], b.blockers[i])) return false;
+    for (std::size_t k = 0; k < a.portals.size(); ++k)
+        for (std::size_t i = 0; i < a.blockers.size(); ++i)
+            if (a.blockers[i].blocker == a.portals[k].blocker &&
+                !is_same(a.portals[k], a.blockers[i].shape, b.portals[k], b.blockers[i].shape))
+                return false;
+    return true;
+}
+
+/// Whether a change by less than a micrometer changes what the reference says: a number is on a threshold, where rounding
+/// decides.
+bool is_on_a_threshold(const Frame& frame, const Light& light) {
+    const LightBlockers before = light_blockers(frame, light);
+    for (const float nudge : {-3e-7f, 3e-7f}) {
+        Frame larger = frame, leaning = frame;
+        for (Blocker& blocker : larger.blockers) blocker.half_u *= 1 + nudge, blocker.half_v *= 1 + nudge;
+        for (Portal& portal : larger.portals) portal.half_u *= 1 + nudge, portal.half_v *= 1 + nudge;
+        for (Portal& portal : leaning.portals) portal.u += nudge * glm::cross(portal.u, portal.v);
+        if (!is_same(light_blockers(larger, light), before) || !is_same(light_blockers(leaning, light), before)) return true;
+        for (int axis = 0; axis < 3; ++axis) {
+            Light moved = light;
+            moved.position[axis] += double(nudge);
+            moved.direction[axis] += nudge;
+            if (!is_same(light_blockers(frame, moved), before)) return true;
+        }
+    }
+    return false;
+}
+
+struct Agreement {
+    std::size_t lights = 0, blockers = 0, portals = 0, full = 0, undecided = 0;
+};
+
+/// Compares what a frame's lights are given with what the reference says of them; false where that differs.
+bool agree_on_blockers(const Frame& frame, Agreement& found) {
+    const LightRecords given = light_records(frame);
+    const std::vector<Light> shining = shining_lights(frame);
+    if (given.lights.size() != shining.size() || given.blockers.size() != frame.blockers.size()) return false;
+    for (std::size_t i = 0; i < shining.size(); ++i) {
+        const LightBlockers expected = light_blockers(frame, shining[i]);
+        if (!is_same(given_blockers(given, given.lights[i]), expected)) {
+            if (!is_on_a_threshold(frame, shining[i])) return false;
+            ++found.undecided;
+        }
+        ++found.lights;
+        found.blockers += expected.blockers.size();
+        found.portals += expected.portals.size();
+        found.full += expected.dropped > 0 ? 1 : 0;
+    }
+    return true;
+}
+
+TEST(Scene, AgreesWithReferencesOnBlockersAndPortals) {
+    Agreement found;
+    for (const auto& [name, frame] : frames_of_scenarios()) EXPECT_TRUE(agree_on_blockers(frame, found)) << name;
+    EXPECT_GT(found.blockers, 1000u);
+    EXPECT_GT(found.portals, 700u);
+    EXPECT_EQ(found.undecided, 0u);
+}
+
+TEST(Scene, AgreesWithReferencesOnRandomBlockersAndPortals) {
+    tiny::Random random(32);
+    Agreement found;
+    for (int i = 0; i < 400; ++i) ASSERT_TRUE(agree_on_blockers(tiny::blockers_at_random(random), found)) << "frame " << i;
+    EXPECT_EQ(found.lights, 1200u);
+    EXPECT_GT(found.blockers, 10000u);
+    EXPECT_GT(found.portals, 5000u);
+    EXPECT_GT(found.full, 100u) << "no light had to choose 32 blockers";
+    EXPECT_LE(found.undecided, 6u) << "lights with a number on a threshold";
 }
 
 TEST(Scene, AgreesWithReferencesOnBoundsAndDepthsButForRounding) {

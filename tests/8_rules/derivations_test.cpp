@@ -51,12 +51,7 @@ constexpr std::array shows_references = {
     Exception{"ui/pixel/pixel_fragments", "shows a pixel's fragments"},
 };
 
-/// Still to be separated: this list only gets shorter.
-constexpr std::array to_be_separated = {
-    Exception{"passes/scene/light_records", "the device's blockers are chosen by the references' code"},
-};
-
-/// Parts of references that ask the scene. It is the second list that only gets shorter.
+/// Parts of references that ask the scene. This list only gets shorter.
 constexpr std::array asks_the_scene = {
     Exception{"passes/lighting/tiled/cull_scene", "a mirror of culling reads the records that the device culls"},
     Exception{"passes/shadows/lookup", "where shadow maps lie: a model of lookups reads the maps that the device drew"},
@@ -86,8 +81,7 @@ void for_every_include_of(const std::string& folder, const Visit& visit) {
 
 TEST(Derivations, NothingThatFeedsTheDeviceIncludesAReference) {
     for_every_include_of("passes/reference/", [](const std::string& from, std::size_t line, const std::string& to) {
-        const bool may = is_of_references(from) || is_listed(plain_values, to) || is_listed(shows_references, from) ||
-                         is_listed(to_be_separated, from);
+        const bool may = is_of_references(from) || is_listed(plain_values, to) || is_listed(shows_references, from);
         EXPECT_TRUE(may) << from << ":" << line << " includes " << to << ": derive it in passes/scene/";
     });
 }
@@ -109,8 +103,7 @@ TEST(Derivations, TheListsOfExceptionsHoldNothingThatIsSeparated) {
     };
     for_every_include_of("passes/reference/", remember(of_references));
     for_every_include_of("passes/scene/", remember(of_scene));
-    for (const auto list : {std::span<const Exception>(parts_of_references), std::span<const Exception>(shows_references),
-                            std::span<const Exception>(to_be_separated)})
+    for (const auto list : {std::span<const Exception>(parts_of_references), std::span<const Exception>(shows_references)})
         for (const Exception& one : list)
             EXPECT_TRUE(of_references.contains(std::string(one.path))) << one.path << " includes no reference: take it off";
     for (const Exception& one : asks_the_scene)

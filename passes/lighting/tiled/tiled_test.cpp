@@ -162,7 +162,9 @@ LightBlockers asked(const CullScene& scene, const LightRecord& light, std::uint3
         const LightBlockerRecord& use = scene.light_blockers[light.first_blocker + i];
         const BlockerRecord& b = scene.blockers[use.blocker];
         if ((blockers >> i & 1) == 0) continue;
-        const PlacedBlocker shape{b.center, b.normal, b.u, double(b.half_u), double(b.half_v), b.one_sided != 0};
+        const glm::dvec3 normal(b.normal), u(b.u);
+        const PlacedBlocker shape{b.center,         normal,          u, glm::cross(normal, u), double(b.half_u),
+                                  double(b.half_v), b.one_sided != 0};
         result.blockers.push_back({shape, use.blocker, use.portals & portals});
     }
     return result;
