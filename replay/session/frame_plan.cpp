@@ -61,8 +61,7 @@ Result<void> check_needs(const Technique& technique, const Capabilities& device)
 /// Declares what the technique does at one place of the frame, in a scope of its own.
 DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const Act& what) {
     const Technique& technique = *choice.technique;
-    graph.enter(fmt::format("{}: {}", name(what.at), technique.name), static_cast<std::uint32_t>(technique.stage),
-                technique.counter_bytes);
+    graph.enter({ScopeKind::act, technique.stage, what.at, std::string(technique.name)}, technique.counter_bytes);
     const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
     DeclaredAct declared{&technique, what.at, scope, images};
     what.add(graph, images, choice.settings);

@@ -44,7 +44,8 @@ struct Request {
 };
 
 struct StepRecord {
-    std::string scope, name;                ///< "transparency: transparency/weighted", the shader
+    Scope scope;
+    std::string name;                       ///< the shader
     std::optional<Spread> ms;               ///< with timing
     std::vector<double> ms_by_repeat = {};  ///< what ms is the spread of, in turn
 };
@@ -106,8 +107,9 @@ struct Run {
 
 /// What a step of the plan wrote, read back right after it.
 struct StepImages {
-    std::size_t step = 0;                     ///< its place in the plan
-    std::string scope, name;                  ///< as in StepRecord
+    std::size_t step = 0;  ///< its place in the plan
+    Scope scope;
+    std::string name;                         ///< as in StepRecord
     std::map<std::string, HostImage> images;  ///< by their names in the graph
 };
 

@@ -27,8 +27,7 @@ TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
 std::vector<std::string> executed_before(Stage stage, const Run& run) {
     std::vector<std::string> scopes;
     for (const StepRecord& step : run.steps) {
-        const auto at = find_stage(step.scope.substr(0, step.scope.find(": ")));
-        if (at && *at < stage) scopes.push_back(step.scope + " / " + step.name);
+        if (step.scope.kind == ScopeKind::act && step.scope.at < stage) scopes.push_back(text_of(step.scope) + " / " + step.name);
     }
     return scopes;
 }
@@ -119,7 +118,8 @@ TEST(Memo, ASettingIsPartOfTheKey) {
     changed.sets = {fmt::format("{}={}", param.name, other)};
     const auto run = must(session->run(changed));
     bool executed = false;
-    for (const StepRecord& step : run.steps) executed = executed || step.scope.starts_with("transparency: ");
+    for (const StepRecord& step : run.steps)
+        executed |= step.scope.kind == ScopeKind::act && step.scope.at == Stage::transparency;
     EXPECT_TRUE(executed);
 }
 

@@ -40,7 +40,8 @@ TEST(Remembered, IsLookedAtInEveryRun) {
     const auto session = scenario_session("glass_and_smoke");
     const auto executes_transparency = [&](const Request& request) {
         const auto run = must(session->run(request));
-        return std::ranges::any_of(run.steps, [](const StepRecord& s) { return s.scope.starts_with("transparency: "); });
+        return std::ranges::any_of(
+            run.steps, [](const StepRecord& s) { return s.scope.kind == ScopeKind::act && s.scope.at == Stage::transparency; });
     };
     EXPECT_TRUE(executes_transparency(with_slices("64")));
     EXPECT_TRUE(executes_transparency(with_slices("64")));
