@@ -73,6 +73,9 @@ Counter counter(Counter row) {
     return row;
 }
 
+/// The name of a choice or the number: what Settings::set() reads back as this value.
+std::string text_of(const Param&, double value);
+
 /// The values of a technique's parameters, in the order of its rows.
 class Settings {
 public:

@@ -50,8 +50,8 @@ HostImage waves_of_pixels(const HostImage& numbers, std::span<const VariantWaves
 
 }  // namespace
 
-Result<const Technique*> technique_of_variants(std::span<const std::string> uses) {
-    return technique_offering({has_variants, "has no shading modes"}, uses);
+Result<const Technique*> technique_of_variants(const ChoiceChanges& choices) {
+    return technique_offering({has_variants, "has no shading modes"}, choices);
 }
 
 std::vector<std::string> outputs_of_variants(const Technique& technique) {

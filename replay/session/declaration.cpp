@@ -176,7 +176,7 @@ Result<void> fill(Declaration& d, const Request& request, const Sources& sources
 }  // namespace
 
 Result<Declaration> declare(const Request& request, const Sources& sources, Keep keep) {
-    auto choices = choose(sources.loaded.frame, request.uses, request.sets);
+    auto choices = choose(sources.loaded.frame, request.choices);
     if (!choices) return choices.error();
 
     Declaration d;

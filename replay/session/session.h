@@ -29,9 +29,9 @@ enum class Acts { left, brought_back };
 
 /// What to replay and what to bring back.
 struct Request {
-    std::size_t frame = 0;                ///< index in the capture
-    std::vector<std::string> uses, sets;  ///< as on the command line, see choose()
-    std::vector<Feature> force;           ///< features switched on though the frame lacks them
+    std::size_t frame = 0;       ///< index in the capture
+    ChoiceChanges choices = {};  ///< against the recorded ones
+    std::vector<Feature> force;  ///< features switched on though the frame lacks them
     std::vector<std::string> outputs = {
         "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
     std::string until;                 ///< last step to run: part of its name; empty: all

@@ -12,7 +12,7 @@ namespace {
 
 /// A technique that remembers the thickness of its slices, which fewer of them make larger.
 Request with_slices(const std::string& count, const std::string& frames = "100") {
-    return {.uses = {"transparency/voxel"}, .sets = {"slices=" + count, "curve=linear", "hysteresis=" + frames}};
+    return {.choices = chosen({"transparency/voxel"}, {"slices=" + count, "curve=linear", "hysteresis=" + frames})};
 }
 
 std::uint64_t held(Session& session, const Request& request) { return counted(must(session.run(request)), "halvings held"); }
