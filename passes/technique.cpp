@@ -58,12 +58,6 @@ Result<std::size_t> find_param(std::span<const Param> params, std::string_view n
     return fail(Fault::usage, "no parameter {}{}", name, did_you_mean(name, known));
 }
 
-std::string value_text(const Param& param, double value) {
-    if (!param.choices.empty()) return std::string(param.choices[static_cast<std::size_t>(value)]);
-    if (param.scalar == Scalar::integer) return fmt::format("{}", static_cast<std::int64_t>(value));
-    return fmt::format("{}", value);
-}
-
 template <typename T>
 void place(std::span<std::byte> block, std::size_t offset, T value) {
     assert(offset + sizeof value <= block.size());
@@ -71,6 +65,12 @@ void place(std::span<std::byte> block, std::size_t offset, T value) {
 }
 
 }  // namespace
+
+std::string text_of(const Param& param, double value) {
+    if (!param.choices.empty()) return std::string(param.choices[static_cast<std::size_t>(value)]);
+    if (param.scalar == Scalar::integer) return fmt::format("{}", static_cast<std::int64_t>(value));
+    return fmt::format("{}", value);
+}
 
 std::string_view name(ModelKind kind) { return kind == ModelKind::mirror ? "mirror" : "paper"; }
 
@@ -105,7 +105,7 @@ double Settings::get(std::string_view name) const {
 std::vector<std::string> Settings::lines() const {
     std::vector<std::string> all;
     for (std::size_t i = 0; i < values_.size(); ++i)
-        all.push_back(fmt::format("{}={}", params_[i].name, value_text(params_[i], values_[i])));
+        all.push_back(fmt::format("{}={}", params_[i].name, text_of(params_[i], values_[i])));
     return all;
 }
 

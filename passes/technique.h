@@ -73,6 +73,9 @@ Counter counter(Counter row) {
     return row;
 }
 
+/// The name of a choice or the number: what Settings::set() reads back as this value.
+std::string text_of(const Param&, double value);
+
 /// The values of a technique's parameters, in the order of its rows.
 class Settings {
 public:
@@ -179,9 +182,10 @@ struct KnownFailure {
 struct TimeRatio {
     std::string_view name;
     std::string_view of, against;  ///< the ways; the ratio is the time of the one by that of the other
-    /// Parts of the names of the technique's steps that count; none: all of them. A part that ends with a colon is a stage, all
-    /// of whose steps count, whosever they are: "gbuffer:".
+    /// Parts of the names of the technique's steps that count; none: all of them.
     std::vector<std::string_view> steps = {};
+    /// Stages of which every technique's steps count instead.
+    std::vector<Stage> stages = {};
     std::optional<double> published = {};
     std::string_view source = {};  ///< of what is published: times, machine, extent
     std::string_view scenario = "particle_storm";

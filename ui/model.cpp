@@ -2,17 +2,11 @@
 
 #include <algorithm>
 
+#include "replay/session/choice_text.h"
 #include "replay/shell_word.h"
 
 namespace strata::ui {
 namespace {
-
-/// "key=value" of a parameter, as --set takes it.
-std::string line_of(const Settings& settings, std::string_view param) {
-    for (std::string& line : settings.lines())
-        if (line.starts_with(fmt::format("{}=", param))) return std::move(line);
-    return {};
-}
 
 Settings base_of(const Choice& choice, const Choice& recorded) {
     return choice.technique == recorded.technique ? recorded.settings : Settings(choice.technique->params);
@@ -21,43 +15,41 @@ Settings base_of(const Choice& choice, const Choice& recorded) {
 }  // namespace
 
 Model::Model(std::filesystem::path path, DeviceChoice choice, const Request& first)
-    : capture(std::move(path)), device(std::move(choice)), edits_{first.frame, first.uses,    first.sets,
-                                                                  first.force, first.samples, first.eye} {}
+    : capture(std::move(path)),
+      device(std::move(choice)),
+      edits_{first.frame, first.choices, first.force, first.samples, first.eye} {}
 
 void Model::know(const FrameFacts& facts) {
     if (facts_ && facts_->index == facts.index) return;
     facts_ = facts;
-    recorded_ = *choose(facts.bare, {}, {});
+    recorded_ = *choose(facts.bare);
     apply_edits();
 }
 
 /// Edits may name what this frame's choices do not have: a key of a technique that another frame was recorded with. Those go.
 void Model::apply_edits() {
     if (!facts_ || facts_->index != edits_.frame) return;  // another frame's facts are on their way
-    auto choices = choose(facts_->bare, edits_.uses, {});
-    if (!choices) choices = recorded_;
-    std::vector<std::string> kept;
-    for (const std::string& set : edits_.sets) {
-        kept.push_back(set);
-        if (auto more = choose(facts_->bare, edits_.uses, kept)) choices = std::move(more);
-        else kept.pop_back();
+    ChoiceChanges kept{edits_.choices.techniques, {}};
+    choices_ = *choose(facts_->bare, kept);
+    for (const SettingChange& change : edits_.choices.settings) {
+        kept.settings.push_back(change);
+        if (auto more = choose(facts_->bare, kept)) choices_ = *std::move(more);
+        else kept.settings.pop_back();
     }
-    choices_ = *std::move(choices);
     edits_ = with(choices_);
 }
 
-/// The choices as the fewest uses and sets that make them.
+/// The choices as the fewest changes that make them.
 Edits Model::with(const Choices& choices) const {
     Edits edits = edits_;
-    edits.uses.clear();
-    edits.sets.clear();
+    edits.choices = {};
     for (const auto& [stage, choice] : choices) {
         const Choice& recorded = recorded_.at(stage);
-        if (choice.technique != recorded.technique) edits.uses.emplace_back(choice.technique->name);
+        if (choice.technique != recorded.technique) edits.choices.use(*choice.technique);
         const Settings base = base_of(choice, recorded);
         for (const Param& param : choice.technique->params)
-            if (choice.settings.get(param.name) != base.get(param.name))
-                edits.sets.push_back(fmt::format("{}:{}", choice.technique->name, line_of(choice.settings, param.name)));
+            if (const double value = choice.settings.get(param.name); value != base.get(param.name))
+                edits.choices.settings.push_back({choice.technique, std::string(param.name), value});
     }
     return edits;
 }
@@ -131,18 +123,11 @@ void Model::look_from(const EyeMove& eye) {
     change(std::move(edits), "eye");
 }
 
-void Model::apply(std::string_view technique, const std::vector<std::string>& sets) {
-    const auto found = find_technique(technique);
-    if (!found) return;
+void Model::apply(const ChoiceChanges& changes) {
+    const auto made = choose(Frame(), changes);
+    if (!made) return;
     Choices choices = choices_;
-    Choice& choice = choices.at((*found)->stage);
-    choice = {*found, Settings((*found)->params)};
-    for (const std::string& set : sets) {
-        const std::size_t equals = std::min(set.find('='), set.size());
-        const auto done = choice.settings.set(std::string_view(set).substr(0, equals),
-                                              std::string_view(set).substr(std::min(equals + 1, set.size())));
-        static_cast<void>(done);  // a line that says nothing about this technique changes nothing
-    }
+    for (const auto& [stage, technique] : changes.techniques) choices.at(stage) = made->at(stage);
     change(with(choices), {});
 }
 
@@ -164,8 +149,7 @@ void Model::redo() {
 
 Request Model::request() const {
     return {.frame = edits_.frame,
-            .uses = edits_.uses,
-            .sets = edits_.sets,
+            .choices = edits_.choices,
             .force = edits_.force,
             .outputs = {wanted_.begin(), wanted_.end()},
             .samples = edits_.samples,
@@ -174,8 +158,8 @@ Request Model::request() const {
 
 std::string Model::command_line() const {
     std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture.string()), edits_.frame);
-    for (const std::string& use : edits_.uses) line += fmt::format(" --use {}", as_shell_word(use));
-    for (const std::string& set : edits_.sets) line += fmt::format(" --set {}", as_shell_word(set));
+    for (const std::string& use : use_texts(edits_.choices)) line += fmt::format(" --use {}", as_shell_word(use));
+    for (const std::string& set : set_texts(edits_.choices)) line += fmt::format(" --set {}", as_shell_word(set));
     for (const Feature feature : edits_.force) line += fmt::format(" --force {}", name(feature));
     if (edits_.samples != 0) line += fmt::format(" --samples {}", edits_.samples);
     if (const std::string eye = text(edits_.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));

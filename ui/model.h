@@ -20,7 +20,7 @@ struct Outline;
 /// How a frame is made, as differences to how it was recorded. What undo brings back.
 struct Edits {
     std::size_t frame = 0;
-    std::vector<std::string> uses, sets;
+    ChoiceChanges choices;
     std::vector<Feature> force;
     std::uint32_t samples = 0;
     EyeMove eye = {};
@@ -96,8 +96,8 @@ public:
     void select_frame(std::size_t);
     void set_samples(std::uint32_t);
     void look_from(const EyeMove&);
-    /// As a report's row or a compared technique says: --use and --set of one technique.
-    void apply(std::string_view technique, const std::vector<std::string>& sets);
+    /// Chooses these techniques with these settings over their defaults.
+    void apply(const ChoiceChanges&);
 
     /// Consecutive changes of one thing are one step of undo until this says that the hand is off it.
     void settle() { editing_.clear(); }

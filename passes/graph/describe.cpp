@@ -118,7 +118,7 @@ std::string describe(const Plan& plan) {
     for (const PlannedStep& planned : plan.steps) {
         if (planned.step.scope != scope) {
             scope = planned.step.scope;
-            text += fmt::format("\n{}\n", plan.scopes[scope].name);
+            text += fmt::format("\n{}\n", text_of(plan.scopes[scope]));
         }
         text += fmt::format("    {}{}{}\n", planned.step.name, groups_text(planned), raster_text(planned));
         for (const Barrier& barrier : planned.barriers) text += fmt::format("        {}\n", describe(plan, barrier));
@@ -128,7 +128,7 @@ std::string describe(const Plan& plan) {
     text += memory_text(plan);
     if (!plan.culled.empty()) text += "\nleft out\n";
     for (const CulledStep& culled : plan.culled)
-        text += fmt::format("    {} ({}): {}\n", culled.name, culled.scope, culled.reason);
+        text += fmt::format("    {} ({}): {}\n", culled.name, text_of(culled.scope), culled.reason);
     return text;
 }
 

@@ -239,17 +239,36 @@ std::size_t Graph::append(Step step) {
     return steps_.size() - 1;
 }
 
-void Graph::enter(std::string scope, std::uint32_t stage, std::uint64_t counter_bytes) {
-    scopes_.push_back({std::move(scope), stage, {}});
+std::string text_of(const Scope& scope) {
+    const auto at = stage_names[static_cast<std::size_t>(scope.at)];
+    switch (scope.kind) {
+        case ScopeKind::frame:
+            return "frame";
+        case ScopeKind::act:
+            return fmt::format("{}: {}", at, scope.technique);
+        case ScopeKind::memo:
+            return fmt::format("memo: {}: {}", at, scope.technique);
+        case ScopeKind::view:
+            return fmt::format("view: {}:{}", scope.technique, scope.view);
+    }
+    return "";
+}
+
+void Graph::enter(Scope scope, std::uint64_t counter_bytes) {
+    scopes_.push_back(std::move(scope));
     if (counter_bytes == 0) return;
-    const std::string& name = scopes_.back().name;
-    const std::size_t colon = name.rfind(": ");  // "stage: technique" counts for the technique
-    Buffer counters = create("counters of " + (colon == std::string::npos ? name : name.substr(colon + 2)), counter_bytes);
+    const Scope& entered = scopes_.back();
+    Buffer counters = create(fmt::format("counters of {}{}{}", entered.technique, entered.view.empty() ? "" : ":", entered.view),
+                             counter_bytes);
     buffers_[counters.id].weak = true;
     clear(counters, 0);
-    scopes_.back().counters = counters;
     offers_.push_back({"Counters", counters, static_cast<std::uint32_t>(scopes_.size() - 1)});
     keep(counters);
+}
+
+Buffer Graph::counters(std::uint32_t scope) const {
+    const auto offer = std::ranges::find(offers_, std::optional(scope), &Offer::scope);
+    return offer == offers_.end() ? Buffer{} : offer->buffer;
 }
 
 Image Graph::create(std::string name, Shape shape) {

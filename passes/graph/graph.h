@@ -107,7 +107,9 @@ extern template class RasterBuilder<FullscreenPass>;
 class Graph {
 public:
     /// Steps declared from here on belong to this scope. counter_bytes > 0 makes a zeroed buffer offered as "Counters".
-    void enter(std::string scope, std::uint32_t stage, std::uint64_t counter_bytes = 0);
+    void enter(Scope, std::uint64_t counter_bytes = 0);
+    /// The buffer that enter() made for a scope, or no buffer.
+    Buffer counters(std::uint32_t scope) const;
 
     Image create(std::string name, Shape);
     Image import(std::string name, Shape, ImportId);
@@ -176,7 +178,7 @@ private:
     std::vector<ImageRecord> images_;
     std::vector<BufferRecord> buffers_;
     std::vector<Step> steps_;
-    std::vector<Scope> scopes_{{"frame", 0, {}}};
+    std::vector<Scope> scopes_{Scope{}};
     std::vector<Image> kept_images_;
     std::vector<Buffer> kept_buffers_;
     std::vector<Offer> offers_;

@@ -132,7 +132,7 @@ void cull(const Graph& graph, Plan& plan) {
         PlannedStep& planned = plan.steps[i];
         const std::vector<Use> all = uses(planned);
         if (!feeds_something(graph, planned, all, needed)) {
-            plan.culled.push_back({graph.scopes()[planned.step.scope].name, planned.step.name, why_culled(graph, planned, all)});
+            plan.culled.push_back({graph.scopes()[planned.step.scope], planned.step.name, why_culled(graph, planned, all)});
             continue;
         }
         for (const Use& use : all)

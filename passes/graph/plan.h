@@ -67,7 +67,8 @@ struct MemorySlot {
 };
 
 struct CulledStep {
-    std::string scope, name, reason;
+    Scope scope;
+    std::string name, reason;
 };
 
 struct Plan {

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "passes/graph/access.h"
 #include "passes/graph/format.h"
+#include "passes/stage.h"
 
 namespace strata {
 
@@ -151,11 +154,29 @@ struct Step {
     std::vector<Fixed> fixed = {};
 };
 
-/// Whose steps they are: a stage with its technique.
-struct Scope {
-    std::string name;  ///< "transparency: transparency/weighted"
-    std::uint32_t stage = 0;
-    Buffer counters = {};
+/// What the steps of a scope are for.
+enum class ScopeKind : std::uint32_t {
+    frame,  ///< everything declared before the first act
+    act,    ///< an act of a technique, at its own stage or at another one
+    memo,   ///< copies an act's images to or from the memo
+    view,   ///< makes a debug view or a debug table
 };
+
+/// Which technique some steps belong to, and what they are for.
+struct Scope {
+    ScopeKind kind = ScopeKind::frame;
+    Stage stage = {};            ///< the technique's own stage
+    Stage at = {};               ///< the place of an act in the frame: another stage than its own for what Technique::also lists
+    std::string technique = {};  ///< "transparency/weighted"
+    std::string view = {};       ///< the name of a view or table
+    friend auto operator<=>(const Scope&, const Scope&) = default;
+};
+
+/// For people: "transparency: transparency/weighted", "memo: shadows: shadows/pcf", "view: lighting/tiled:depth", "frame".
+std::string text_of(const Scope&);
+/// Whether the scope is an act of this technique, at its own stage or at another one.
+inline bool is_act_of(const Scope& scope, std::string_view technique) {
+    return scope.kind == ScopeKind::act && scope.technique == technique;
+}
 
 }  // namespace strata

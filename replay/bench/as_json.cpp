@@ -22,7 +22,7 @@ ordered_json json_of(const MeasuredRatio& row) {
                       {"name", stated.name},
                       {"scene", row.claim.scene},
                       {"frame", row.claim.base.frame},
-                      {"steps", stated.steps}};
+                      {"steps", counted_steps(stated)}};
     if (stated.published) json["published"] = {{"ratio", *stated.published}, {"source", stated.source}};
     if (!row.not_measured.empty()) {
         json["not_measured"] = row.not_measured;

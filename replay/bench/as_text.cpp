@@ -35,10 +35,10 @@ std::string details_of(const MeasuredRatio& row) {
     std::string text = wrapped("", fmt::format("{}: {}", row.claim.technique->name, stated.name));
     if (!row.not_measured.empty()) return text + wrapped("    ", "not measured: " + row.not_measured);
     text += wrapped("    ", way_text(row.of)) + wrapped("    ", "against " + way_text(row.against));
-    text +=
-        wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel",
-                                    stated.steps.empty() ? "the whole stage" : fmt::format("{}", fmt::join(stated.steps, ", ")),
-                                    row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
+    const std::vector<std::string> steps = counted_steps(stated);
+    text += wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel",
+                                        steps.empty() ? "the whole stage" : fmt::format("{}", fmt::join(steps, ", ")),
+                                        row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
     if (stated.published) text += wrapped("    ", fmt::format("published: {:.2f}, {}", *stated.published, stated.source));
     return text;
 }

@@ -38,20 +38,18 @@ Result<std::pair<Variant, Variant>> ways_of(Session& session, const Claim& claim
     return std::pair{*of, *against};
 }
 
-/// A part that ends with a colon is a stage, all of whose steps count: "gbuffer:" for what culling saves there.
-bool counts(const StepRecord& step, const Technique& technique, std::span<const std::string_view> parts) {
-    const bool is_own = step.scope.ends_with(fmt::format(": {}", technique.name));
-    const auto is_meant = [&](std::string_view part) {
-        return part.ends_with(':') ? step.scope.starts_with(part) : is_own && step.name.find(part) != step.name.npos;
-    };
-    return parts.empty() ? is_own : std::ranges::any_of(parts, is_meant);
+/// Whether a step is one of those that the ratio compares, on the way of this technique.
+bool counts(const StepRecord& step, const Technique& technique, const TimeRatio& ratio) {
+    if (!ratio.stages.empty()) return step.scope.kind == ScopeKind::act && std::ranges::count(ratio.stages, step.scope.at) > 0;
+    const auto is_part = [&](std::string_view part) { return step.name.find(part) != step.name.npos; };
+    return is_act_of(step.scope, technique.name) && (ratio.steps.empty() || std::ranges::any_of(ratio.steps, is_part));
 }
 
 /// The time of the steps that count, turn by turn; none where there is no such step.
-std::vector<double> times_of(const Run& run, const Technique& technique, std::span<const std::string_view> parts) {
+std::vector<double> times_of(const Run& run, const Technique& technique, const TimeRatio& ratio) {
     std::vector<double> sums;
     for (const StepRecord& step : run.steps) {
-        if (!counts(step, technique, parts)) continue;
+        if (!counts(step, technique, ratio)) continue;
         sums.resize(step.ms_by_repeat.size());
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += step.ms_by_repeat[i];
     }
@@ -59,8 +57,7 @@ std::vector<double> times_of(const Run& run, const Technique& technique, std::sp
 }
 
 TimedWay timed_way(const Variant& variant, const Run& run, const TimeRatio& ratio) {
-    TimedWay way{
-        std::string(variant.technique->name), variant.settings, spread_of(times_of(run, *variant.technique, ratio.steps)), {}};
+    TimedWay way{std::string(variant.technique->name), variant.settings, spread_of(times_of(run, *variant.technique, ratio)), {}};
     for (const CounterRecord& counter : run.counters)
         if (counter.technique == way.technique && std::ranges::count(ratio.counters, counter.name) > 0)
             way.counters.push_back(counter);
@@ -79,8 +76,8 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
         timed.emplace(pair, *std::move(runs));
     }
     const std::vector<Run>& runs = timed.at(pair);
-    const auto times = times_of(runs[0], *of.technique, claim.ratio->steps);
-    const auto units = times_of(runs[1], *against.technique, claim.ratio->steps);
+    const auto times = times_of(runs[0], *of.technique, *claim.ratio);
+    const auto units = times_of(runs[1], *against.technique, *claim.ratio);
     if (times.empty() || units.empty())
         return fail(Fault::usage, "{} has none of these steps here", (times.empty() ? of : against).technique->name);
     if (std::ranges::min(units) <= 0) return fail(Fault::device_lacks, "the device's clock is too coarse for so small a frame");
@@ -94,6 +91,13 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
 }
 
 }  // namespace
+
+std::vector<std::string> counted_steps(const TimeRatio& ratio) {
+    if (ratio.stages.empty()) return {ratio.steps.begin(), ratio.steps.end()};
+    std::vector<std::string> stages;
+    for (const Stage stage : ratio.stages) stages.push_back(fmt::format("{}:", name(stage)));
+    return stages;
+}
 
 Result<Bench> measure_ratios(Session& session, std::span<const Claim> claims, std::size_t repeats, const Progress& progress) {
     Bench bench{.device = session.device(), .repeats = repeats};

@@ -43,6 +43,9 @@ struct Bench {
 /// Claims of the same two ways are measured in the same run. Fails where none can be measured.
 Result<Bench> measure_ratios(Session&, std::span<const Claim>, std::size_t repeats, const Progress& = {});
 
+/// The stages ("gbuffer:") or the parts of step names that a ratio counts; none: every step of the technique.
+std::vector<std::string> counted_steps(const TimeRatio&);
+
 std::string as_text(const Bench&);
 std::string as_json(const Bench&);
 

@@ -145,8 +145,8 @@ Result<std::vector<Compilation>> compile_all(const IsaArguments& options, const 
 /// Who shades the tiles that are asked for, which the request then uses; null where none are.
 Result<const Technique*> shader_of_tiles(const IsaArguments& options, Request& request) {
     if (options.tiles.empty()) return nullptr;
-    const auto technique = technique_of_variants(request.uses);
-    if (technique) request.uses.emplace_back((*technique)->name);
+    const auto technique = technique_of_variants(request.choices);
+    if (technique) request.choices.use(**technique);
     return technique;
 }
 

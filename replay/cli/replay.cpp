@@ -60,7 +60,7 @@ Result<void> write_frame(const Request& request, const Replayed& replayed, const
 /// Milliseconds by step, with their spread.
 void print_times(const Run& run) {
     for (const StepRecord& step : run.steps)
-        fmt::print("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, step.scope, step.name);
+        fmt::print("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, text_of(step.scope), step.name);
     fmt::print("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
 }
 

@@ -19,7 +19,7 @@ ordered_json json_of(const Spread& spread) {
 ordered_json steps_of(const Run& run) {
     ordered_json steps = ordered_json::array();
     for (const StepRecord& step : run.steps) {
-        ordered_json row{{"index", steps.size()}, {"scope", step.scope}, {"name", step.name}};
+        ordered_json row{{"index", steps.size()}, {"scope", text_of(step.scope)}, {"name", step.name}};
         if (step.ms) row["gpu_ms"] = json_of(*step.ms);
         steps.push_back(std::move(row));
     }
@@ -101,7 +101,7 @@ ordered_json json_of(const RunMemory& memory) {
                       {"device_peak_bytes", memory.peak_allocated},
                       {"host_peak_bytes", memory.host_peak},
                       {"fullest_step",
-                       {{"scope", memory.over_time.fullest_scope},
+                       {{"scope", text_of(memory.over_time.fullest_scope)},
                         {"name", memory.over_time.fullest_step},
                         {"alive_bytes", memory.over_time.peak}}}};
     for (const auto& [stage, of_stage] : memory.over_time.stages)

@@ -83,7 +83,7 @@ Result<void> spectra(const SpectraArguments& options) {
     if (!gpu) return gpu.error();
     const auto base = request_of(options.choices);
     if (!base) return base.error();
-    const auto technique = technique_of_spectra(options.choices.uses);
+    const auto technique = technique_of_spectra(base->choices);
     if (!technique) return technique.error();
     auto frames = gather(options, **technique, *base);
     if (!frames) return frames.error();

@@ -13,6 +13,7 @@
 #include "capture_format/recorder.h"
 #include "replay/counted.h"
 #include "replay/images/image_io.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -92,7 +93,9 @@ void add_options(CLI::App& app, ChoiceOptions& options) {
 }
 
 Result<Request> request_of(const ChoiceOptions& options) {
-    Request request{.uses = options.uses, .sets = options.sets, .samples = options.samples};
+    auto choices = parse_choices(options.uses, options.sets);
+    if (!choices) return choices.error();
+    Request request{.choices = *std::move(choices), .samples = options.samples};
     for (const std::string& text : options.force) {
         if (text == "all") {
             request.force.assign(all_features().begin(), all_features().end());

@@ -179,7 +179,7 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
     full_barrier(commands);  // what ran before the plan is visible when it starts
     for (std::size_t i = 0; i < end; ++i) {
         const PlannedStep& planned = plan.steps[i];
-        place_ = plan.scopes[planned.step.scope].name + " / " + planned.step.name;
+        place_ = text_of(plan.scopes[planned.step.scope]) + " / " + planned.step.name;
         if (has_labels) commands.beginDebugUtilsLabelEXT({place_.c_str()});
         if (is_timed) frame.stopwatch.begin(commands);
         recorder.barriers(planned.barriers);

@@ -50,7 +50,7 @@ ordered_json json_of(const IsaProgram& p) {
 }
 
 ordered_json json_of(const IsaPass& pass) {
-    return {{"scope", pass.scope},
+    return {{"scope", text_of(pass.scope)},
             {"name", pass.name},
             {"pipeline", pass.pipeline},
             {"label", pass.label},

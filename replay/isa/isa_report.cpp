@@ -60,12 +60,6 @@ void add_occupancy(IsaProgram& program, const GpuModel& model, IsaOfGpu& gpu) {
                         program.label, *program.stated, *program.stated_by_rule));
 }
 
-/// The technique of a scope, which is named "place: stage/technique".
-std::string_view technique_of(std::string_view scope) {
-    const std::size_t colon = scope.rfind(": ");
-    return colon == scope.npos ? scope : scope.substr(colon + 2);
-}
-
 std::size_t draws_in(const Plan& plan, std::uint32_t scope) {
     return static_cast<std::size_t>(std::ranges::count_if(plan.steps, [&](const PlannedStep& planned) {
         return planned.step.scope == scope && std::holds_alternative<DrawWork>(planned.step.work);
@@ -75,9 +69,9 @@ std::size_t draws_in(const Plan& plan, std::uint32_t scope) {
 /// What the technique counted as fragments, where it draws once and so counts those of that draw.
 std::optional<std::uint64_t> counted_fragments(const Counting& counting, const PlannedStep& planned) {
     if (draws_in(counting.plan, planned.step.scope) != 1) return {};
-    const std::string_view technique = technique_of(counting.plan.scopes[planned.step.scope].name);
+    const Scope& scope = counting.plan.scopes[planned.step.scope];
     for (const CounterRecord& counter : counting.counts.counters)
-        if (counter.technique == technique && counter.name == "fragments") return counter.value;
+        if (is_act_of(scope, counter.technique) && counter.name == "fragments") return counter.value;
     return {};
 }
 
@@ -128,8 +122,8 @@ std::vector<IsaPass> passes_of(const Counting& counting, const PipelineRequests&
     for (std::size_t i = 0; i < counting.plan.steps.size(); ++i) {
         if (requests.of_step[i] == no_index) continue;
         const Step& step = counting.plan.steps[i].step;
-        passes.push_back({counting.plan.scopes[step.scope].name, step.name, requests.pipelines[requests.of_step[i]].label,
-                          requests.of_step[i]});
+        passes.push_back(
+            {counting.plan.scopes[step.scope], step.name, requests.pipelines[requests.of_step[i]].label, requests.of_step[i]});
         count(passes.back(), counting, i);
     }
     return passes;

@@ -26,7 +26,8 @@ struct IsaProgram {
 
 /// A step of the frame.
 struct IsaPass {
-    std::string scope, name, label;  ///< the label is its pipeline's
+    Scope scope;
+    std::string name, label;  ///< the label is its pipeline's
     std::size_t pipeline = 0;
     std::optional<std::uint64_t> invocations;
     std::string counted_by;  ///< "dispatch", "pixels", "counter", "device", or "unknown"

@@ -27,7 +27,7 @@ const IsaProgram* program_of(const TilesAndCode& joined, std::uint32_t number) {
     };
     for (const IsaPass& pass : joined.gpu.passes) {
         const std::vector<Fixed>& fixed = joined.requests.pipelines[pass.pipeline].step.step.fixed;
-        if (!pass.scope.ends_with(joined.technique.name) || std::ranges::none_of(fixed, holds_number)) continue;
+        if (!is_act_of(pass.scope, joined.technique.name) || std::ranges::none_of(fixed, holds_number)) continue;
         const auto program = std::ranges::find(joined.gpu.programs, pass.pipeline, &IsaProgram::pipeline);
         if (program != joined.gpu.programs.end()) return &*program;
     }
@@ -50,8 +50,8 @@ HostImage waves_of_pixels(const HostImage& numbers, std::span<const VariantWaves
 
 }  // namespace
 
-Result<const Technique*> technique_of_variants(std::span<const std::string> uses) {
-    return technique_offering({has_variants, "has no shading modes"}, uses);
+Result<const Technique*> technique_of_variants(const ChoiceChanges& choices) {
+    return technique_offering({has_variants, "has no shading modes"}, choices);
 }
 
 std::vector<std::string> outputs_of_variants(const Technique& technique) {

@@ -37,7 +37,7 @@ struct TileWaves {
 };
 
 /// The technique that tells which variant shades what, see technique_offering().
-Result<const Technique*> technique_of_variants(std::span<const std::string> uses);
+Result<const Technique*> technique_of_variants(const ChoiceChanges&);
 /// What a run must bring back for it: its view and its table.
 std::vector<std::string> outputs_of_variants(const Technique&);
 

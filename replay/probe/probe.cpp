@@ -12,6 +12,7 @@
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/probe/probe_frame.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -44,14 +45,17 @@ Result<Method> parse_method(const std::string& text) {
     if ((*found)->stage != Stage::transparency)
         return fail(Fault::usage, "{} is of the stage {}; a probe measures methods of {}", technique, name((*found)->stage),
                     name(Stage::transparency));
-    Method method{technique, *found, {.uses = {technique}, .outputs = {"color"}}};
+    Method method{technique, *found, {.choices = {}, .outputs = {"color"}}};
     if (std::ranges::find((*found)->tables, slices_table, &DebugTable::name) != (*found)->tables.end())
         method.request.outputs.push_back(fmt::format("{}:{}", technique, slices_table));
+    method.request.choices.use(**found);
     for (std::string set; words >> set;) {
-        method.request.sets.push_back(technique + ":" + set);
+        auto change = parse_setting(**found, set);
+        if (!change) return change.error();
+        method.request.choices.settings.push_back(*std::move(change));
         method.name += " " + set;
     }
-    const auto choices = choose(Frame(), method.request.uses, method.request.sets);
+    const auto choices = choose(Frame(), method.request.choices);
     return choices ? Result<Method>(std::move(method)) : choices.error();
 }
 

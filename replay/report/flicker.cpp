@@ -38,7 +38,7 @@ Result<Request> stand_in(Session& session, Stage stage, Request base) {
     const Features features = frame_features(*frame);
     for (const Technique* technique : techniques_of(stage)) {
         if (!technique->stands_in_for_truth || unsupported(*technique, features)) continue;
-        base.uses.push_back(std::string(technique->name));
+        base.choices.use(*technique);
         return base;
     }
     return fail(Fault::usage, "flicker is measured against a technique that stands in for the truth; {} has none for this frame",

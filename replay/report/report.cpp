@@ -41,7 +41,7 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
     for (const Technique* technique : techniques_of(wanted.stage)) {
         if (!technique->stands_in_for_truth) continue;
         Request request = wanted.base;
-        request.uses.push_back(std::string(technique->name));
+        request.choices.use(*technique);
         Request reduced = request;
         reduced.extent_divisor = yardstick.model_divisor;
         const auto accuracy = session.judge(reduced, wanted.stage, Against::model);

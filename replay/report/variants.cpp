@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "passes/registry.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -14,7 +15,7 @@ bool has_param(const Technique& technique, std::string_view key) {
 
 /// "key=value" on top of what the variant has.
 Variant with(Variant variant, std::string_view setting) {
-    variant.request.sets.push_back(fmt::format("{}:{}", variant.technique->name, setting));
+    variant.request.choices.settings.push_back(*parse_setting(*variant.technique, setting));
     variant.settings += fmt::format("{}{}", variant.settings.empty() ? "" : " ", setting);
     return variant;
 }
@@ -52,7 +53,7 @@ Result<Variant> variant_of(const Technique& technique, std::string_view way, con
         is_own ? Result<const Technique*>(&technique) : find_technique(fmt::format("{}/{}", name(technique.stage), first));
     if (!found) return found.error();
     Variant defaults{*found, base, ""};
-    defaults.request.uses.push_back(std::string((*found)->name));
+    defaults.request.choices.use(**found);
     return at_point(defaults, is_own ? way : way.substr(first.size()));
 }
 
@@ -64,7 +65,7 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     std::vector<Variant> all;
     for (const Technique* technique : techniques) {
         Variant defaults{technique, wanted.base, ""};
-        defaults.request.uses.push_back(std::string(technique->name));
+        defaults.request.choices.use(*technique);
         std::ranges::move(swept(defaults, wanted.sweeps), std::back_inserter(all));
         if (!wanted.sweeps.empty()) continue;
         for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));

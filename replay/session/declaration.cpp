@@ -31,7 +31,8 @@ Result<void> add_inside(Declaration& d, const std::string& output) {
             return candidate.name == wanted;
         };
         const auto make = [&](const auto& candidate) {
-            d.graph.enter(fmt::format("view: {}", output), static_cast<std::uint32_t>(stage), choice.technique->counter_bytes);
+            d.graph.enter({ScopeKind::view, stage, stage, std::string(technique), std::string(wanted)},
+                          choice.technique->counter_bytes);
             const Image image = candidate.add(d.graph, d.images, choice.settings);
             d.graph.keep(image);
             return image;
@@ -74,7 +75,7 @@ void keep_all_images(Declaration& d) {
 
 void keep_counters(Declaration& d) {
     for (const DeclaredAct& act : d.frame.acts) {
-        const Buffer buffer = d.graph.scopes()[act.scope].counters;
+        const Buffer buffer = d.graph.counters(act.scope);
         if (!buffer || act.technique->counters.empty() || d.scopes_from_memo.contains(act.scope)) continue;
         d.graph.keep(buffer);
         d.counters.push_back({act.technique, buffer, act.scope});
@@ -106,8 +107,7 @@ public:
         if (wanted_[place].empty()) return;
         if (const KeptAct* kept = memo_->find(key, wanted_[place])) {
             graph.drop_scope(act.scope);
-            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
-                        static_cast<std::uint32_t>(act.technique->stage));
+            enter_memo(act);
             for (const auto& image : kept->images) {
                 Image to = graph.find_image(image.name);
                 graph.copy(graph.import("kept " + image.name, image.shape, image.id), to);
@@ -119,8 +119,7 @@ public:
             for (const std::string& name : wanted_[place]) records.push_back(graph.record(graph.find_image(name)));
             const KeptAct* room = memo_->reserve(key, records);
             if (!room) return;
-            graph.enter(fmt::format("memo: {}", graph.scopes()[act.scope].name),
-                        static_cast<std::uint32_t>(act.technique->stage));
+            enter_memo(act);
             for (const auto& image : room->images) {
                 Image to = graph.import("kept " + image.name, image.shape, image.id);
                 graph.copy(graph.find_image(image.name), to);
@@ -131,6 +130,11 @@ public:
     }
 
 private:
+    void enter_memo(const DeclaredAct& act) {
+        Scope scope = d_->graph.scopes()[act.scope];
+        scope.kind = ScopeKind::memo;
+        d_->graph.enter(std::move(scope));
+    }
     /// An act that feeds buffers is declared every time; when nobody needs it this time, its counters are those it had.
     void remember_counters(std::uint64_t key, const DeclaredAct& act) {
         if (const KeptAct* kept = memo_->find(key, {})) {
@@ -172,7 +176,7 @@ Result<void> fill(Declaration& d, const Request& request, const Sources& sources
 }  // namespace
 
 Result<Declaration> declare(const Request& request, const Sources& sources, Keep keep) {
-    auto choices = choose(sources.loaded.frame, request.uses, request.sets);
+    auto choices = choose(sources.loaded.frame, request.choices);
     if (!choices) return choices.error();
 
     Declaration d;

@@ -73,7 +73,7 @@ Run describe_run(const Declaration& d) {
             .samples = d.images.samples,
             .image_bytes = d.plan.image_bytes,
             .buffer_bytes = d.plan.buffer_bytes};
-    for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope].name, step.step.name, {}});
+    for (const PlannedStep& step : d.plan.steps) run.steps.push_back({d.plan.scopes[step.step.scope], step.step.name, {}});
     for (const DeclaredAct& act : d.frame.acts)
         run.choices[std::string(name(act.technique->stage))] = choice_line(d.choices.at(act.technique->stage));
     run.memory.over_time = memory_over_time(d.plan);
@@ -101,9 +101,10 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
         run.steps[i].ms = spread_of(run.steps[i].ms_by_repeat);
     }
     for (const auto& [stage, choice] : run.choices) {
-        // A scope is named "place: stage/technique", so a technique's acts count for it wherever they stand.
-        const std::string technique = ": " + choice.substr(0, choice.find(' '));
-        const auto is_its = [&](std::size_t step) { return run.steps[step].scope.ends_with(technique); };
+        const auto is_its = [&](std::size_t step) {
+            const Scope& scope = run.steps[step].scope;
+            return scope.kind == ScopeKind::act && name(scope.stage) == stage;
+        };
         const auto sums = sums_of(is_its);
         run.stage_ms[stage] = spread_of(sums);
         run.stage_ms_by_repeat[stage] = sums;

@@ -27,27 +27,19 @@ void apply_recorded(const Frame& frame, Choices& choices) {
     }
 }
 
-Result<void> apply_set(Choices& choices, std::string_view set) {
-    const std::size_t equals = set.find('=');
-    if (equals == std::string_view::npos) return fail(Fault::usage, "--set takes key=value, not '{}'", set);
-    std::string_view key = set.substr(0, equals);
-    const std::string_view value = set.substr(equals + 1);
-    std::string_view technique;
-    if (const std::size_t colon = key.find(':'); colon != std::string_view::npos) {
-        technique = key.substr(0, colon);
-        key = key.substr(colon + 1);
-    }
+Result<void> apply(Choices& choices, const SettingChange& change) {
     bool found = false;
     std::vector<std::string_view> known;
     for (auto& [stage, choice] : choices) {
-        if (!technique.empty() && choice.technique->name != technique) continue;
+        if (change.technique && choice.technique != change.technique) continue;
         for (const Param& param : choice.technique->params) known.push_back(param.name);
-        const auto has = [&](const Param& param) { return param.name == key; };
-        if (std::ranges::none_of(choice.technique->params, has)) continue;
-        if (const auto done = choice.settings.set(key, value); !done) return done.error();
+        if (std::ranges::count(choice.technique->params, change.key, &Param::name) == 0) continue;
+        const auto set = [&](const auto& value) { return choice.settings.set(change.key, value); };
+        if (const auto done = std::visit(set, change.value); !done) return done.error();
         found = true;
     }
-    if (!found) return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", key, did_you_mean(key, known));
+    if (!found)
+        return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
     return {};
 }
 
@@ -61,8 +53,7 @@ Result<void> check_needs(const Technique& technique, const Capabilities& device)
 /// Declares what the technique does at one place of the frame, in a scope of its own.
 DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const Act& what) {
     const Technique& technique = *choice.technique;
-    graph.enter(fmt::format("{}: {}", name(what.at), technique.name), static_cast<std::uint32_t>(technique.stage),
-                technique.counter_bytes);
+    graph.enter({ScopeKind::act, technique.stage, what.at, std::string(technique.name)}, technique.counter_bytes);
     const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
     DeclaredAct declared{&technique, what.at, scope, images};
     what.add(graph, images, choice.settings);
@@ -82,19 +73,20 @@ std::vector<std::pair<const Choice*, Act>> acts_at(Stage stage, const Choices& w
 
 }  // namespace
 
-Result<Choices> choose(const Frame& frame, std::span<const std::string> uses, std::span<const std::string> sets) {
+void ChoiceChanges::drop(Stage stage) {
+    techniques.erase(stage);
+    std::erase_if(settings, [&](const SettingChange& change) { return change.technique && change.technique->stage == stage; });
+}
+
+Result<Choices> choose(const Frame& frame, const ChoiceChanges& changes) {
     Choices choices;
     for (const StageInfo& stage : stages())
         if (const auto known = techniques_of(stage.stage); !known.empty())
             choices[stage.stage] = {known.front(), Settings(known.front()->params)};
     apply_recorded(frame, choices);
-    for (const std::string& use : uses) {
-        const auto technique = find_technique(use);
-        if (!technique) return technique.error();
-        choices[(*technique)->stage] = {*technique, Settings((*technique)->params)};
-    }
-    for (const std::string& set : sets)
-        if (const auto done = apply_set(choices, set); !done) return done.error();
+    for (const auto& [stage, technique] : changes.techniques) choices[stage] = {technique, Settings(technique->params)};
+    for (const SettingChange& change : changes.settings)
+        if (const auto done = apply(choices, change); !done) return done.error();
     return choices;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -20,9 +21,29 @@ struct Choice {
 };
 using Choices = std::map<Stage, Choice>;
 
-/// What `--use` and `--set` mean: the capture's own choices where they name known techniques, else each stage's default.
-/// uses: "stage/technique"; sets: "key=value" for the chosen techniques that have the key, or "stage/technique:key=value".
-Result<Choices> choose(const Frame&, std::span<const std::string> uses, std::span<const std::string> sets);
+/// A parameter with another value than the recorded one or the default.
+struct SettingChange {
+    const Technique* technique = nullptr;  ///< null: every chosen technique that has the key
+    std::string key;
+    /// A number. A text where no one technique reads it, or where the technique refuses it.
+    std::variant<double, std::string> value;
+    friend bool operator==(const SettingChange&, const SettingChange&) = default;
+};
+
+/// What a request changes about the choices that a frame was recorded with.
+struct ChoiceChanges {
+    std::map<Stage, const Technique*> techniques;  ///< each with its default settings
+    std::vector<SettingChange> settings;           ///< later ones win
+    void use(const Technique& technique) { techniques[technique.stage] = &technique; }
+    /// Takes out everything that names a technique of the stage.
+    void drop(Stage);
+    bool is_empty() const { return techniques.empty() && settings.empty(); }
+    friend bool operator==(const ChoiceChanges&, const ChoiceChanges&) = default;
+};
+
+/// The capture's own choices where they name known techniques, else each stage's default; then the changes. Fails for a setting
+/// that no chosen technique has, and for a value that one of them refuses.
+Result<Choices> choose(const Frame&, const ChoiceChanges& = {});
 
 struct SkippedStage {
     Stage stage;

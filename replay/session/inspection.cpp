@@ -66,7 +66,7 @@ std::optional<std::size_t> before_last_act(const Declaration& d, Stage stage) {
 
 /// The last scope of an act: what the memo keeps of it, or puts in its place, is in one of its own.
 std::uint32_t end_scope(const Declaration& d, const DeclaredAct& act) {
-    const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].name.starts_with("memo: ");
+    const bool in_memo = act.scope + 1 < d.graph.scopes().size() && d.graph.scopes()[act.scope + 1].kind == ScopeKind::memo;
     return act.scope + (in_memo ? 1 : 0);
 }
 
@@ -210,7 +210,7 @@ Result<std::vector<StepImages>> DeviceSession::step_images(const Request& reques
             options.peeks.push_back({i, image});
             places.push_back(steps.size());
         }
-        steps.push_back({i, plan.scopes[step.scope].name, step.name, {}});
+        steps.push_back({i, plan.scopes[step.scope], step.name, {}});
     }
     auto execution = execute(*declared, options);
     if (!execution) return execution.error();
@@ -237,8 +237,7 @@ Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& reques
     for (std::size_t i = 0; i < options.peeks.size(); ++i) {
         const Peek& peek = options.peeks[i];
         const Step& step = plan.steps[peek.step].step;
-        if (steps.empty() || steps.back().step != peek.step)
-            steps.push_back({peek.step, plan.scopes[step.scope].name, step.name, {}});
+        if (steps.empty() || steps.back().step != peek.step) steps.push_back({peek.step, plan.scopes[step.scope], step.name, {}});
         steps.back().images.emplace(plan.images[peek.image.id].name, std::move(execution->peeked[i]));
     }
     return steps;

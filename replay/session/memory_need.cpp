@@ -91,7 +91,7 @@ MemoryOverTime memory_over_time(const Plan& plan) {
     const std::vector<Life> lives = lives_of(plan);
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const Scope& scope = plan.scopes[plan.steps[i].step.scope];
-        StageMemory& stage = over_time.stages[std::string(name(static_cast<Stage>(scope.stage)))];
+        StageMemory& stage = over_time.stages[std::string(name(scope.stage))];
         std::uint64_t alive = 0;
         for (const Life& life : lives) {
             if (life.first <= i && i <= life.last) alive += life.bytes;
@@ -101,7 +101,7 @@ MemoryOverTime memory_over_time(const Plan& plan) {
         stage.peak = std::max(stage.peak, alive);
         if (alive <= over_time.peak) continue;
         over_time.peak = alive;
-        over_time.fullest_scope = scope.name;
+        over_time.fullest_scope = scope;
         over_time.fullest_step = plan.steps[i].step.name;
     }
     return over_time;

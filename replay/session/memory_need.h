@@ -48,7 +48,8 @@ struct StageMemory {
 /// What is alive when, by the plan: images and buffers of its own, texels alone.
 struct MemoryOverTime {
     std::map<std::string, StageMemory> stages;
-    std::string fullest_scope, fullest_step;  ///< where the most is alive
+    Scope fullest_scope;  ///< where the most is alive
+    std::string fullest_step;
     std::uint64_t peak = 0;
     std::vector<std::uint64_t> alive;  ///< at each step
 };

@@ -6,7 +6,7 @@
 
 namespace strata {
 
-Result<const Technique*> technique_offering(const Offer& offer, std::span<const std::string> uses) {
+Result<const Technique*> technique_offering(const Offer& offer, const ChoiceChanges& choices) {
     std::vector<const Technique*> offering;
     std::vector<std::string_view> names;
     for (const Technique& technique : techniques())
@@ -15,18 +15,13 @@ Result<const Technique*> technique_offering(const Offer& offer, std::span<const 
             names.push_back(technique.name);
         }
     if (offering.empty()) return fail(Fault::usage, "every technique that is built in {}", offer.lacking);
-    const Technique* chosen = offering.front();
-    for (const std::string& use : uses) {
-        const auto technique = find_technique(use);
-        if (!technique) return technique.error();
-        if ((*technique)->stage != offering.front()->stage) continue;
-        if (!offer.is_made_by(**technique))
-            return fail(
-                Fault::usage, "{} {}; {}", use, offer.lacking,
-                names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
-        chosen = *technique;
-    }
-    return chosen;
+    const auto chosen = choices.techniques.find(offering.front()->stage);
+    if (chosen == choices.techniques.end()) return offering.front();
+    if (!offer.is_made_by(*chosen->second))
+        return fail(
+            Fault::usage, "{} {}; {}", chosen->second->name, offer.lacking,
+            names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
+    return chosen->second;
 }
 
 }  // namespace strata

@@ -1,11 +1,9 @@
 // Which technique answers a question that not all can answer.
 #pragma once
 
-#include <span>
-#include <string>
 #include <string_view>
 
-#include "passes/technique.h"
+#include "replay/session/frame_plan.h"
 
 namespace strata {
 
@@ -15,8 +13,8 @@ struct Offer {
     std::string_view lacking;  ///< "makes no feature spectra"
 };
 
-/// The technique that makes the offer: the one of its stage that `uses` names, which must be such a one, else the first on the
+/// The technique that makes the offer: the one of its stage that is chosen, which must be such a one, else the first on the
 /// list. Fails (usage) with the names of those that do.
-Result<const Technique*> technique_offering(const Offer&, std::span<const std::string> uses);
+Result<const Technique*> technique_offering(const Offer&, const ChoiceChanges&);
 
 }  // namespace strata

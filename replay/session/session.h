@@ -29,9 +29,9 @@ enum class Acts { left, brought_back };
 
 /// What to replay and what to bring back.
 struct Request {
-    std::size_t frame = 0;                ///< index in the capture
-    std::vector<std::string> uses, sets;  ///< as on the command line, see choose()
-    std::vector<Feature> force;           ///< features switched on though the frame lacks them
+    std::size_t frame = 0;       ///< index in the capture
+    ChoiceChanges choices = {};  ///< against the recorded ones
+    std::vector<Feature> force;  ///< features switched on though the frame lacks them
     std::vector<std::string> outputs = {
         "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
     std::string until;                 ///< last step to run: part of its name; empty: all
@@ -44,7 +44,8 @@ struct Request {
 };
 
 struct StepRecord {
-    std::string scope, name;                ///< "transparency: transparency/weighted", the shader
+    Scope scope;
+    std::string name;                       ///< the shader
     std::optional<Spread> ms;               ///< with timing
     std::vector<double> ms_by_repeat = {};  ///< what ms is the spread of, in turn
 };
@@ -106,8 +107,9 @@ struct Run {
 
 /// What a step of the plan wrote, read back right after it.
 struct StepImages {
-    std::size_t step = 0;                     ///< its place in the plan
-    std::string scope, name;                  ///< as in StepRecord
+    std::size_t step = 0;  ///< its place in the plan
+    Scope scope;
+    std::string name;                         ///< as in StepRecord
     std::map<std::string, HostImage> images;  ///< by their names in the graph
 };
 

@@ -7,43 +7,48 @@ namespace {
 
 /// The steps of an act by name, in order.
 using ActCosts = std::vector<std::pair<std::string, StepCost>>;
-/// What one repeat has executed, by what tells equal acts from others.
-using ExecutedActs = std::map<std::string, ActCosts>;
+/// Tells equal scopes from others: an act by its key (ActKeys), any other scope by the request.
+struct ExecutedScope {
+    Scope scope;
+    std::optional<std::uint64_t> key = {};
+    std::size_t request = 0;
+    friend auto operator<=>(const ExecutedScope&, const ExecutedScope&) = default;
+};
+/// What one repeat has executed.
+using ExecutedActs = std::map<ExecutedScope, ActCosts>;
 
-/// Tells the scopes of a request apart: acts by what they depend on, so that equal acts of two requests are the same one; what
-/// is no act (debug views) by the request.
-class ScopeNames {
+/// The scopes of a request: equal acts of two requests are the same one.
+class RequestScopes {
 public:
-    ScopeNames(const Declaration& d, std::size_t request) : request_(request) {
-        for (std::size_t i = 0; i < d.act_keys.size(); ++i)
-            keys_.emplace(d.graph.scopes()[d.frame.acts[i].scope].name, d.act_keys[i]);
+    RequestScopes(const Declaration& d, std::size_t request) : request_(request) {
+        for (std::size_t i = 0; i < d.act_keys.size(); ++i) keys_.emplace(d.graph.scopes()[d.frame.acts[i].scope], d.act_keys[i]);
     }
-    std::string operator()(const std::string& scope) const {
+    ExecutedScope operator()(const Scope& scope) const {
         const auto key = keys_.find(scope);
-        return key == keys_.end() ? fmt::format("{} of {}", scope, request_) : fmt::format("{} with {:x}", scope, key->second);
+        return key == keys_.end() ? ExecutedScope{scope, {}, request_} : ExecutedScope{scope, key->second};
     }
 
 private:
-    std::map<std::string, std::uint64_t> keys_;
+    std::map<Scope, std::uint64_t> keys_;
     std::size_t request_;
 };
 
-void add_executed(const Declaration& d, const Execution& execution, const ScopeNames& name, ExecutedActs& acts) {
+void add_executed(const Declaration& d, const Execution& execution, const RequestScopes& of, ExecutedActs& acts) {
     ExecutedActs now;
     for (std::size_t i = 0; i < d.plan.steps.size(); ++i) {
         const Step& step = d.plan.steps[i].step;
-        now[name(d.plan.scopes[step.scope].name)].emplace_back(step.name, execution.step_costs[i]);
+        now[of(d.plan.scopes[step.scope])].emplace_back(step.name, execution.step_costs[i]);
     }
     for (auto& [scope, costs] : now) acts.insert_or_assign(scope, std::move(costs));
 }
 
 /// The costs of a whole frame's steps from what the repeat executed; nothing when one of them is missing.
-std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& steps, const ScopeNames& name,
+std::optional<std::vector<StepCost>> costs_of(const std::vector<StepRecord>& steps, const RequestScopes& of,
                                               const ExecutedActs& acts) {
-    std::map<std::string, std::size_t> next;
+    std::map<ExecutedScope, std::size_t> next;
     std::vector<StepCost> costs;
     for (const StepRecord& step : steps) {
-        const std::string scope = name(step.scope);
+        const ExecutedScope scope = of(step.scope);
         const auto act = acts.find(scope);
         if (act == acts.end()) return {};
         std::size_t& at = next[scope];
@@ -104,9 +109,9 @@ Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, 
                 const auto execution = execute(*declared, {.timestamps = Timestamps::on});
                 if (!execution) return execution.error();
                 remember(*declared, *execution);
-                const ScopeNames name(*declared, i);
-                add_executed(*declared, *execution, name, acts);
-                costs = costs_of(runs[i].steps, name, acts);
+                const RequestScopes of(*declared, i);
+                add_executed(*declared, *execution, of, acts);
+                costs = costs_of(runs[i].steps, of, acts);
                 if (repeat == 0) add_results(runs[i], finished(*declared, *execution));
             }
             if (!costs) {

@@ -68,7 +68,7 @@ std::string as_json(const SpectraReport& report) {
         json["compiled"].push_back({{"bits", bits}, {"cycles", mode.cycles}, {"waves_per_simd", mode.waves}});
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
-    json["settings"] = settings_of(modes);
+    for (const ModeSetting& setting : settings_of(modes)) json["settings"].push_back(setting.text());
     return json.dump(2) + "\n";
 }
 

@@ -84,7 +84,7 @@ std::string as_text(const SpectraReport& report) {
     text += fmt::format("\nTo replay with them: --use {}", report.technique);
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
-    for (const std::string& setting : settings_of(modes)) text += " --set " + setting;
+    for (const ModeSetting& setting : settings_of(modes)) text += " --set " + setting.text();
     return text + "\n";
 }
 

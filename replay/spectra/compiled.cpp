@@ -27,9 +27,7 @@ Result<std::vector<PipelineRequest>> pipelines_of_modes(const CostQuestion& ques
     Request request = question.base;
     request.frame = question.frames.front().frame;
     request.outputs = {std::string(info(question.technique.stage).outputs.front())};
-    request.uses.emplace_back(question.technique.name);
-    for (const std::string& setting : settings_of(modes))
-        request.sets.push_back(fmt::format("{}:{}", question.technique.name, setting));
+    use_modes(request.choices, question.technique, modes);
     const auto planned = session.plan(request);
     if (!planned) return planned.error();
     std::vector<PipelineRequest> pipelines = pipelines_of(planned->plan).pipelines;

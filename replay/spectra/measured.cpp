@@ -23,9 +23,7 @@ Request request_with(const CostQuestion& question, std::size_t frame, std::span<
     Request request = question.base;
     request.frame = frame;
     request.outputs = {std::string(info(question.technique.stage).outputs.front())};
-    request.uses.emplace_back(question.technique.name);
-    for (const std::string& setting : settings_of(modes))
-        request.sets.push_back(fmt::format("{}:{}", question.technique.name, setting));
+    use_modes(request.choices, question.technique, modes);
     return request;
 }
 

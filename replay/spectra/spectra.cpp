@@ -95,22 +95,28 @@ std::vector<std::uint32_t> guessed_modes(const SpectraReport& report, std::span<
 
 }  // namespace
 
-Result<const Technique*> technique_of_spectra(std::span<const std::string> uses) {
-    return technique_offering({offers_spectra, "makes no feature spectra"}, uses);
+Result<const Technique*> technique_of_spectra(const ChoiceChanges& choices) {
+    return technique_offering({offers_spectra, "makes no feature spectra"}, choices);
 }
 
-std::vector<std::string> settings_of(std::span<const std::uint32_t> modes) {
+std::vector<ModeSetting> settings_of(std::span<const std::uint32_t> modes) {
     assert(!modes.empty() && modes.size() <= most_settable_modes);
-    std::vector<std::string> settings{fmt::format("modes={}", modes.size())};
-    for (std::size_t i = 0; i < modes.size(); ++i) settings.push_back(fmt::format("mode_{}={}", i, modes[i]));
+    std::vector<ModeSetting> settings{{"modes", static_cast<std::uint32_t>(modes.size())}};
+    for (std::size_t i = 0; i < modes.size(); ++i) settings.push_back({fmt::format("mode_{}", i), modes[i]});
     return settings;
+}
+
+void use_modes(ChoiceChanges& choices, const Technique& technique, std::span<const std::uint32_t> modes) {
+    choices.use(technique);
+    for (ModeSetting& setting : settings_of(modes))
+        choices.settings.push_back({&technique, std::move(setting.key), double(setting.value)});
 }
 
 Result<GatheredFrames> gather_spectra(Session& session, const Technique& technique, const Request& base,
                                       std::span<const std::size_t> frames) {
     GatheredFrames gathered;
     Request request = base;
-    request.uses.emplace_back(technique.name);
+    request.choices.use(technique);
     request.outputs = {fmt::format("{}:{}", technique.name, table_name)};
     request.once = true;
     for (const std::size_t frame : frames) {

@@ -20,11 +20,19 @@
 namespace strata {
 
 /// The technique that offers a table "spectra" (columns spectrum, tiles, mode, superfluous) and has the settings force, modes and
-/// mode_0 to mode_15: the one of its stage that `uses` names, which must be such a one, else the first on the list.
-Result<const Technique*> technique_of_spectra(std::span<const std::string> uses);
+/// mode_0 to mode_15: the one of its stage that is chosen, which must be such a one, else the first on the list.
+Result<const Technique*> technique_of_spectra(const ChoiceChanges&);
 
-/// What `--set` takes for this list of modes.
-std::vector<std::string> settings_of(std::span<const std::uint32_t> modes);
+/// A parameter of such a technique.
+struct ModeSetting {
+    std::string key;
+    std::uint32_t value = 0;
+    std::string text() const { return fmt::format("{}={}", key, value); }
+};
+/// The parameters that make the technique shade with these modes.
+std::vector<ModeSetting> settings_of(std::span<const std::uint32_t> modes);
+/// Chooses the technique, with these modes.
+void use_modes(ChoiceChanges&, const Technique&, std::span<const std::uint32_t> modes);
 inline constexpr std::size_t most_settable_modes = 16;
 
 /// The tiles of a frame that something is shaded in.

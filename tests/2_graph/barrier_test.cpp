@@ -174,16 +174,17 @@ TEST(Barriers, CountersAreClearedThenUpdatedStepByStepAndReadAtTheEnd) {
     Graph graph;
     Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape());
     graph.clear(a, {});
-    graph.enter("scope", 0, 4);
+    graph.enter(act_of(Stage::rain, "rain/some"), 4);
     for (int i = 0; i < 2; ++i) graph.compute("shade_and_count.comp").samples("source", a).stores("target", b).over({64, 32});
     graph.keep(b);
     const Plan plan = compiled(graph);
     EXPECT_THAT(step_names(plan),
-                ElementsAre("clear a", "clear counters of scope", "shade_and_count.comp", "shade_and_count.comp"));
+                ElementsAre("clear a", "clear counters of rain/some", "shade_and_count.comp", "shade_and_count.comp"));
     EXPECT_THAT(waits(plan, 2), UnorderedElementsAre("a: copied_to -> sampled", "b: none -> stored, discarded",
-                                                     "counters of scope: copied_to -> updated"));
-    EXPECT_THAT(waits(plan, 3), UnorderedElementsAre("b: stored -> stored", "counters of scope: updated -> updated"));
-    EXPECT_THAT(final_waits(plan), UnorderedElementsAre("b: stored -> copied_from", "counters of scope: updated -> copied_from"));
+                                                     "counters of rain/some: copied_to -> updated"));
+    EXPECT_THAT(waits(plan, 3), UnorderedElementsAre("b: stored -> stored", "counters of rain/some: updated -> updated"));
+    EXPECT_THAT(final_waits(plan),
+                UnorderedElementsAre("b: stored -> copied_from", "counters of rain/some: updated -> copied_from"));
 }
 
 TEST(Barriers, WhatIsKeptEndsReadableAndImportsAreLeftAsTheyWereFound) {

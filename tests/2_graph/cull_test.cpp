@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 TEST(Culling, AStepNobodyReadsIsLeftOutAndSaysWhy) {
     Graph graph;
-    graph.enter("gbuffer: wide", 0);
+    graph.enter(act_of(Stage::gbuffer, "gbuffer/wide"));
     Image color = graph.create("color", small_shape()), normal = graph.create("surface normal", small_shape());
     graph.compute("write.comp").stores("target", color).over({64, 32});
     graph.compute("write.comp").stores("target", normal).over({64, 32});
@@ -21,7 +21,7 @@ TEST(Culling, AStepNobodyReadsIsLeftOutAndSaysWhy) {
     const Plan plan = compiled(graph);
     EXPECT_EQ(plan.steps.size(), 1u);
     ASSERT_EQ(plan.culled.size(), 1u);
-    EXPECT_EQ(plan.culled[0].scope, "gbuffer: wide");
+    EXPECT_EQ(text_of(plan.culled[0].scope), "gbuffer: gbuffer/wide");
     EXPECT_EQ(plan.culled[0].name, "write.comp");
     EXPECT_EQ(plan.culled[0].reason, "nobody reads 'surface normal'");
 }
@@ -83,7 +83,7 @@ TEST(Culling, CountingKeepsNoStepAlive) {
     Graph graph;
     Image a = graph.create("a", small_shape());
     graph.clear(a, {});
-    graph.enter("transparency: weighted", 0, 4);
+    graph.enter(act_of(Stage::transparency, "transparency/weighted"), 4);
     graph.compute("count.comp").samples("source", a).over({64, 32});
     const Plan plan = compiled(graph);
     EXPECT_THAT(plan.steps, IsEmpty());
@@ -102,11 +102,11 @@ TEST(Culling, AnImportOutlivesTheFrameSoWritingItIsNeverUseless) {
 TEST(Culling, ADroppedScopesOutputsMayComeFromACopy) {
     Graph graph;
     Image a = graph.create("a", small_shape()), b = graph.create("b", small_shape());
-    graph.enter("lighting: slow", 0);
+    graph.enter(act_of(Stage::lighting, "lighting/slow"));
     graph.compute("write.comp").stores("target", a).over({64, 32});
     graph.drop_scope(1);
     graph.copy(graph.import("memo of a", small_shape(), ImportId{1}), a);
-    graph.enter("combine: quick", 1);
+    graph.enter(act_of(Stage::combine, "combine/quick"));
     graph.compute("copy.comp").loads("source", a).stores("target", b).over({64, 32});
     graph.keep(b);
     EXPECT_THAT(step_names(compiled(graph)), ElementsAre("copy memo of a to a", "copy.comp"));

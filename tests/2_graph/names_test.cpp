@@ -162,8 +162,8 @@ TEST(Names, AnOfferedBufferIsBoundWhereTheStepBindsNone) {
 TEST(Names, CountersAreOfferedInsideTheirScopeOnly) {
     TwoImages f;
     f.graph.clear(f.a, {});
-    f.graph.enter("first", 0, 4);
-    f.graph.enter("second", 0);
+    f.graph.enter(act_of(Stage::culling, "culling/first"), 4);
+    f.graph.enter(act_of(Stage::culling, "culling/second"));
     f.graph.compute("count.comp").samples("source", f.a).over({64, 32});
     EXPECT_EQ(refusal(f.graph), "count.comp declares 'Counters', and the step binds nothing to it");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "passes/graph/plan.h"
@@ -18,6 +19,9 @@ const ShaderLibrary& small_shaders();
 /// 64 x 32, one of everything.
 Shape small_shape(Format = Format::rgba16f);
 Shape small_depth();
+
+/// An act at the technique's own stage.
+inline Scope act_of(Stage stage, std::string technique) { return {ScopeKind::act, stage, stage, std::move(technique)}; }
 
 /// The plan, or a test failure with the sentence.
 Plan compiled(const Graph&);

@@ -48,7 +48,7 @@ const std::vector<Row>& rows() {
 }
 
 HostImage color_of(Session& session, std::size_t frame, const std::vector<std::string>& sets = {}) {
-    return must(session.run({.frame = frame, .uses = {std::string(additive)}, .sets = sets, .outputs = {"color"}}))
+    return must(session.run({.frame = frame, .choices = chosen({std::string(additive)}, sets), .outputs = {"color"}}))
         .images.at("color");
 }
 
@@ -77,8 +77,7 @@ TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
     for (const char* scenario : {"two_hundred_layers", "smoke_grenade", "additive_sparks"})
         for (const char* normalization : {"normalization=published", "normalization=corrected"}) {
             Request request = on_scenario(scenario);
-            request.uses = {std::string(additive)};
-            request.sets = {"reveal=r16f", normalization};
+            request.choices = chosen({std::string(additive)}, {"reveal=r16f", normalization});
             const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency, Against::model));
             EXPECT_LE(accuracy.model_rmse, 8e-3) << scenario << " " << normalization;
         }
@@ -87,10 +86,10 @@ TEST(AdditiveLayers, InHalfFloatsAreCloseToTheModel) {
 TEST(TilesWithoutFragments, AreSkippedAndNoPixelKnowsIt) {
     for (const std::uint32_t samples : {1u, 4u}) {
         Request request = on_scenario("one_pane", samples);
-        request.uses = {std::string(additive)};
+        request.choices = chosen({std::string(additive)});
         request.outputs = {"color"};
         const auto some = must(session_of_scenarios().run(request));
-        request.sets = {"tiles=all"};
+        set(request, "tiles=all");
         const auto all = must(session_of_scenarios().run(request));
         const std::uint64_t tiles = std::uint64_t{(some.width + 7) / 8} * ((some.height + 7) / 8);
         EXPECT_GT(counted(some, "tiles skipped"), tiles / 3);

@@ -61,7 +61,7 @@ TEST(BadNumbers, LeaveEveryPictureAsItIsWithoutThem) {
     for (const Technique& technique : techniques()) {
         const std::vector<std::string> uses{std::string(technique.name)};
         const auto pictures = [&](std::size_t frame) {
-            return must(session->run({.frame = frame, .uses = uses, .outputs = {"color", "display"}})).images;
+            return must(session->run({.frame = frame, .choices = chosen(uses), .outputs = {"color", "display"}})).images;
         };
         const auto bad = pictures(0), clean = pictures(1), good = pictures(2);
         for (const auto& [name, image] : bad) {
@@ -110,7 +110,8 @@ HostImage color_of(const Frame& frame, const Technique& technique, const ShaderL
         .recorded = &frame, .features = &features, .facts = &facts, .extent = {frame.view.width, frame.view.height, 1}};
     scene.import_into(graph, images);
     const std::vector<std::string> uses{std::string(technique.name)};
-    const auto declared = must(declare_frame(graph, images, must(choose(frame, uses, {})), shared_device().info().capabilities));
+    const auto declared =
+        must(declare_frame(graph, images, must(choose(frame, chosen(uses))), shared_device().info().capabilities));
     EXPECT_FALSE(declared.acts.empty());
     graph.keep(images.color);
     return shared_executor().run(must(compile(graph, library)), {}).images.at(images.color.id);

@@ -118,7 +118,7 @@ TEST(BlockerCellsOnDevice, AreThoseOfTheCpuAndContradictNoPoint) {  // docs/algo
 TEST(BlockersOnDevice, HoldLightOffTransparentSurfacesAsTheModelSays) {
     Request request = on_scenario("blocker_rooms");
     const Technique& technique = *must(find_technique("transparency/sorted_lists"));
-    request.uses = {std::string(technique.name)};
+    request.choices = chosen({std::string(technique.name)});
     const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency, Against::model));
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
     EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << accuracy.worst.x << " " << accuracy.worst.y;

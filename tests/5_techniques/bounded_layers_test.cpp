@@ -29,7 +29,7 @@ Frame stack_of_cards(std::uint32_t count, float alpha) {
 
 Run run_on(Frame frame, std::string technique, std::vector<std::string> sets, std::string output = "color") {
     const auto session = must(Session::open({std::move(frame)}, {.validation = true}));
-    return must(session->run({.uses = {std::move(technique)}, .sets = std::move(sets), .outputs = {std::move(output)}}));
+    return must(session->run({.choices = chosen({std::move(technique)}, std::move(sets)), .outputs = {std::move(output)}}));
 }
 
 TEST(ABufferOnDevice, CountsMoreFragmentsThanItsEightBitsHold) {

@@ -14,8 +14,7 @@ constexpr std::string_view weighted = "transparency/weighted";
 
 std::uint64_t weights_differ(std::string_view scenario, std::string set) {
     Request request = on_scenario(scenario);
-    request.uses = {std::string(weighted)};
-    request.sets = {std::move(set)};
+    request.choices = chosen({std::string(weighted)}, {std::move(set)});
     const Run run = must(session_of_scenarios().run(request));
     const auto found = std::ranges::find(run.counters, "weights differ", &CounterRecord::name);
     if (found == run.counters.end()) throw std::runtime_error("no such counter");

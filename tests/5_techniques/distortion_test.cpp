@@ -42,7 +42,7 @@ Card bending_glass(double z, double columns) {
 /// Radiance along the middle row.
 std::vector<double> row_of(Session& session, std::size_t frame, std::string_view technique) {
     const HostImage color =
-        must(session.run({.frame = frame, .uses = {std::string(technique)}, .outputs = {"color"}})).images.at("color");
+        must(session.run({.frame = frame, .choices = chosen({std::string(technique)}), .outputs = {"color"}})).images.at("color");
     const ReferenceImage image = in_double(color);
     std::vector<double> row;
     for (std::uint32_t x = 0; x < extent; ++x) row.push_back(image.at(x, extent / 2).x);
@@ -76,7 +76,7 @@ TEST_P(Distortion, IsNotDimmedByWhatIsBehind) { EXPECT_LT(largest_error(2, 4, .5
 TEST_P(Distortion, CostsNothingWhereNothingDistorts) {
     const auto steps = [&](const std::vector<Card>& cards) {
         const auto fresh = must(Session::open({stripes_behind(cards)}, {.validation = true}));
-        return must(fresh->run({.uses = {std::string(GetParam())}})).steps.size();
+        return must(fresh->run({.choices = chosen({std::string(GetParam())})})).steps.size();
     };
     Card plain = bending_glass(10, 0), bending = bending_glass(10, 2);
     plain.color.w = bending.color.w = .5f;

@@ -21,7 +21,7 @@ struct Way {
 };
 
 HostImage color_of(const Frame& frame, const Way& way) {
-    const Request request{.uses = {way.technique}, .sets = way.sets, .outputs = {"color"}};
+    const Request request{.choices = chosen({way.technique}, way.sets), .outputs = {"color"}};
     return must(session_of_scenarios().run(frame, std::span(&request, 1))).front().images.at("color");
 }
 

@@ -27,7 +27,7 @@ Frame windows() {
 constexpr double strictly_ordered = .3 + .05 + .01875 + .046875;
 
 double seen_by(Session& session, const std::string& technique, std::vector<std::string> sets = {}) {
-    const Run run = must(session.run({.uses = {technique}, .sets = std::move(sets), .outputs = {"color"}}));
+    const Run run = must(session.run({.choices = chosen({technique}, std::move(sets)), .outputs = {"color"}}));
     return texel(run.images.at("color"), 5, 9).x;
 }
 
@@ -54,7 +54,7 @@ TEST(InterfaceLayers, TakeNoSliceFromTheWorld) {
     Frame frame = windows();
     const auto used = [](const Frame& shown) {
         const auto session = must(Session::open({shown}, {.validation = true}));
-        return counted(must(session->run({.uses = {"transparency/voxel"}})), "virtual slices");
+        return counted(must(session->run({.choices = chosen({"transparency/voxel"})})), "virtual slices");
     };
     frame.draws.erase(frame.draws.begin() + 2, frame.draws.end());
     frame.draws.erase(frame.draws.begin());

@@ -32,7 +32,8 @@ class LeaningNormals : public testing::TestWithParam<const Technique*> {};
 TEST_P(LeaningNormals, AreLitAsTheModelSays) {
     const Technique& technique = *GetParam();
     const auto session = must(Session::open(std::vector<Frame>{leaning_card()}, {.validation = true}));
-    const Accuracy accuracy = must(session->judge({.uses = {std::string(technique.name)}}, Stage::lighting, Against::model));
+    const Accuracy accuracy =
+        must(session->judge({.choices = chosen({std::string(technique.name)})}, Stage::lighting, Against::model));
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
     EXPECT_LE(accuracy.model_worst, technique.tolerance.worst)
         << "got " << accuracy.worst.got.x << ", the model says " << accuracy.worst.wanted.x;

@@ -112,7 +112,7 @@ private:
 /// What a lighting technique makes of a frame; further outputs are views and tables of its own by their names.
 inline Run lit(const Frame& frame, const std::string& technique, std::vector<std::string> sets = {},
                const std::vector<std::string>& inside = {}) {
-    Request request{.uses = {technique}, .sets = std::move(sets), .outputs = {"light"}};
+    Request request{.choices = chosen({technique}, std::move(sets)), .outputs = {"light"}};
     for (const std::string& name : inside) request.outputs.push_back(technique + ":" + name);
     return must(session_of_scenarios().run(frame, std::span(&request, 1))).front();
 }

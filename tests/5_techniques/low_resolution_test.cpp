@@ -53,7 +53,7 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
     const Technique& technique = *must(find_technique(method.technique));
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
         for (const std::string& set : method.settings) {
-            const Request request{.frame = frame, .uses = {std::string(method.technique)}, .sets = {set}};
+            const Request request{.frame = frame, .choices = chosen({std::string(method.technique)}, {set})};
             const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
             EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
@@ -68,7 +68,7 @@ TEST_P(LowResolution, ShadesAQuarterOfTheFragments) {
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
         std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
         const auto session = must(Session::open({frame}, {.validation = true}));
-        return double(counted(must(session->run({.uses = {std::string(method.technique)}})), method.counter));
+        return double(counted(must(session->run({.choices = chosen({std::string(method.technique)})})), method.counter));
     };
     EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
 }
@@ -86,7 +86,7 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
         Frame frame = low_resolution_smoke(160, 90, 1);
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
         const auto session = must(Session::open({frame}, {.validation = true}));
-        return must(session->judge({.uses = {"transparency/exact_function"}, .sets = {"accumulation=single"}},
+        return must(session->judge({.choices = chosen({"transparency/exact_function"}, {"accumulation=single"})},
                                    Stage::transparency, Against::truth))
             .method.front()
             .value;
@@ -98,7 +98,8 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
 
 TEST(WrittenTiles, AreAllThatBilinearEdgesReach) {
     const auto color_of = [](std::size_t frame, std::vector<std::string> sets) {
-        return must(smoke().run({.frame = frame, .uses = {std::string(additive)}, .sets = std::move(sets), .outputs = {"color"}}))
+        return must(smoke().run(
+                        {.frame = frame, .choices = chosen({std::string(additive)}, std::move(sets)), .outputs = {"color"}}))
             .images.at("color");
     };
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)

@@ -83,7 +83,7 @@ std::vector<const Technique*> techniques_on(std::string_view scenario) {
 std::vector<Figure> judged(const Technique& technique, const Key& key) {
     Request request = on_scenario(key.scenario, key.samples);
     const ImageSet& truth = truth_of(technique.stage, request);
-    request.uses = {key.technique};
+    request.choices = chosen({key.technique});
     const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model_and_truth, &truth));
     if (!accuracy.not_supported.empty()) return {};
     expect_within_tolerance(accuracy, technique, request, key.scenario);

@@ -60,8 +60,7 @@ void expect_agreement(const Case& c, const std::vector<std::string>& sets) {
     if (const auto reason = unneeded(request, technique.stage))
         GTEST_SKIP() << c.scenario << " does not need the stage: " << *reason;
 
-    request.uses = {c.technique};
-    request.sets = sets;
+    request.choices = chosen({c.technique}, sets);
     const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << c.technique << " cannot do " << accuracy.not_supported;
     expect_within_tolerance(accuracy, technique, request, c.scenario);
@@ -124,7 +123,8 @@ TEST_P(TwoPanes, AreWhatTheModelSaysAtTheDefaults) {
     const std::vector<Card> panes{{.center = {0, 0, 2}, .half = 1.5f, .color = {.8f, .3f, .1f, .5f}},
                                   {.center = {.5, 0, 3}, .half = 2, .color = {.1f, .4f, .9f, .5f}}};
     const auto session = must(Session::open(std::vector<Frame>{frame_of_cards(panes, 16)}, {.validation = true}));
-    const Accuracy accuracy = must(session->judge({.uses = {std::string(technique.name)}}, technique.stage, Against::model));
+    const Accuracy accuracy =
+        must(session->judge({.choices = chosen({std::string(technique.name)})}, technique.stage, Against::model));
     const WorstTexel& w = accuracy.worst;
     EXPECT_EQ(accuracy.incomparable, "");
     EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);

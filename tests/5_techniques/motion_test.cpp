@@ -29,7 +29,7 @@ std::vector<std::string> with_motion() {
 
 ReferenceImage device_motion(Session& session, const std::string& technique, std::vector<std::string> sets = {}) {
     const std::string view = motion_of(technique);
-    const auto run = must(session.run({.uses = {technique}, .sets = std::move(sets), .outputs = {view}}));
+    const auto run = must(session.run({.choices = chosen({technique}, std::move(sets)), .outputs = {view}}));
     return in_double(run.images.at(view));
 }
 
@@ -65,7 +65,7 @@ TEST(Motion, IsAnAverageOfWhatIsSeen) {
 TEST(Motion, IsComputedForNobodyWhoDoesNotAsk) {
     const auto session = must(Session::open({pane_over_wall(4)}, {.validation = true}));
     for (const std::string& technique : with_motion()) {
-        const auto run = must(session->run({.uses = {technique}, .outputs = {"color"}}));
+        const auto run = must(session->run({.choices = chosen({technique}), .outputs = {"color"}}));
         for (const StepRecord& step : run.steps) EXPECT_EQ(step.name.find("motion"), std::string::npos) << technique;
     }
 }
@@ -123,7 +123,7 @@ TEST(Motion, OfTheExactFunctionIsWhatTheExactListsSay) {
     const auto session = must(Session::open({frame}, {.validation = true}));
     const std::string exact = "transparency/exact_function";
     const ReferenceImage got = device_motion(*session, exact, {"accumulation=single"});
-    const FragmentLists& lists = *must(session->transparent_fragments({.uses = {exact}}));
+    const FragmentLists& lists = *must(session->transparent_fragments({.choices = chosen({exact})}));
     const VisiblePoints opaque = visible_points(frame, opaque_draws(frame));
     const std::vector<std::uint32_t> draws = draws_of_triangles(frame);
     double worst = 0, fastest = 0;

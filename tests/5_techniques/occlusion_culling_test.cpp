@@ -20,7 +20,7 @@ const std::string pyramid = hiz + ":pyramid";
 constexpr const char* settings[] = {"phases=two", "phases=one"};
 
 Request culled(std::size_t frame, std::vector<std::string> sets = {}) {
-    return {.frame = frame, .uses = {hiz}, .sets = std::move(sets), .outputs = {"visible"}};
+    return {.frame = frame, .choices = chosen({hiz}, std::move(sets)), .outputs = {"visible"}};
 }
 
 std::uint64_t count_of(const Run& run, std::string_view name) {
@@ -90,8 +90,8 @@ TEST(OcclusionCulling, ChangesNoBitOfAPicture) {
         for (const std::uint32_t samples : {1u, 4u}) {
             const auto session = scenario_session(scenario, samples);
             const auto picture = [&](std::vector<std::string> uses, std::vector<std::string> sets) {
-                return must(
-                           session->run({.uses = std::move(uses), .sets = std::move(sets), .outputs = {"color", "depth_layers"}}))
+                return must(session->run(
+                                {.choices = chosen(std::move(uses), std::move(sets)), .outputs = {"color", "depth_layers"}}))
                     .images;
             };
             const auto all = picture({"culling/none"}, {});

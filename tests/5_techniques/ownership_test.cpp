@@ -44,7 +44,7 @@ void sketch(Sketch& s, const Technique& technique, std::string_view scenario, st
     s.images.casters = draws_of(s.graph, 3, s.facts->lists().opaque.size());
     s.images.transparent = draws_of(s.graph, 4, s.facts->lists().transparent.size());
     s.images.back_to_front = draws_of(s.graph, 5, s.facts->lists().transparent.size());
-    Choices choices = must(choose(s.recorded, {}, {}));
+    Choices choices = must(choose(s.recorded));
     choices[technique.stage] = {&technique, Settings(technique.params)};
     s.frame = must(declare_frame(s.graph, s.images, choices, technique.needs));
 }

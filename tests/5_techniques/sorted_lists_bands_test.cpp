@@ -11,8 +11,7 @@ namespace {
 
 Run run_with_pool(Session& session, std::string_view pool) {
     Request request;
-    request.uses = {"transparency/sorted_lists"};
-    request.sets = {fmt::format("pool={}", pool)};
+    request.choices = chosen({"transparency/sorted_lists"}, {fmt::format("pool={}", pool)});
     request.outputs = {"color", "depth_layers"};
     return must(session.run(request));
 }

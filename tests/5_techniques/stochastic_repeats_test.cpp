@@ -11,7 +11,7 @@ constexpr const char* stochastic = "transparency/stochastic";
 
 std::vector<std::byte> color_of(Session& session, std::vector<std::string> sets) {
     session.forget_memo();
-    return must(session.run({.uses = {stochastic}, .sets = std::move(sets), .outputs = {"color"}})).images.at("color").texels;
+    return must(session.run({.choices = chosen({stochastic}, std::move(sets)), .outputs = {"color"}})).images.at("color").texels;
 }
 
 TEST(StochasticNoise, IsTheSameInEveryRunAndAnotherWithAnotherSeed) {
@@ -28,15 +28,14 @@ TEST(StochasticNoise, DoesNotDependOnTheBandsOfRowsThatShareItsMemory) {
     const auto whole = color_of(*session, {"memory=4095"});
     EXPECT_EQ(whole, color_of(*session, {"memory=0.2"}));
     session->forget_memo();
-    const auto steps = must(session->run({.uses = {stochastic}, .sets = {"memory=0.2"}})).steps;
+    const auto steps = must(session->run({.choices = chosen({stochastic}, {"memory=0.2"})})).steps;
     EXPECT_GT(std::ranges::count(steps, std::string("transparency/stochastic/resolve.comp"), &StepRecord::name), 2);
 }
 
 TEST(StochasticNoise, FallsWithTheRootOfTheNumberOfSubsamples) {
     const auto error = [](const char* samples) {
         Request request = on_scenario("smoke_grenade");
-        request.uses = {stochastic};
-        request.sets = {samples, "correction=none", "subset=bernoulli"};
+        request.choices = chosen({stochastic}, {samples, "correction=none", "subset=bernoulli"});
         return must(session_of_scenarios().judge(request, Stage::transparency, Against::truth)).method.front().value;
     };
     EXPECT_NEAR(error("samples=4") / error("samples=64"), 4, .6);
@@ -49,8 +48,7 @@ TEST(StochasticModes, AreWhatTheModelSaysInEveryCombination) {
         for (const char* subset : {"subset=bernoulli", "subset=stratified"})
             for (const char* correction : {"correction=none", "correction=alpha"}) {
                 Request request = on_scenario("red_and_green_glass", 4);
-                request.uses = {stochastic};
-                request.sets = {mode, subset, correction, "samples=64", "seed=7"};
+                request.choices = chosen({stochastic}, {mode, subset, correction, "samples=64", "seed=7"});
                 const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
                 EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << mode << " " << subset << " " << correction;
                 EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << mode << " " << subset << " " << correction;

@@ -73,7 +73,7 @@ Lists lists_of(const Run& run) {
 }
 
 Run culled(const Frame& frame, std::vector<std::string> sets) {
-    Request request{.uses = {"lighting/tiled"}, .sets = std::move(sets)};
+    Request request{.choices = chosen({"lighting/tiled"}, std::move(sets))};
     request.outputs = {"light", "edges", "surface_normal", "surface_material"};
     for (const char* table : {":lists", ":portals", ":spectra"}) request.outputs.push_back(std::string("lighting/tiled") + table);
     return must(session_of_scenarios().run(frame, std::span(&request, 1))).front();

@@ -13,8 +13,7 @@ namespace {
 const std::string voxel = "transparency/voxel";
 
 Run run_of(Session& session, Request request, std::vector<std::string> sets) {
-    request.uses = {voxel};
-    request.sets = std::move(sets);
+    request.choices = chosen({voxel}, std::move(sets));
     request.outputs = {"color"};
     session.forget_memo();
     return must(session.run(request));
@@ -57,8 +56,7 @@ TEST(ExhaustiveTintOnTheDevice, IsWhatTheModelSays) {
         for (std::vector<std::string> sets : settings) {
             sets.emplace_back("channels=mono");
             Request request = on_scenario(scenario, sets.size() == 2 ? 4 : 1);
-            request.uses = {voxel};
-            request.sets = sets;
+            request.choices = chosen({voxel}, sets);
             const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << testing::PrintToString(sets);
             EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << " " << testing::PrintToString(sets);

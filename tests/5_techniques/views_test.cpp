@@ -24,7 +24,7 @@ TEST_P(Views, AreDrawnAndFinite) {
     for (const std::uint32_t samples : {1u, 4u})
         for (const DebugView& view : technique.views) {
             Request request = small_smoke(samples);
-            request.uses = {std::string(technique.name)};
+            request.choices = chosen({std::string(technique.name)});
             request.outputs = {fmt::format("{}:{}", technique.name, view.name)};
             const auto run = must(session_of_scenarios().run(request));
             const ReferenceImage picture = in_double(run.images.at(request.outputs[0]));
@@ -38,7 +38,7 @@ TEST_P(Views, AndTablesHaveRowsOfNumbers) {
     const Technique& technique = *must(find_technique(GetParam()));
     for (const DebugTable& table : technique.tables) {
         Request request = small_smoke(1);
-        request.uses = {std::string(technique.name)};
+        request.choices = chosen({std::string(technique.name)});
         request.outputs = {fmt::format("{}:{}", technique.name, table.name)};
         const auto numbers = must(session_of_scenarios().run(request)).tables.at(request.outputs[0]);
         EXPECT_EQ(numbers.columns.size(), table.columns.size());

@@ -22,9 +22,8 @@ using namespace transparency;
 constexpr const char* cullings[] = {"culling=quads_16", "culling=quads_32", "culling=full_screen"};
 
 Run run_of(Session& session, Request request, std::vector<std::string> sets, const char* culling) {
-    request.uses = {voxel};
-    request.sets = std::move(sets);
-    request.sets.emplace_back(culling);
+    request.choices = chosen({voxel}, std::move(sets));
+    set(request, culling);
     request.outputs = {"color"};
     return must(session.run(request));
 }
@@ -122,7 +121,7 @@ TEST(ExhaustiveVoxelSkipping, ChangesNoPixelAlongACameraPath) {
 
 Request prepared(const char* when, std::vector<std::string> sets = {}) {
     sets.emplace_back(when);
-    return {.uses = {voxel}, .sets = std::move(sets), .outputs = {"color", "depth_layers"}};
+    return {.choices = chosen({voxel}, std::move(sets)), .outputs = {"color", "depth_layers"}};
 }
 
 TEST(ExhaustiveVoxelPreparedBeforeOpaque, ShowsTheSamePictureUpToWhatAFullColumnLetsThrough) {

@@ -16,7 +16,7 @@ namespace {
 Run multiplied_run(Session& session, std::vector<std::string> sets = {}) {
     sets.push_back("splat=multiply");
     session.forget_memo();
-    return must(session.run({.uses = {voxel}, .sets = std::move(sets), .outputs = {"color"}}));
+    return must(session.run({.choices = chosen({voxel}, std::move(sets)), .outputs = {"color"}}));
 }
 
 /// What comes through a geometry shader is interpolated with other roundings: a factor here and there is a code off, of 255.
@@ -83,8 +83,7 @@ TEST(ExhaustiveVoxelMultiply, IsWhatTheModelSaysOfParticlesInEveryFormat) {
     for (const char* scenario : {"smoke_grenade", "particle_storm", "explosion"})
         for (const char* bits : {"bits=8", "bits=16", "bits=32"}) {
             Request request = on_scenario(scenario);
-            request.uses = {voxel};
-            request.sets = {"splat=multiply", bits};
+            request.choices = chosen({voxel}, {"splat=multiply", bits});
             const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
             EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << bits;
             EXPECT_LE(accuracy.model_worst, 2 * technique.tolerance.worst) << scenario << " " << bits;  // a product a code off
@@ -101,8 +100,7 @@ TEST(ExhaustiveVoxelMultiply, IsWhatTheModelSaysInCombinations) {
     for (std::vector<std::string> sets : combinations) {
         sets.push_back("splat=multiply");
         Request request = on_scenario("glass_and_smoke", 4);
-        request.uses = {voxel};
-        request.sets = sets;
+        request.choices = chosen({voxel}, sets);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();

@@ -12,8 +12,8 @@ const char* const soft_scenarios[] = {"smoke_grenade", "glass_and_smoke", "explo
 
 Request thick(std::string_view scenario, std::vector<std::string> sets, std::uint32_t samples = 1) {
     Request request = on_scenario(scenario, samples);
-    request.uses = {voxel}, request.sets = std::move(sets), request.outputs = {"color"};
-    request.sets.emplace_back("thickness=segment");
+    request.choices = chosen({voxel}, std::move(sets)), request.outputs = {"color"};
+    set(request, "thickness=segment");
     return request;
 }
 
@@ -43,7 +43,7 @@ TEST(ExhaustiveVoxelSegmentOnDevice, IsCoveredAndKeptWhereItReaches) {
         for (const char* splatting : {"splatting=linear", "splatting=point"}) {
             const std::vector<std::string> sets = {splatting, "sampling=bicubic", "slices=200", "resolution=half"};
             Request skipping = thick(scenario, sets, 4), plain = skipping;
-            plain.sets.emplace_back("skipping=off");
+            set(plain, "skipping=off");
             const auto kept = must(session_of_scenarios().run(skipping));
             EXPECT_EQ(kept.images.at("color").texels, color_of(plain)) << scenario << splatting;
             EXPECT_EQ(counted(kept, "uncovered"), 0u) << scenario << splatting;
@@ -57,7 +57,7 @@ TEST(VoxelSegmentOnDevice, IsCulledWithoutATrace) {
 
 void expect_points(Request request) {
     const auto as_segments = color_of(request);
-    request.sets.back() = "thickness=point";
+    set(request, "thickness=point");
     EXPECT_EQ(color_of(request), as_segments);
 }
 

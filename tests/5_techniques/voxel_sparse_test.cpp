@@ -27,7 +27,7 @@ Sets both(Sets sets, const Sets& more) {
 
 Request sparse_request(std::string_view scenario, const Sets& sets, std::uint32_t samples = 1) {
     Request request = on_scenario(scenario, samples);
-    request.uses = {voxel}, request.sets = both({"volume=sparse"}, sets), request.outputs = {"color"};
+    request.choices = chosen({voxel}, both({"volume=sparse"}, sets)), request.outputs = {"color"};
     return request;
 }
 
@@ -52,7 +52,7 @@ bool expect_dense(std::string_view scenario, const Sets& sets, const Sets& spars
     const std::uint64_t slices = counted(sparse, "virtual slices");
     if (slices < 32 || slices > 1024 || counted(sparse, "blocks") == 0) return false;
     Request request = sparse_request(scenario, both(sets, {"slices=" + std::to_string(slices)}));
-    request.sets.front() = "volume=dense";
+    set(request, "volume=dense");
     EXPECT_TRUE(must(session_of_scenarios().run(request)).images.at("color").texels == sparse.images.at("color").texels)
         << scenario << " in " << slices << " slices, " << testing::PrintToString(both(sets, sparse_sets));
     return true;
@@ -166,7 +166,7 @@ TEST(VoxelSparse, IsTheSameInEveryRun) {
     const auto session = scenario_session("particle_storm", 1);
     const auto color = [&](const char* prepared) {
         session->forget_memo();
-        const Request request{.uses = {voxel}, .sets = {"volume=sparse", "pool=4", prepared}, .outputs = {"color"}};
+        const Request request{.choices = chosen({voxel}, {"volume=sparse", "pool=4", prepared}), .outputs = {"color"}};
         return must(session->run(request)).images.at("color").texels;
     };
     for (const char* prepared : {"prepared=after_opaque", "prepared=before_opaque"}) {
@@ -189,8 +189,8 @@ TEST(VoxelSparse, ShowsTheSliceThatOverflowsAsADenseVolumeDoes) {
     Request request = sparse_request("three_cards", both(unbent, {"range=fixed", "thinnest=10", "slices=64"}));
     request.outputs = {"color", voxel + ":overflow", voxel + ":saturation depth", voxel + ":thickness"};
     const auto sparse = must(session_of_scenarios().run(request));
-    request.sets.front() = "volume=dense";
-    request.sets.back() = "slices=" + std::to_string(counted(sparse, "virtual slices"));
+    set(request, "volume=dense");
+    set(request, "slices=" + std::to_string(counted(sparse, "virtual slices")));
     const auto dense = must(session_of_scenarios().run(request));
     EXPECT_GT(counted(sparse, "overflowed"), 0u);
     EXPECT_EQ(counted(sparse, "overflowed"), counted(dense, "overflowed"));

@@ -22,7 +22,7 @@ Frame cards_at(std::initializer_list<double> depths, float alpha = .5f) {
 }
 
 strata::Run run_of(const Frame& frame, std::vector<std::string> sets, const std::vector<std::string>& inside) {
-    Request request{.uses = {voxel}, .sets = std::move(sets), .outputs = {"color"}};
+    Request request{.choices = chosen({voxel}, std::move(sets)), .outputs = {"color"}};
     for (const std::string& name : inside) request.outputs.push_back(voxel + ":" + name);
     return must(session_of_scenarios().run(frame, std::span(&request, 1))).front();
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "replay/session/choice_text.h"
 #include "tests/5_techniques/voxel_name.h"
 #include "tests/support/session.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 Run run_of(Session& session, std::vector<std::string> sets, std::vector<std::string> outputs = {"color"}) {
     session.forget_memo();
-    return must(session.run({.uses = {voxel}, .sets = std::move(sets), .outputs = std::move(outputs)}));
+    return must(session.run({.choices = chosen({voxel}, std::move(sets)), .outputs = std::move(outputs)}));
 }
 
 std::vector<std::byte> color_of(Session& session, std::vector<std::string> sets) {
@@ -65,8 +66,7 @@ TEST(ExhaustiveVoxelVolume, IsWhatTheModelSaysInCombinations) {
     };
     for (const std::vector<std::string>& sets : combinations) {
         Request request = on_scenario("glass_and_smoke", 4);
-        request.uses = {voxel};
-        request.sets = sets;
+        request.choices = chosen({voxel}, sets);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
@@ -85,8 +85,7 @@ TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
     };
     for (const std::vector<std::string>& sets : combinations) {
         Request request = on_scenario("interface_layers", 4);
-        request.uses = {voxel};
-        request.sets = sets;
+        request.choices = chosen({voxel}, sets);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
         EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
         EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
@@ -95,12 +94,12 @@ TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
 
 void expect_nothing_missed(std::string_view scenario, std::uint32_t samples, std::vector<std::string> sets) {
     Request request = on_scenario(scenario, samples);
-    request.uses = {voxel}, request.sets = std::move(sets), request.outputs = {"color"};
-    request.sets.emplace_back("skipping=off");
+    request.choices = chosen({voxel}, std::move(sets)), request.outputs = {"color"};
+    set(request, "skipping=off");
     const auto all = must(session_of_scenarios().run(request)).images.at("color").texels;
-    request.sets.back() = "skipping=on";
+    set(request, "skipping=on");
     EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, all)
-        << scenario << " " << testing::PrintToString(request.sets);
+        << scenario << " " << testing::PrintToString(set_texts(request.choices));
 }
 
 // V10 of docs/algorithms/transparency.md 6.17. What is not cleared holds whatever other images left there.
@@ -122,7 +121,7 @@ TEST(ExhaustiveVoxelVolume, CoversEveryFragmentThatItIsAskedToHold) {
     for (const std::string_view scenario : info(Stage::transparency).scenarios)
         for (const char* splatting : {"splatting=linear", "splatting=point"}) {
             Request request = on_scenario(scenario, 4);
-            request.uses = {voxel}, request.sets = {splatting, "thinnest=1e-5"};
+            request.choices = chosen({voxel}, {splatting, "thinnest=1e-5"});
             EXPECT_EQ(counted(must(session_of_scenarios().run(request)), "uncovered"), 0u) << scenario << splatting;
         }
 }
@@ -132,13 +131,13 @@ TEST(VoxelVolume, ThatIsAdaptiveIsADenseOneOfAllItsVirtualSlices) {
     std::size_t finer = 0;
     for (const std::string_view scenario : info(Stage::transparency).scenarios) {
         Request request = on_scenario(scenario);
-        request.uses = {voxel}, request.outputs = {"color"};
-        request.sets = {"curve=linear", "linear=3", "slices=64", "thinnest=0.005"};
+        request.outputs = {"color"};
+        request.choices = chosen({voxel}, {"curve=linear", "linear=3", "slices=64", "thinnest=0.005"});
         const strata::Run adaptive = must(session_of_scenarios().run(request));
         const std::uint64_t slices = counted(adaptive, "virtual slices");
         if (slices > 1024 || counted(adaptive, "slices used") == 0) continue;
         finer += slices > 64;
-        request.sets = {"curve=linear", "linear=3", "slices=" + std::to_string(slices), "volume=dense"};
+        request.choices = chosen({voxel}, {"curve=linear", "linear=3", "slices=" + std::to_string(slices), "volume=dense"});
         EXPECT_EQ(must(session_of_scenarios().run(request)).images.at("color").texels, adaptive.images.at("color").texels)
             << scenario << " in " << slices;
     }

@@ -26,7 +26,7 @@ Frame glowing_card(double depth) {
 /// Red, green, blue and coverage, each times the weight.
 glm::dvec4 sum_of(double depth, const std::string& weight) {
     const auto session = must(Session::open({glowing_card(depth)}, {.validation = true}));
-    const Request request{.uses = {"transparency/weighted"}, .sets = {"weight=" + weight}};
+    const Request request{.choices = chosen({"transparency/weighted"}, {"weight=" + weight})};
     glm::dvec4 sum(0);
     for (const StepImages& step : must(session->step_images(request, Stage::transparency)))
         if (const auto found = step.images.find("weighted sum"); found != step.images.end())

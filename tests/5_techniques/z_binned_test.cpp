@@ -32,7 +32,7 @@ Frame hall(std::uint32_t lights) {
 }
 
 ReferenceImage light_of(const Frame& frame, const std::string& technique, std::vector<std::string> sets = {}) {
-    Request request{.uses = {technique}, .sets = std::move(sets), .outputs = {"light"}};
+    Request request{.choices = chosen({technique}, std::move(sets)), .outputs = {"light"}};
     auto run = must(session_of_scenarios().run(frame, std::span(&request, 1))).front();
     return in_double(run.images.at("light"));
 }
@@ -70,7 +70,7 @@ TEST(ZBinned, IsOnePictureForAllSettings) {
 
 TEST(ZBinned, ABinHoldsAtLeastTheLightsThatReachItsDepths) {
     const Frame frame = hall(200);
-    Request request{.uses = {z_binned}, .sets = {"bins=256"}, .outputs = {z_binned + ":bins"}};
+    Request request{.choices = chosen({z_binned}, {"bins=256"}), .outputs = {z_binned + ":bins"}};
     const auto run = must(session_of_scenarios().run(frame, std::span(&request, 1))).front();
     const auto& rows = run.tables.at(z_binned + ":bins").rows;
     ASSERT_EQ(rows.size(), 256u);

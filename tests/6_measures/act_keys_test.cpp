@@ -82,9 +82,9 @@ struct TwoActs {
         Image image = graph.create("image", {.extent = {8, 8}, .format = Format::r16f});
         Buffer buffer = graph.create("buffer", 64);
         Image result = graph.create("result", {.extent = {8, 8}, .format = Format::r16f});
-        graph.enter("first", 0);
+        graph.enter({});
         graph.compute("first.comp").stores("image", image).stores("Buffer", buffer).over({8, 8});
-        graph.enter("second", 1);
+        graph.enter({});
         ComputePass second = graph.compute("second.comp").stores("result", result).over({8, 8});
         if (reads == Reads::image) second.loads("image", image);
         if (reads == Reads::buffer) second.loads("Buffer", buffer);
@@ -130,7 +130,7 @@ TEST(ActKeys, DependOnTheShadersThatReplaceThoseBuiltIn) {
 TEST(ActKeys, OfDrawsDependOnTheVertexShaderOfTheScene) {
     Graph graph;
     Image color = graph.create("color", {.extent = {8, 8}, .format = Format::rgba16f});
-    graph.enter("draws", 0);
+    graph.enter({});
     graph.draw("some/shade", {}).covers(color);
     const Technique technique{.stage = Stage::gbuffer, .name = "gbuffer/some"};
     ShaderLibrary replaced(&ShaderLibrary::built_in());
@@ -145,7 +145,7 @@ TEST(ActKeys, OfDrawsDependOnTheVertexShaderOfTheScene) {
 TEST(ActKeys, OfActsThatReadWhatTheLastRunLeftAreNewInEveryRun) {
     Graph graph;
     Buffer left = graph.remember("left", 64);
-    graph.enter("looks back", 0);
+    graph.enter({});
     graph.compute("some.comp").updates("Left", left).groups({1});
     const Technique technique{.stage = Stage::transparency, .name = "transparency/some"};
     const auto key = [&](std::uint64_t run) {

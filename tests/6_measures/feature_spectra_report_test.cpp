@@ -1,5 +1,6 @@
 // What is gathered of captures, timed and told about feature spectra, with a session that answers by formula instead of a device.
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <sstream>
 
@@ -29,9 +30,9 @@ Technique some_technique() {
 }
 
 std::uint32_t value_of(const Request& request, const std::string& setting) {
-    for (const std::string& set : request.sets)
-        if (const std::string key = "lighting/some:" + setting + "="; set.starts_with(key))
-            return std::uint32_t(std::stoul(set.substr(key.size())));
+    for (const SettingChange& change : request.choices.settings)
+        if (change.technique && change.technique->name == "lighting/some" && change.key == setting)
+            return std::uint32_t(std::get<double>(change.value));
     return 0;
 }
 
@@ -149,9 +150,10 @@ TEST(MeasuredCosts, AreTheSavingsOfTheTilesThatAModeServesHoweverHeavyOthersAre)
     Request request;
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
-    for (const std::string& setting : settings_of(modes)) request.sets.push_back("lighting/some:" + setting);
+    use_modes(request.choices, technique, modes);
     EXPECT_NEAR(report.by_modes, FormulaSession::milliseconds(request), 1e-6);
-    request.sets = {"lighting/some:modes=1", "lighting/some:mode_0=65535"};
+    request.choices = {};
+    use_modes(request.choices, technique, std::array{every_light_feature});
     EXPECT_NEAR(report.full, FormulaSession::milliseconds(request), 1e-6);
     EXPECT_NEAR(report.as_replayed, report.full, 1e-6);
 }

@@ -36,18 +36,18 @@ struct Joined {
 
     /// Mode 5 needs 84 registers, mode 2 needs 24; a shader of another technique has a constant of that name, too.
     Joined() {
-        add("transparency: transparency/other", 5, 256);
-        add("lighting: lighting/some", 5, 84);
-        add("lighting: lighting/some", 2, 24);
+        add(Stage::transparency, "transparency/other", 5, 256);
+        add(Stage::lighting, "lighting/some", 5, 84);
+        add(Stage::lighting, "lighting/some", 2, 24);
         run.images.emplace("lighting/some:numbers", numbers_of({5, 5, 2, -1, 5}));
         run.tables["lighting/some:modes"] = {.columns = {{"mode", ""}, {"features", "bits"}, {"tiles", ""}},
                                              .rows = {{2, 0x20, 1}, {5, 0xffff, 3}}};
     }
-    void add(const std::string& scope, std::uint32_t mode, std::uint32_t registers) {
+    void add(Stage stage, const char* other, std::uint32_t mode, std::uint32_t registers) {
         const std::size_t pipeline = requests.pipelines.size();
         PipelineRequest& request = requests.pipelines.emplace_back();
         request.step.step.fixed = {{"mode", mode}};
-        gpu.passes.push_back({.scope = scope, .pipeline = pipeline});
+        gpu.passes.push_back({.scope = {ScopeKind::act, stage, stage, other}, .pipeline = pipeline});
         const ShaderResources taken{.registers = registers, .group_threads = 256, .wave_lanes = 64};
         gpu.programs.push_back(
             {.pipeline = pipeline, .stage = "compute", .registers = registers, .occupancy = occupancy(bonaire(), taken)});

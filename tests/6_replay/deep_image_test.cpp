@@ -186,7 +186,7 @@ TEST(DeepImportReplayed, IsResolvedByEveryTechniqueWithinItsTolerance) {
     const auto session =
         must(Session::open({must(import_deep(bytes_of(deep_file(wild_image())), "wild", {})).frame}, {.validation = true}));
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        const Accuracy accuracy = must(session->judge({.uses = {std::string(technique->name)}}, Stage::transparency));
+        const Accuracy accuracy = must(session->judge({.choices = chosen({std::string(technique->name)})}, Stage::transparency));
         EXPECT_GT(accuracy.compared, 300u) << technique->name;
         EXPECT_LE(accuracy.model_rmse, technique->tolerance.rmse) << technique->name;
         EXPECT_LE(accuracy.model_worst, technique->tolerance.worst) << technique->name;

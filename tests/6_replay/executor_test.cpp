@@ -172,11 +172,11 @@ TEST(Executor, CountsInTheScopeOfTheTechniqueFromZeroOnEveryRun) {
             if (subgroupElect()) atomicAdd(threads, all);
             imageStore(target, ivec2(gl_GlobalInvocationID), vec4(1));
         })");
-    frame.graph.enter("test: counting", 0, 8);
+    frame.graph.enter({}, 8);
     Image target = frame.graph.create("target", {.extent = {64, 3}, .format = Format::r32f});
     frame.graph.compute("counted.comp").stores("target", target).over({64, 3});
     frame.graph.keep(target);
-    const Buffer counters = frame.graph.scopes().back().counters;
+    const Buffer counters = frame.graph.counters(1);
     for (int run = 0; run < 2; ++run)
         EXPECT_THAT(values_of<std::uint32_t>(frame.run().buffers.at(counters.id)), ElementsAre(192, 0));
 }
@@ -273,7 +273,7 @@ TEST(Executor, TimesEveryStep) {
 TEST(Executor, NamesTheStepThatFails) {
     TestFrame frame;
     Image image = frame.graph.create("missing import", {.format = Format::r32f});
-    frame.graph.enter("stage: technique", 0);
+    frame.graph.enter({ScopeKind::act, Stage::rain, Stage::film, "rain/some"});
     frame.graph.clear(image, {{1}});
     frame.graph.keep(image);
     Plan plan = frame.plan();
@@ -283,7 +283,7 @@ TEST(Executor, NamesTheStepThatFails) {
         shared_executor().run(plan, {});
         FAIL() << "it ran";
     } catch (const DeviceFailure& failure) {
-        EXPECT_THAT(failure.what(), testing::HasSubstr("stage: technique / clear missing import"));
+        EXPECT_THAT(failure.what(), testing::HasSubstr("film: rain/some / clear missing import"));
     }
 }
 

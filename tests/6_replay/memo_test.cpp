@@ -27,8 +27,7 @@ TEST(Memo, ASecondEqualRunExecutesOnlyWhatFeedsBuffers) {
 std::vector<std::string> executed_before(Stage stage, const Run& run) {
     std::vector<std::string> scopes;
     for (const StepRecord& step : run.steps) {
-        const auto at = find_stage(step.scope.substr(0, step.scope.find(": ")));
-        if (at && *at < stage) scopes.push_back(step.scope + " / " + step.name);
+        if (step.scope.kind == ScopeKind::act && step.scope.at < stage) scopes.push_back(text_of(step.scope) + " / " + step.name);
     }
     return scopes;
 }
@@ -43,7 +42,7 @@ TEST(Memo, AnotherTransparencyExecutesNoStepOfAnyStageBeforeIt) {
     const auto session = scenario_session("glass_and_smoke");
     std::optional<std::vector<CounterRecord>> earlier;
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        const auto run = must(session->run({.uses = {std::string(technique->name)}}));
+        const auto run = must(session->run({.choices = chosen({std::string(technique->name)})}));
         EXPECT_EQ(executed_before(Stage::transparency, run).empty(), earlier.has_value()) << technique->name;
         std::vector<CounterRecord> now;  // they are reported as if the stages had run again
         for (const CounterRecord& counter : run.counters)
@@ -61,10 +60,10 @@ TEST(Memo, AnotherTransparencyExecutesNoStepOfAnyStageBeforeIt) {
 
 TEST(Memo, APictureMadeWithItIsThePictureOfAFreshRun) {
     const auto session = scenario_session("three_panes");
-    must(session->run({.uses = {technique_of(Stage::transparency, 0)}}));
-    const auto other = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
+    must(session->run({.choices = chosen({technique_of(Stage::transparency, 0)})}));
+    const auto other = must(session->run({.choices = chosen({technique_of(Stage::transparency, 1)})}));
     session->forget_memo();
-    const auto fresh = must(session->run({.uses = {technique_of(Stage::transparency, 1)}}));
+    const auto fresh = must(session->run({.choices = chosen({technique_of(Stage::transparency, 1)})}));
     EXPECT_EQ(other.acts_executed, 2u);  // transparency and what stands after it
     EXPECT_EQ(hash_of(other.images.at("display")), hash_of(fresh.images.at("display")));
 }
@@ -73,7 +72,7 @@ TEST(Memo, TimingExecutesWhatRequestsShareOncePerRepeat) {
     const auto session = scenario_session("glass_and_smoke");
     std::vector<Request> requests;
     for (const Technique* technique : techniques_of(Stage::transparency))
-        requests.push_back({.uses = {std::string(technique->name)}});
+        requests.push_back({.choices = chosen({std::string(technique->name)})});
     const auto runs = must(session->time(requests, 3));
     ASSERT_EQ(runs.size(), requests.size());
     const auto gbuffer = [](const auto& run) { return run.stage_ms.at("gbuffer"); };
@@ -91,7 +90,7 @@ TEST(Memo, TimingExecutesWhatRequestsShareOncePerRepeat) {
 TEST(Memo, AJudgementIsTheSameWhateverWasJudgedBefore) {
     const auto fresh = scenario_session("three_panes"), used = scenario_session("three_panes");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        const Request request{.uses = {std::string(technique->name)}};
+        const Request request{.choices = chosen({std::string(technique->name)})};
         fresh->forget_memo();
         const auto a = must(fresh->judge(request, Stage::transparency)), b = must(used->judge(request, Stage::transparency));
         const auto again = must(used->judge(request, Stage::transparency));
@@ -113,13 +112,14 @@ TEST(Memo, ASettingIsPartOfTheKey) {
     ASSERT_NE(with_parameter, nullptr);
     const Param& param = with_parameter->params.front();
     const double other = param.fallback == param.low ? param.high : param.low;
-    const Request plain{.uses = {std::string(with_parameter->name)}};
+    const Request plain{.choices = chosen({std::string(with_parameter->name)})};
     must(session->run(plain));
     Request changed = plain;
-    changed.sets = {fmt::format("{}={}", param.name, other)};
+    set(changed, fmt::format("{}={}", param.name, other));
     const auto run = must(session->run(changed));
     bool executed = false;
-    for (const StepRecord& step : run.steps) executed = executed || step.scope.starts_with("transparency: ");
+    for (const StepRecord& step : run.steps)
+        executed |= step.scope.kind == ScopeKind::act && step.scope.at == Stage::transparency;
     EXPECT_TRUE(executed);
 }
 

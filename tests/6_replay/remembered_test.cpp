@@ -12,7 +12,7 @@ namespace {
 
 /// A technique that remembers the thickness of its slices, which fewer of them make larger.
 Request with_slices(const std::string& count, const std::string& frames = "100") {
-    return {.uses = {"transparency/voxel"}, .sets = {"slices=" + count, "curve=linear", "hysteresis=" + frames}};
+    return {.choices = chosen({"transparency/voxel"}, {"slices=" + count, "curve=linear", "hysteresis=" + frames})};
 }
 
 std::uint64_t held(Session& session, const Request& request) { return counted(must(session.run(request)), "halvings held"); }
@@ -40,7 +40,8 @@ TEST(Remembered, IsLookedAtInEveryRun) {
     const auto session = scenario_session("glass_and_smoke");
     const auto executes_transparency = [&](const Request& request) {
         const auto run = must(session->run(request));
-        return std::ranges::any_of(run.steps, [](const StepRecord& s) { return s.scope.starts_with("transparency: "); });
+        return std::ranges::any_of(
+            run.steps, [](const StepRecord& s) { return s.scope.kind == ScopeKind::act && s.scope.at == Stage::transparency; });
     };
     EXPECT_TRUE(executes_transparency(with_slices("64")));
     EXPECT_TRUE(executes_transparency(with_slices("64")));

@@ -10,7 +10,7 @@ namespace {
 TEST(Repeat, TwentyReplaysGiveEqualBits) {
     const auto session = scenario_session("interpenetrating_panes", 4);
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        const Request request{.uses = {std::string(technique->name)}, .outputs = {"color", "display"}};
+        const Request request{.choices = chosen({std::string(technique->name)}), .outputs = {"color", "display"}};
         const auto first = must(session->run(request));
         for (int repeat = 1; repeat < 20; ++repeat) {
             session->forget_memo();

@@ -47,7 +47,7 @@ TEST(TextureAddresses, RepeatClampAndMirrorAcrossAndDown) {
                 {AddressMode::clamp, "0000012333333333"},
                 {AddressMode::mirror, "3210012332100123"}};
     for (const auto& row : rows) {
-        const Request request{.uses = {"transparency/alpha_blend"}, .outputs = {"color"}};
+        const Request request{.choices = chosen({"transparency/alpha_blend"}), .outputs = {"color"}};
         const auto run = must(session_of_scenarios().run(textured_card(row.address), std::span(&request, 1))).front();
         const ReferenceImage color = in_double(run.images.at("color"));
         for (std::uint32_t y = 0; y < pixels_across; ++y)

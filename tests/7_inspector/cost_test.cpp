@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "replay/session/choice_text.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/report/report_columns.h"
@@ -98,16 +99,16 @@ TEST(ReportRemarks, SayWhatIsNotSupportedAndWhatMayBeABug) {
 }
 
 TEST(ReportBase, KeepsTheOtherStagesChoicesAlone) {
-    const Request base = report_base({.uses = {"transparency/weighted", "shadows/pcf"},
-                                      .sets = {"transparency/weighted:falloff=3", "shadows/pcf:radius=2"},
-                                      .outputs = {"transparency/weighted:weight", "color"}},
-                                     Stage::transparency);
-    EXPECT_THAT(base.uses, ElementsAre("shadows/pcf"));
-    EXPECT_THAT(base.sets, ElementsAre("shadows/pcf:radius=2"));
+    const Request base = report_base(
+        {.choices = chosen({"transparency/weighted", "shadows/pcf"}, {"transparency/weighted:falloff=3", "shadows/pcf:radius=2"}),
+         .outputs = {"transparency/weighted:weight", "color"}},
+        Stage::transparency);
+    EXPECT_THAT(use_texts(base.choices), ElementsAre("shadows/pcf"));
+    EXPECT_THAT(set_texts(base.choices), ElementsAre("shadows/pcf:radius=2"));
     EXPECT_THAT(base.outputs, ElementsAre("display"));
     const Request row_of_it = request_of(report().rows[2], base);
-    EXPECT_THAT(row_of_it.uses, ElementsAre("shadows/pcf", "transparency/weighted"));
-    EXPECT_THAT(row_of_it.sets, ElementsAre("shadows/pcf:radius=2", "transparency/weighted:falloff=30"));
+    EXPECT_THAT(use_texts(row_of_it.choices), ElementsAre("shadows/pcf", "transparency/weighted"));
+    EXPECT_THAT(set_texts(row_of_it.choices), ElementsAre("shadows/pcf:radius=2", "transparency/weighted:falloff=30"));
 }
 
 constexpr const char* panel = "Accuracy and cost";

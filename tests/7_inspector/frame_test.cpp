@@ -15,31 +15,28 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-StepRecord timed(std::string scope, std::string name, std::vector<double> ms) {
-    return {std::move(scope), std::move(name), spread_of(ms), ms};
+StepRecord timed(Stage stage, std::string technique, std::string name, std::vector<double> ms) {
+    return {{ScopeKind::act, stage, stage, std::move(technique)}, std::move(name), spread_of(ms), ms};
 }
 
 /// Two acts: shadows of two steps, lighting of one.
 FrameTimes times() {
     FrameTimes made;
-    made.run.steps = {timed("shadows: shadows/pcf", "shadows/pcf/draw.vert", {1, 2, 6}),
-                      timed("shadows: shadows/pcf", "shadows/pcf/blur.comp", {2, 1, 1}),
-                      timed("lighting: lighting/tiled", "lighting/tiled/light.comp", {4, 4, 4})};
+    made.run.steps = {timed(Stage::shadows, "shadows/pcf", "shadows/pcf/draw.vert", {1, 2, 6}),
+                      timed(Stage::shadows, "shadows/pcf", "shadows/pcf/blur.comp", {2, 1, 1}),
+                      timed(Stage::lighting, "lighting/tiled", "lighting/tiled/light.comp", {4, 4, 4})};
     made.run.frame_ms = spread_of(std::vector<double>{7, 7, 11});
-    made.stages = {Stage::shadows, Stage::shadows, Stage::lighting};
     return made;
 }
 
-PlanRow row(const StepRecord& step, Stage stage) {
-    return {
-        .stage = stage, .scope = step.scope, .name = step.name, .images = {}, .barriers = 2, .made_bytes = 10, .alive_bytes = 30};
+PlanRow row(const StepRecord& step) {
+    return {.scope = step.scope, .name = step.name, .images = {}, .barriers = 2, .made_bytes = 10, .alive_bytes = 30};
 }
 
 /// The frame that was measured, of which the memo had the shadows.
 Replay replay_of(const FrameTimes& measured) {
     Replay made;
-    for (std::size_t i = 0; i < measured.run.steps.size(); ++i)
-        made.steps.push_back(row(measured.run.steps[i], measured.stages[i]));
+    for (const StepRecord& step : measured.run.steps) made.steps.push_back(row(step));
     made.steps[1].alive_bytes = 50;
     made.run.steps = {measured.run.steps.back()};
     return made;
@@ -58,7 +55,7 @@ TEST(FrameRows, AnActIsTheSumOfItsStepsRepeatByRepeat) {
     EXPECT_EQ(shadows.barriers, 4u);
     EXPECT_EQ(shadows.made_bytes, 20u);
     EXPECT_EQ(shadows.alive_bytes, 50u) << "the most at one of its steps";
-    EXPECT_EQ(shadows.face, "shadows/pcf");
+    EXPECT_EQ(face_of(shadows.scope), "shadows/pcf");
 }
 
 TEST(FrameRows, ToldApartAreActsThatWereExecutedAndActsThatWereKept) {
@@ -73,7 +70,7 @@ TEST(FrameRows, ATimeStaysWithItsStepThoughOtherStepsCameBeforeIt) {
     const FrameTimes measured = times();
     Replay replay = replay_of(measured);
     PlanRow other = replay.steps[0];
-    other.scope = "shadows: shadows/moments";
+    other.scope.technique = "shadows/moments";
     replay.steps = {other, other, other, replay.steps[2]};
     const FrameRows rows = frame_rows(replay, &measured);
     EXPECT_THAT(rows.timed, testing::ElementsAre(std::nullopt, std::nullopt, std::nullopt, 2u));
@@ -141,7 +138,7 @@ std::string label_of(const Replay& replay, std::size_t step) {
     return fmt::format("{} {}", step, short_name(replay.steps[step].name));
 }
 std::string path_of(const Replay& replay, std::size_t step) {
-    return fmt::format("Frame/{}/{}", replay.steps[step].scope, label_of(replay, step));
+    return fmt::format("Frame/{}/{}", text_of(replay.steps[step].scope), label_of(replay, step));
 }
 
 bool has(Desk& desk, const std::string& path) {
@@ -182,7 +179,7 @@ TEST(FramePanel, MarksWhatAChangeHasExecutedAndKeepsTheMarksAfterMeasuring) {
     const FrameRows rows = frame_rows(*desk.replay(), nullptr);
     std::size_t kept = 0;
     for (const FrameAct& act : rows.acts) {
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} is", act.scope)), act.is_executed ? "executed" : "kept");
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} is", text_of(act.scope))), act.is_executed ? "executed" : "kept");
         kept += !act.is_executed;
     }
     EXPECT_GT(kept, 0u);
@@ -260,7 +257,7 @@ TEST(FramePanel, CollapsesAndExpandsAllAndByKeysTheActOfTheSelectedStep) {
     EXPECT_TRUE(has(desk, path_of(*replay, step)));
     must(desk.player->type("Frame/find", replay->steps[0].name));
     must(desk.player->type("Frame/find", ""));
-    const std::string closed = fmt::format("Frame/{}", replay->steps.back().scope);
+    const std::string closed = fmt::format("Frame/{}", text_of(replay->steps.back().scope));
     EXPECT_FALSE(desk.widget(closed).open) << "looking for something leaves open what was open";
 }
 
@@ -270,16 +267,17 @@ TEST(FramePanel, HasTimeMemoryAndWorkBesideEveryActAndStep) {
     const auto replay = desk.replay();
     const FrameRows rows = frame_rows(*replay, nullptr);
     const std::size_t step = some_step(*replay);
-    for (const FrameAct& act : rows.acts) EXPECT_NE(desk.said(fmt::format("Frame/{} ms", act.scope)), "");
+    for (const FrameAct& act : rows.acts) EXPECT_NE(desk.said(fmt::format("Frame/{} ms", text_of(act.scope))), "");
     EXPECT_NE(desk.said(path_of(*replay, step) + " ms"), "");
     must(desk.player->choose("Frame/beside", "Memory"));
-    for (const FrameAct& act : rows.acts) EXPECT_THAT(desk.said(fmt::format("Frame/{} alive", act.scope)), HasSubstr("B"));
+    for (const FrameAct& act : rows.acts)
+        EXPECT_THAT(desk.said(fmt::format("Frame/{} alive", text_of(act.scope))), HasSubstr("B"));
     EXPECT_THAT(desk.said(path_of(*replay, step) + " alive"), HasSubstr("B"));
     desk.expect_no_conflicts();
     must(desk.player->choose("Frame/beside", "Work"));
     for (const FrameAct& act : rows.acts) {
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", act.scope)), counted(act.end - act.first, "step"));
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} waits", act.scope)), fmt::format("{}", act.barriers));
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", text_of(act.scope))), counted(act.end - act.first, "step"));
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} waits", text_of(act.scope))), fmt::format("{}", act.barriers));
     }
     EXPECT_EQ(desk.said(path_of(*replay, step) + " work"), replay->steps[step].short_work);
     desk.expect_no_conflicts();

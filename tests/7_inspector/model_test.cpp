@@ -73,9 +73,9 @@ TEST(Model, AValueThatIsSetIsOneSettingMoreAndNoneWhenItIsBack) {
     const auto [stage, param] = parameter(model);
     model.set(stage, param.name, other_value(param));
     EXPECT_TRUE(model.is_changed(stage, param.name));
-    EXPECT_EQ(model.edits().sets.size(), 1u);
+    EXPECT_EQ(model.edits().choices.settings.size(), 1u);
     model.reset(stage, param.name);
-    EXPECT_THAT(model.edits().sets, IsEmpty());
+    EXPECT_THAT(model.edits().choices.settings, IsEmpty());
 }
 
 TEST(Model, ASliderThatIsPulledIsOneStepOfUndo) {
@@ -104,7 +104,7 @@ TEST(Model, EveryTechniqueAndEveryParameterComesBackFromTheCommandLine) {
         model.set_samples(4);
         SCOPED_TRACE(model.command_line());
         EXPECT_EQ(parsed(model.command_line()), model.request());
-        EXPECT_EQ(must(choose(model.facts().bare, model.request().uses, model.request().sets)).at(technique.stage).settings,
+        EXPECT_EQ(must(choose(model.facts().bare, model.request().choices)).at(technique.stage).settings,
                   model.choices().at(technique.stage).settings);
     }
 }
@@ -121,15 +121,15 @@ TEST(Model, WhatWasRecordedIsWhatAResetReturnsTo) {
     EXPECT_EQ(model.base_value(stage, param.name), other_value(param));
     EXPECT_EQ(model.edits(), Edits());
     model.set(stage, param.name, param.fallback);
-    EXPECT_EQ(model.edits().sets.size(), 1u);
+    EXPECT_EQ(model.edits().choices.settings.size(), 1u);
     model.reset(stage);
     EXPECT_EQ(model.edits(), Edits());
 }
 
 TEST(Model, SettingsThatAnotherFramesTechniqueDoesNotHaveAreDropped) {
-    Model model("x.strata", {}, {.sets = {"no_such_parameter=1"}});
+    Model model("x.strata", {}, {.choices = chosen({}, {"no_such_parameter=1"})});
     model.know(facts());
-    EXPECT_THAT(model.edits().sets, IsEmpty());
+    EXPECT_THAT(model.edits().choices.settings, IsEmpty());
 }
 
 TEST(Undo, ReturnsByKeyToWhatWasShownBefore) {

@@ -78,7 +78,7 @@ TEST(Panels, AClickOnAStepShowsWhatItWroteEverywhere) {
     const auto makes_images = std::ranges::find_if(steps, [](const PlanRow& row) { return !row.images.empty(); });
     ASSERT_NE(makes_images, steps.end());
     must(desk.player->type("Frame/find", makes_images->name));
-    const std::string row = fmt::format("Frame/{}/{} {}", makes_images->scope, makes_images - steps.begin(),
+    const std::string row = fmt::format("Frame/{}/{} {}", text_of(makes_images->scope), makes_images - steps.begin(),
                                         makes_images->name.substr(makes_images->name.rfind('/') + 1));
     must(desk.player->click(row));
     must(desk.player->wait());

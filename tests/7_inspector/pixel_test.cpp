@@ -51,9 +51,9 @@ std::string path_of(const PixelStep& step, const PixelValue& value) {
 
 TEST(PixelHistory, SaysWhatIsNewWhatChangedAndWhatDidNot) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const std::vector<StepImages> steps = {{0, "a", "a/one", {{"light", one_texel(1)}, {"depth_layers", one_texel(nan)}}},
-                                           {3, "a", "a/two", {{"light", one_texel(1)}}},
-                                           {4, "b", "b/one", {{"light", one_texel(2)}, {"depth_layers", one_texel(nan)}}}};
+    const std::vector<StepImages> steps = {{0, {}, "a/one", {{"light", one_texel(1)}, {"depth_layers", one_texel(nan)}}},
+                                           {3, {}, "a/two", {{"light", one_texel(1)}}},
+                                           {4, {}, "b/one", {{"light", one_texel(2)}, {"depth_layers", one_texel(nan)}}}};
     const auto history = history_of(steps);
     ASSERT_EQ(history.size(), 3u);
     EXPECT_EQ(history[0].values[0].change, Change::first);

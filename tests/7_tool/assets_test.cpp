@@ -63,7 +63,8 @@ void expect_opaque_stages_within_tolerance(const std::filesystem::path& capture)
     for (const Stage stage : {Stage::shadows, Stage::gbuffer, Stage::lighting}) {
         if (std::ranges::find(skipped, stage, &SkippedStage::stage) != skipped.end()) continue;
         for (const Technique* technique : techniques_of(stage)) {
-            const Accuracy accuracy = must(session->judge({.uses = {std::string(technique->name)}}, stage, Against::model));
+            const Accuracy accuracy =
+                must(session->judge({.choices = chosen({std::string(technique->name)})}, stage, Against::model));
             if (!accuracy.not_supported.empty()) continue;
             const WorstTexel& worst = accuracy.worst;
             expect_within_tolerance(technique->name, accuracy.model_rmse, accuracy.model_worst,

@@ -127,13 +127,17 @@ TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {
     for (int i = 0; i < 20; ++i) way.counters.push_back({way.technique, "some counter", 123456});
     Bench bench{.device = {.name = "a device", .driver = "its driver"}, .repeats = 7};
     bench.rows.push_back({.claim = claim, .width = 320, .height = 180, .of = way, .against = way, .ratio = {.median = 2.5}});
-    bench.rows.push_back({.claim = claim, .not_measured = "the frame does not need it"});
+    const TimeRatio of_stages{.name = words, .stages = {Stage::gbuffer, Stage::film}};
+    bench.rows.push_back(
+        {.claim = {.technique = &technique, .ratio = &of_stages, .scene = words}, .not_measured = "the frame does not need it"});
     const std::string text = as_text(bench);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
     EXPECT_THAT(text, AllOf(HasSubstr("2.50 +-0.00"), HasSubstr("1.50"), HasSubstr("some counter 123456"),
                             HasSubstr("not measured: the frame does not need it"), HasSubstr("a step of one way")));
     const json made = json::parse(as_json(bench));
+    EXPECT_EQ(made["rows"][0]["steps"], json({"a step"}));
+    EXPECT_EQ(made["rows"][1]["steps"], json({"gbuffer:", "film:"}));
     EXPECT_EQ(made["rows"][0]["published"]["source"], source);
     EXPECT_EQ(made["rows"][1]["not_measured"], "the frame does not need it");
     EXPECT_FALSE(made["rows"][1].contains("ratio"));

@@ -89,7 +89,7 @@ TEST_P(DeepAsset, LooksAsOpenExrCompositesIt) {
 void expect_replayed_by_every_technique() {
     const auto session = must(Session::open(folder() / "image.strata", {.validation = true}));
     for (const Technique* technique : techniques_of(Stage::transparency))
-        EXPECT_TRUE(session->run({.uses = {std::string(technique->name)}})) << technique->name;
+        EXPECT_TRUE(session->run({.choices = chosen({std::string(technique->name)})})) << technique->name;
 }
 
 TEST_P(DeepAsset, IsReplayedByEveryTechniqueAndReportedWithinTolerance) {

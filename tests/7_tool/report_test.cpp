@@ -163,9 +163,9 @@ TEST(Flicker, ShowsThatObjectOrderPopsAndIsNothingForWhatIsExact) {
     const auto session = scenario_session("three_cards");
     const ReportRequest wanted{.flicker = Walk{.frames = 7, .dolly = 0, .pan = 9}};
     std::vector<Request> rows(3);
-    rows[0].uses = {"transparency/sorted_lists"};
-    rows[1].uses = {"transparency/alpha_blend"};
-    rows[2].uses = {"transparency/weighted"};
+    rows[0].choices = chosen({"transparency/sorted_lists"});
+    rows[1].choices = chosen({"transparency/alpha_blend"});
+    rows[2].choices = chosen({"transparency/weighted"});
     const std::vector<double> flicker = must(measure_flicker(*session, wanted, rows, {}));
     EXPECT_EQ(flicker[0], 0);
     EXPECT_GT(flicker[1], 1e-3);

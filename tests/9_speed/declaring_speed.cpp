@@ -51,7 +51,7 @@ void declare_a_million_vertices(benchmark::State& state, std::string_view techni
     DeviceScene scene(*executor);
     const std::unique_ptr<LoadedFrame> loaded = must(load_frame(million_vertices(), {}));
     scene.describe(scene_records(loaded->facts));
-    const Request request{.uses = {std::string(technique)}};
+    const Request request{.choices = chosen({std::string(technique)})};
     const Sources sources{*loaded, scene, device->info(), ShaderLibrary::built_in()};
     benchmark::DoNotOptimize(must(declare(request, sources, Keep::outputs)));
     for (auto _ : state) benchmark::DoNotOptimize(must(declare(request, sources, Keep::outputs)));

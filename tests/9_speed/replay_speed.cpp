@@ -33,7 +33,7 @@ struct Loaded {
 
 void declare_a_frame(benchmark::State& state) {
     const Loaded loaded;
-    const Choices choices = must(choose(loaded.frame->frame, {}, {}));
+    const Choices choices = must(choose(loaded.frame->frame));
     for (auto _ : state) {
         Graph graph;
         FrameImages images{.recorded = &loaded.frame->frame,
@@ -58,7 +58,7 @@ BENCHMARK(compile_a_frame)->Unit(benchmark::kMicrosecond);
 /// Every step again and the picture read back; pipelines stand.
 void replay(benchmark::State& state, const Technique& technique) {
     const auto session = must(Session::open(scenario_frames(small_frame), {}));
-    const Request request{.uses = {std::string(technique.name)}};
+    const Request request{.choices = chosen({std::string(technique.name)})};
     must(session->run(request));
     for (auto _ : state) {
         session->forget_memo();

@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "replay/session/choice_text.h"
+
 namespace strata {
 namespace {
 
@@ -13,7 +15,7 @@ std::size_t least_nontrivial(Stage stage) { return stage == Stage::culling ? 1 :
 void expect_within_tolerance(const Accuracy& accuracy, const Technique& technique, const Request& request,
                              std::string_view scenario) {
     ASSERT_EQ(accuracy.incomparable, "") << technique.name << " on " << scenario;
-    const std::string sets = fmt::format("{}", fmt::join(request.sets, " "));
+    const std::string sets = fmt::format("{}", fmt::join(set_texts(request.choices), " "));
     // Written into --gtest_output=json: what tolerances are set by.
     testing::Test::RecordProperty(fmt::format("rmse {}", sets), fmt::format("{:.3g}", accuracy.model_rmse));
     testing::Test::RecordProperty(fmt::format("worst {}", sets), fmt::format("{:.3g}", accuracy.model_worst));

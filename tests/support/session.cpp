@@ -2,6 +2,7 @@
 
 #include "captures/scenarios.h"
 #include "replay/images/image_io.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -38,6 +39,12 @@ Request on_scenario(std::string_view name, std::uint32_t samples) {
     const std::uint32_t divisor = (scenario->width + largest_width - 1) / largest_width;
     return {.frame = index, .extent_divisor = divisor, .samples = samples};
 }
+
+ChoiceChanges chosen(const std::vector<std::string>& uses, const std::vector<std::string>& sets) {
+    return must(parse_choices(uses, sets));
+}
+
+void set(Request& request, const std::string& text) { request.choices.settings.push_back(chosen({}, {text}).settings.front()); }
 
 std::uint64_t counted(const Run& run, std::string_view name) {
     for (const CounterRecord& counter : run.counters)

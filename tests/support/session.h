@@ -28,6 +28,11 @@ std::uint64_t counted(const Run&, std::string_view name);
 /// Replays frame 0 as recorded: the hash of what is displayed.
 std::string display_hash(Session&);
 
+/// What --use and --set would say.
+ChoiceChanges chosen(const std::vector<std::string>& uses, const std::vector<std::string>& sets = {});
+/// One --set more.
+void set(Request&, const std::string& text);
+
 /// The value, or a failed test and an abort of it.
 template <typename T>
 T must(Result<T> result) {

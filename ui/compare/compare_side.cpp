@@ -72,11 +72,10 @@ Result<SidePicture> kept_picture(const Capture& capture, const ExpectedImage& im
 }  // namespace
 
 Request variant_of(Request request, const Technique& technique, const Settings& settings) {
-    const std::string stage = fmt::format("{}/", name(technique.stage));
-    std::erase_if(request.uses, [&](const std::string& use) { return use.starts_with(stage); });
-    std::erase_if(request.sets, [&](const std::string& set) { return set.starts_with(stage); });
-    request.uses.emplace_back(technique.name);
-    for (const std::string& line : settings.lines()) request.sets.push_back(fmt::format("{}:{}", technique.name, line));
+    request.choices.drop(technique.stage);
+    request.choices.use(technique);
+    for (const Param& param : settings.params())
+        request.choices.settings.push_back({&technique, std::string(param.name), settings.get(param.name)});
     return request;
 }
 

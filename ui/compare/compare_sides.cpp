@@ -6,6 +6,7 @@
 
 #include <fmt/ranges.h>
 
+#include "replay/session/choice_text.h"
 #include "ui/picture/outputs.h"
 #include "ui/widgets/param_widget.h"
 #include "ui/window/theme.h"
@@ -122,8 +123,8 @@ std::string CompareSides::about(const ChosenSide& side) const {
     if (side.source == Source::variant && side.technique)
         return fmt::format("{} {}", side.technique->name, fmt::join(side.settings.lines(), " "));
     if (side.source != Source::kept || !kept_) return side.picture.picture().about;
-    if (kept_->uses.empty() && kept_->sets.empty()) return "the choices of the capture";
-    return fmt::format("{} {}", fmt::join(kept_->uses, " "), fmt::join(kept_->sets, " "));
+    if (kept_->choices.is_empty()) return "the choices of the capture";
+    return fmt::format("{} {}", fmt::join(use_texts(kept_->choices), " "), fmt::join(set_texts(kept_->choices), " "));
 }
 
 void CompareSides::draw_subject(Model& model, Widgets& widgets) {

@@ -71,15 +71,15 @@ void FrameColumns::set_up(const ShownFrame& frame) const {
 void FrameColumns::draw_act(Widgets& widgets, const ShownFrame& frame, const FrameAct& act, int column) const {
     ImGui::TableSetColumnIndex(column);
     if (beside_ == Beside::time) {
-        if (act.ms) draw_time(widgets, frame, act.scope, *act.ms, {act.stage, .4f});
+        if (act.ms) draw_time(widgets, frame, text_of(act.scope), *act.ms, {act.scope.stage, .4f});
         return;
     }
     const bool is_memory = beside_ == Beside::memory;
-    text_at_right(widgets, fmt::format("{} {}", act.scope, is_memory ? "made" : "work"),
+    text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "made" : "work"),
                   is_memory ? size_or_nothing(act.made_bytes) : counted(act.end - act.first, "step"));
     widgets.help(is_memory ? "images and buffers that its steps are the first to use" : counted(act.draws, "draw"));
     ImGui::TableSetColumnIndex(column + 1);
-    text_at_right(widgets, fmt::format("{} {}", act.scope, is_memory ? "alive" : "waits"),
+    text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "alive" : "waits"),
                   is_memory ? size_or_nothing(act.alive_bytes) : fmt::format("{}", act.barriers));
     widgets.help(is_memory ? "the most that is alive at one of its steps" : counted(act.barriers, "barrier"));
 }
@@ -90,7 +90,7 @@ void FrameColumns::draw_step(Widgets& widgets, const ShownFrame& frame, std::str
     ImGui::TableSetColumnIndex(column);
     if (beside_ == Beside::time) {
         if (const auto timed = frame.rows.timed[step])
-            draw_time(widgets, frame, label, *frame.times->run.steps[*timed].ms, {row.stage, .2f});
+            draw_time(widgets, frame, label, *frame.times->run.steps[*timed].ms, {row.scope.stage, .2f});
         return;
     }
     const bool is_memory = beside_ == Beside::memory;

@@ -11,8 +11,7 @@ std::vector<FrameAct> acts_of(const std::vector<PlanRow>& steps) {
     std::vector<FrameAct> acts;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const PlanRow& step = steps[i];
-        if (acts.empty() || acts.back().scope != step.scope)
-            acts.push_back({.scope = step.scope, .face = face_of(step.scope, step.stage), .stage = step.stage, .first = i});
+        if (acts.empty() || acts.back().scope != step.scope) acts.push_back({.scope = step.scope, .first = i});
         FrameAct& act = acts.back();
         act.end = i + 1;
         act.barriers += step.barriers;
@@ -76,11 +75,10 @@ std::string time_text(const Spread& spread) {
                           : fmt::format("{:.{}f}", spread.median, digits);
 }
 
-std::string face_of(std::string_view scope, Stage stage) {
-    const std::size_t colon = scope.find(": ");
-    if (colon == std::string_view::npos) return std::string(scope);
-    const std::string_view at = scope.substr(0, colon), technique = scope.substr(colon + 2);
-    return at == name(stage) ? std::string(technique) : fmt::format("{} at {}", technique, at);
+std::string face_of(const Scope& scope) {
+    if (scope.kind == ScopeKind::view) return fmt::format("{}:{} at view", scope.technique, scope.view);
+    if (scope.kind != ScopeKind::act) return text_of(scope);
+    return scope.at == scope.stage ? scope.technique : fmt::format("{} at {}", scope.technique, name(scope.at));
 }
 
 std::string short_name(std::string_view step) { return std::string(step.substr(step.rfind('/') + 1)); }

@@ -14,14 +14,11 @@ namespace strata::ui {
 struct FrameTimes {
     Request request;
     Run run;
-    std::vector<Stage> stages;  ///< of the run's steps
 };
 
 /// Consecutive steps of one scope.
 struct FrameAct {
-    std::string scope;
-    std::string face;  ///< "shadows/pcf", and where it acts when that is not at its own stage: "shadows/pcf at occlusion"
-    Stage stage;
+    Scope scope;
     std::size_t first = 0, end = 0;  ///< steps of the plan
     bool is_executed = false;        ///< in the latest replay; else what it made was kept from an earlier one
     std::optional<Spread> ms;        ///< of the sum of its steps, repeat by repeat
@@ -45,8 +42,8 @@ std::optional<Spread> spread_of_sum(const std::vector<StepRecord>&, std::size_t 
 
 /// "12.34 ±0.12", the deviation only where there is one.
 std::string time_text(const Spread&);
-/// "shadows/pcf at occlusion" of the scope "occlusion: shadows/pcf".
-std::string face_of(std::string_view scope, Stage);
+/// "shadows/pcf", and of an act at another stage than its own "shadows/pcf at occlusion".
+std::string face_of(const Scope&);
 /// "sampled.comp" of "lighting/tiled/sampled.comp".
 std::string short_name(std::string_view step);
 /// "2 of 8 acts executed, 6 kept".

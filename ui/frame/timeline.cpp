@@ -85,11 +85,11 @@ Timeline timeline_of(const FrameTimes& times) {
         if (!steps[i].ms) continue;
         const double from = made.ms;
         made.ms += steps[i].ms->median;
-        made.steps.push_back({i, i + 1, times.stages[i], short_name(steps[i].name),
-                              help_of(fmt::format("{}\n{}", steps[i].name, steps[i].scope), *steps[i].ms, frame_ms), from,
-                              made.ms});
+        made.steps.push_back({i, i + 1, steps[i].scope.stage, short_name(steps[i].name),
+                              help_of(fmt::format("{}\n{}", steps[i].name, text_of(steps[i].scope)), *steps[i].ms, frame_ms),
+                              from, made.ms});
         if (made.acts.empty() || steps[made.acts.back().first].scope != steps[i].scope)
-            made.acts.push_back({i, i, times.stages[i], face_of(steps[i].scope, times.stages[i]), {}, from, from});
+            made.acts.push_back({i, i, steps[i].scope.stage, face_of(steps[i].scope), {}, from, from});
         made.acts.back().end = i + 1;
         made.acts.back().to = made.ms;
     }

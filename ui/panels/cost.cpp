@@ -277,7 +277,7 @@ private:
         if (chosen || picked) apply(model, study.report.rows[chosen ? *chosen : *picked]);
     }
 
-    static void apply(Model& model, const Measurement& row) { model.apply(row.technique, sets_of(row)); }
+    static void apply(Model& model, const Measurement& row) { model.apply(request_of(row, {}).choices); }
 
     /// The row that was clicked.
     std::optional<std::size_t> draw_points(Widgets& widgets, const ReportPlot& plot, const ReportAxes& axes) {

@@ -57,8 +57,7 @@ private:
     const CountedRun* before_of(const Model& model, Services& services) {
         if (against_ == Against::last_change) return last_ ? &*last_ : nullptr;
         Request request = model.request();
-        request.uses.clear();
-        request.sets.clear();
+        request.choices = {};
         request.force.clear();
         request.samples = 0;
         request.eye = {};

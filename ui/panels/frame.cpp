@@ -85,15 +85,9 @@ private:
         tried_ = without_outputs(request);
         timing_ = services.replayer.start<FrameTimes>([request](Session& session, Progress& progress) -> Result<FrameTimes> {
             if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
-            const auto planned = session.plan(request);
-            if (!planned) return planned.error();
             auto runs = session.time(std::span(&request, 1), repeats);
             if (!runs) return runs.error();
-            FrameTimes times{request, std::move(runs->front()), {}};
-            const Plan& plan = planned->plan;
-            for (const PlannedStep& step : plan.steps)
-                times.stages.push_back(static_cast<Stage>(plan.scopes[step.step.scope].stage));
-            return times;
+            return FrameTimes{request, std::move(runs->front())};
         });
     }
 
@@ -208,11 +202,11 @@ private:
         if (open_all_) ImGui::SetNextItemOpen(*open_all_);
         else if (has_selected && open_selected_) ImGui::SetNextItemOpen(*open_selected_);
         else if (comes_into_sight || !find_.empty()) ImGui::SetNextItemOpen(true);
-        ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(act.stage)));
-        const Widgets::TreeRow row = widgets.tree(act.scope, false, 0, act.face);
+        ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(act.scope.stage)));
+        const Widgets::TreeRow row = widgets.tree(text_of(act.scope), false, 0, face_of(act.scope));
         ImGui::PopStyleColor();
-        widgets.help(fmt::format("{}\n{}, {}, {}", act.scope, counted(act.end - act.first, "step"), counted(act.draws, "draw"),
-                                 counted(act.barriers, "barrier")));
+        widgets.help(fmt::format("{}\n{}, {}, {}", text_of(act.scope), counted(act.end - act.first, "step"),
+                                 counted(act.draws, "draw"), counted(act.barriers, "barrier")));
         if (row.open) {
             for (std::size_t i = act.first; i < act.end; ++i)
                 if (matches(frame.replay.steps[i])) draw_step(model, widgets, frame, i);
@@ -225,7 +219,7 @@ private:
         ImGui::TableSetColumnIndex(0);
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float height = ImGui::GetTextLineHeight();
-        widgets.canvas(fmt::format("{} is", act.scope), {mark_width, height}, act.is_executed ? "executed" : "kept");
+        widgets.canvas(fmt::format("{} is", text_of(act.scope)), {mark_width, height}, act.is_executed ? "executed" : "kept");
         widgets.help(act.is_executed ? "executed in the latest replay" : "kept from an earlier replay");
         const ImVec2 middle(at.x + mark_width / 2, at.y + height / 2);
         ImDrawList& list = *ImGui::GetWindowDrawList();

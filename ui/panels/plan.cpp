@@ -176,7 +176,7 @@ private:
         std::string help;
         if (marks.step_under) {
             const PlanStep& step = picture_->steps[*marks.step_under];
-            help = fmt::format("{} {}\n{}\n{}, {} before it", *marks.step_under, step.name, step.scope, step.work,
+            help = fmt::format("{} {}\n{}\n{}, {} before it", *marks.step_under, step.name, text_of(step.scope), step.work,
                                counted(step.barriers.size(), "barrier"));
         }
         if (!under) return help;
@@ -225,9 +225,9 @@ private:
     void draw_step(Model& model, Widgets& widgets, std::size_t index) {
         const PlanStep& step = picture_->steps[index];
         const auto scope = widgets.in("step");
-        const ImVec4 color = color_of_stage(static_cast<std::size_t>(step.stage));
+        const ImVec4 color = color_of_stage(static_cast<std::size_t>(step.scope.stage));
         widgets.text("name", fmt::format("{} {}", index, step.name), &color);
-        widgets.help(step.scope);
+        widgets.help(text_of(step.scope));
         ImGui::SameLine(0, 12);
         widgets.text("work", step.work, &palette().dim);
         draw_touched(model, widgets, index);

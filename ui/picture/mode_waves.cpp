@@ -19,7 +19,7 @@ PipelineRequests variants_of(const Plan& plan, const Technique& technique) {
         const std::uint32_t pipeline = all.of_step[i];
         kept.of_step.push_back(no_index);
         const Step& step = plan.steps[i].step;
-        if (pipeline == no_index || !plan.scopes[step.scope].name.ends_with(technique.name)) continue;
+        if (pipeline == no_index || !is_act_of(plan.scopes[step.scope], technique.name)) continue;
         if (std::ranges::find(step.fixed, technique.variants.constant, &Fixed::name) == step.fixed.end()) continue;
         if (places[pipeline] == no_index) {
             places[pipeline] = static_cast<std::uint32_t>(kept.pipelines.size());

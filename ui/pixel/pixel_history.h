@@ -21,8 +21,9 @@ struct PixelValue {
 };
 
 struct PixelStep {
-    std::size_t step = 0;     ///< in the plan
-    std::string scope, name;  ///< as in StepRecord
+    std::size_t step = 0;  ///< in the plan
+    Scope scope;
+    std::string name;  ///< as in StepRecord
     std::vector<PixelValue> values;
 };
 

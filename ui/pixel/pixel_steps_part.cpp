@@ -62,7 +62,7 @@ private:
 
     bool is_shown(const PixelStep& step, const PixelValue& value) const {
         if (changes_ && value.change == Change::same) return false;
-        return contains(value.image, find_) || contains(step.name, find_) || contains(step.scope, find_);
+        return contains(value.image, find_) || contains(step.name, find_) || contains(text_of(step.scope), find_);
     }
 
     void draw_steps(Model& model, Widgets& widgets, const Replay& replay, const std::vector<PixelStep>& steps) const {
@@ -87,18 +87,18 @@ private:
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, packed({1, 1, 1, .045f}));
         ImGui::TableNextColumn();
         const std::string label = fmt::format("{} {}", step.step, step.name.substr(step.name.rfind('/') + 1));
-        const ImVec4 color = planned ? color_of_stage(static_cast<std::size_t>(planned->stage)) : palette().dim;
+        const ImVec4 color = planned ? color_of_stage(static_cast<std::size_t>(planned->scope.stage)) : palette().dim;
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         const bool clicked = widgets.selectable(label, model.step == step.step);
         ImGui::PopStyleColor();
-        widgets.help(fmt::format("{}\n{}\na click selects the step", step.scope, step.name));
+        widgets.help(fmt::format("{}\n{}\na click selects the step", text_of(step.scope), step.name));
         if (clicked && planned) {
             model.step = step.step;
             model.image = {.name = step.values.front().image, .step = step.step};
         }
         const auto scope = widgets.in(label);
         ImGui::TableNextColumn();
-        widgets.text("act", step.scope, &palette().dim);
+        widgets.text("act", text_of(step.scope), &palette().dim);
         for (const PixelValue& value : step.values)
             if (is_shown(step, value) && value.layer < most_layers) draw_value(widgets, value, replay.frame.bare.view);
     }

@@ -11,7 +11,7 @@
 namespace strata::ui {
 namespace {
 
-ImVec4 color_of(const PlanStep& step) { return color_of_stage(static_cast<std::size_t>(step.stage)); }
+ImVec4 color_of(const PlanStep& step) { return color_of_stage(static_cast<std::size_t>(step.scope.stage)); }
 
 /// What is drawn in the cells ends at their edges.
 class Inside {

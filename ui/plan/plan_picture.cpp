@@ -20,8 +20,7 @@ public:
 
     void take_step(std::size_t index) {
         const PlannedStep& planned = plan_.steps[index];
-        const Scope& scope = plan_.scopes[planned.step.scope];
-        PlanStep step{static_cast<Stage>(scope.stage), scope.name, planned.step.name, work_text(planned), {}};
+        PlanStep step{plan_.scopes[planned.step.scope], planned.step.name, work_text(planned), {}};
         for (const Barrier& barrier : planned.barriers) step.barriers.push_back(describe(plan_, barrier));
         picture.steps.push_back(std::move(step));
         std::map<Key, AccessSet> accesses;

@@ -12,8 +12,8 @@
 namespace strata::ui {
 
 struct PlanStep {
-    Stage stage;                        ///< whose step it is
-    std::string scope, name, work;      ///< as in StepRecord; "compute, 10 x 6 x 1 groups"
+    Scope scope;
+    std::string name, work;             ///< as in StepRecord; "compute, 10 x 6 x 1 groups"
     std::vector<std::string> barriers;  ///< before it
     std::string short_name() const { return name.substr(name.rfind('/') + 1); }
 };

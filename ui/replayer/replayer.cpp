@@ -26,9 +26,7 @@ CaptureFacts facts_of(const Session& session) {
 }
 
 PlanRow row_of(const Plan& plan, const PlannedStep& planned) {
-    const Scope& scope = plan.scopes[planned.step.scope];
-    PlanRow row{.stage = static_cast<Stage>(scope.stage),
-                .scope = scope.name,
+    PlanRow row{.scope = plan.scopes[planned.step.scope],
                 .name = planned.step.name,
                 .images = {},
                 .barriers = planned.barriers.size(),

@@ -30,8 +30,8 @@ struct FrameFacts {
 
 /// A step of the whole plan, whatever the memo saved of it.
 struct PlanRow {
-    Stage stage;                      ///< whose step it is
-    std::string scope, name;          ///< as in StepRecord
+    Scope scope;
+    std::string name;                 ///< as in StepRecord
     std::vector<std::string> images;  ///< that it writes, by their names in the graph
     std::size_t barriers = 0;
     std::string work = {}, short_work = {};  ///< see step_work.h

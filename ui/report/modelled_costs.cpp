@@ -14,11 +14,10 @@ namespace {
 /// The pipelines of the technique's steps alone, wherever in the frame these stand.
 PipelineRequests pipelines_of(const Plan& plan, std::string_view technique) {
     PipelineRequests all = strata::pipelines_of(plan), own;
-    const std::string suffix = fmt::format(": {}", technique);  // of a scope, which is named "place: stage/technique"
     std::map<std::uint32_t, std::uint32_t> numbers;
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const std::uint32_t pipeline = all.of_step[i];
-        const bool is_own = pipeline != no_index && plan.scopes[plan.steps[i].step.scope].name.ends_with(suffix);
+        const bool is_own = pipeline != no_index && is_act_of(plan.scopes[plan.steps[i].step.scope], technique);
         if (!is_own) {
             own.of_step.push_back(no_index);
             continue;

@@ -9,6 +9,7 @@
 #include "replay/counted.h"
 #include "replay/report/table.h"
 #include "replay/report/variants.h"
+#include "replay/session/choice_text.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -246,37 +247,25 @@ std::vector<ReportRemark> remarks_of(const Report& report) {
 }
 
 Request report_base(Request request, Stage stage) {
-    const auto is_own = [prefix = fmt::format("{}/", name(stage))](const std::string& text) { return text.starts_with(prefix); };
-    std::erase_if(request.uses, is_own);
-    std::erase_if(request.sets, is_own);
+    request.choices.drop(stage);
     request.outputs = Request().outputs;
     return request;
 }
 
 Request request_of(const Measurement& row, Request base) {
-    base.uses.push_back(row.technique);
-    for (const std::string& set : sets_of(row)) base.sets.push_back(fmt::format("{}:{}", row.technique, set));
-    return base;
-}
-
-std::vector<std::string> sets_of(const Measurement& row) {
-    std::vector<std::string> sets;
+    const Technique& technique = **find_technique(row.technique);
+    base.choices.use(technique);
     std::istringstream words(row.settings);
-    for (std::string word; words >> word;) sets.push_back(word);
-    return sets;
+    for (std::string word; words >> word;) base.choices.settings.push_back(*parse_setting(technique, word));
+    return base;
 }
 
 std::optional<std::size_t> row_of(const Report& report, const Choice& choice) {
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
         const Measurement& row = report.rows[i];
         if (!is_measured(row) || row.technique != choice.technique->name) continue;
-        Settings settings(choice.technique->params);
-        bool known = true;
-        for (const std::string& set : sets_of(row)) {
-            const std::size_t equals = std::min(set.find('='), set.size() - 1);
-            known = known && settings.set(std::string_view(set).substr(0, equals), std::string_view(set).substr(equals + 1));
-        }
-        if (known && settings == choice.settings) return i;
+        const auto choices = choose(Frame(), request_of(row, {}).choices);
+        if (choices && choices->at(report.stage).settings == choice.settings) return i;
     }
     return {};
 }

@@ -79,8 +79,6 @@ std::vector<ReportRemark> remarks_of(const Report&);
 Request report_base(Request, Stage);
 /// What was measured for a row of a report that started from a base.
 Request request_of(const Measurement&, Request base);
-/// "key=value" each.
-std::vector<std::string> sets_of(const Measurement&);
 /// The row that has a choice's technique and all its settings, of those that were measured.
 std::optional<std::size_t> row_of(const Report&, const Choice&);
 

@@ -170,17 +170,17 @@ std::vector<Counter> counters() {
 }
 
 std::vector<TimeRatio> ratios() {
-    const std::vector<std::string_view> steps = {"culling:", "gbuffer:"};
+    const std::vector<Stage> stages = {Stage::culling, Stage::gbuffer};
     return {{.name = "culling and G-buffer: two phases, against the sides of the view alone",
              .of = "",
              .against = "frustum",
-             .steps = steps,
+             .stages = stages,
              .scenario = "city_of_boxes",
              .counters = {"in view", "drawn first", "newly visible", "occluded", "culled"}},
             {.name = "culling and G-buffer: two phases, against one",
              .of = "",
              .against = "phases=one",
-             .steps = steps,
+             .stages = stages,
              .scenario = "city_of_boxes",
              .counters = {"drawn first", "newly visible", "occluded"}},
             {.name = "the pyramid: twice, against once",

@@ -1,0 +1,25 @@
+// What a request changes about the recorded choices, as the options --use and --set say it: parsed from them and written back.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "replay/session/frame_plan.h"
+
+namespace strata {
+
+/// uses: "stage/technique"; sets: "key=value" for every chosen technique that has the key, or "stage/technique:key=value".
+/// Fails for a technique that does not exist. Whether the frame has the keys and they take the values is known to choose().
+Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span<const std::string> sets);
+
+/// "key=value", of this technique.
+Result<SettingChange> parse_setting(const Technique&, std::string_view text);
+
+/// "stage/technique" of every technique, in the order of the stages.
+std::vector<std::string> use_texts(const ChoiceChanges&);
+/// "stage/technique:key=value", or "key=value" of a change for every chosen technique that has the key.
+std::vector<std::string> set_texts(const ChoiceChanges&);
+
+}  // namespace strata
