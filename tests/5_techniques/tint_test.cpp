@@ -5,6 +5,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -60,8 +61,7 @@ TEST(ExhaustiveTintOnTheDevice, IsWhatTheModelSays) {
             request.uses = {voxel};
             request.sets = sets;
             const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << testing::PrintToString(sets);
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << " " << testing::PrintToString(sets);
+            expect_within_tolerance(accuracy, technique, request, scenario);
         }
 }
 

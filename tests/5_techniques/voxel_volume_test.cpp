@@ -6,6 +6,7 @@
 
 #include "passes/registry.h"
 #include "tests/5_techniques/voxel_name.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -68,8 +69,7 @@ TEST(ExhaustiveVoxelVolume, IsWhatTheModelSaysInCombinations) {
         request.uses = {voxel};
         request.sets = sets;
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+        expect_within_tolerance(accuracy, technique, request, "glass_and_smoke");
     }
 }
 
@@ -88,8 +88,7 @@ TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
         request.uses = {voxel};
         request.sets = sets;
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+        expect_within_tolerance(accuracy, technique, request, "interface_layers");
     }
 }
 
