@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture_format/frame_features.h"
+#include "passes/blend_rounding.h"
 #include "passes/reference/image.h"
 #include "passes/stage.h"
 
@@ -26,6 +27,7 @@ struct StageInput {
     /// Where the frame's transparent fragments before the stage are kept from one model to the next, made when the first wants
     /// them; null: nowhere.
     std::optional<FragmentLists>* fragments = nullptr;
+    BlendRounding rounding = {};  ///< of the device that a model is compared with; truths do not read it
 };
 
 /// One named number with its unit; smaller is better. The first figure of a judge is the stage's error.

@@ -110,6 +110,8 @@ private:
     /// What is known of a run after it.
     Run finished(const Declaration&, const Execution&);
     void remember(const Declaration&, const Execution&);
+    /// Of the device; measured when it is first asked for.
+    Result<BlendRounding> rounding();
 
     std::unique_ptr<Device> device_;
     std::unique_ptr<Executor> executor_;
@@ -121,6 +123,7 @@ private:
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
+    std::optional<BlendRounding> rounding_;
     std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
     std::stop_token stop_;
     bool is_lost_ = false;

@@ -267,6 +267,8 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
+    const auto rounding = this->rounding();
+    if (!rounding) return rounding.error();
     Accuracy accuracy = judge_stage({.frame = loaded_->frame,
                                      .features = loaded_->features,
                                      .choice = inspected->choice,
@@ -275,6 +277,7 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                                      .against = against,
                                      .truth = truth,
                                      .fragments = &found_->fragments,
+                                     .rounding = *rounding,
                                      .stop = stop_});
     if (const auto on = check_going(); !on) return on.error();
     return accuracy;

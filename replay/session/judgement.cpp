@@ -166,7 +166,7 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 ImageSet run_model(const JudgedStage& stage) {
     const Technique& technique = *stage.choice.technique;
     if (!technique.model) return {};
-    return technique.model({stage.frame, stage.before, stage.fragments}, stage.choice.settings);
+    return technique.model({stage.frame, stage.before, stage.fragments, stage.rounding}, stage.choice.settings);
 }
 
 Accuracy judge_stage(const JudgedStage& stage) {

@@ -18,6 +18,7 @@ struct JudgedStage {
     Against against = Against::model_and_truth;
     const ImageSet* truth = nullptr;                    ///< null: computed here
     std::optional<FragmentLists>* fragments = nullptr;  ///< as StageInput's
+    BlendRounding rounding = {};                        ///< of the device that gave the result
     std::stop_token stop = {};                          ///< once requested, what is left is left out and the answer worth nothing
 };
 

@@ -4,6 +4,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "replay/counted.h"
+#include "replay/gpu/measured_rounding.h"
 #include "replay/measure/host_memory.h"
 #include "replay/measure/lap.h"
 #include "replay/scene/fit_textures.h"
@@ -147,6 +148,12 @@ std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
     } catch (const DeviceFailure& failure) {
         return fail(Fault::device_failed, "{}", failure.what());
     }
+}
+
+Result<BlendRounding> DeviceSession::rounding() {
+    if (rounding_) return *rounding_;
+    executor_->forget_plan();  // a memory budget need not have room for another
+    return guarded([&]() -> Result<BlendRounding> { return rounding_.emplace(measured_rounding(*device_)); });
 }
 
 void DeviceSession::upload_scene() {

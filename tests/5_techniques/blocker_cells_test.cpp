@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/blocker_cases.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
@@ -120,8 +121,7 @@ TEST(BlockersOnDevice, HoldLightOffTransparentSurfacesAsTheModelSays) {
     const Technique& technique = *must(find_technique("transparency/sorted_lists"));
     request.choices = chosen({std::string(technique.name)});
     const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::transparency, Against::model));
-    EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
-    EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << accuracy.worst.x << " " << accuracy.worst.y;
+    expect_within_tolerance(accuracy, technique, request, "blocker_rooms");
     EXPECT_GT(accuracy.compared, 1000u);
 }
 

@@ -113,7 +113,7 @@ TEST(CanonicalRays, TheModelOfWaveletsLeavesTheSameArea) {
             const double last = double(2u << rank) - 1;
             std::vector<CellEvent> events;
             for (const RayEvent& event : ray) events.push_back({event.d * last, -std::log1p(-event.alpha)});
-            const std::vector<double> coefficients = haar_coefficients(rank, storage_float, events);
+            const std::vector<double> coefficients = haar_coefficients(rank, events);
             const double made = area(ray, [&](double d) { return std::exp(-haar_depth(coefficients, d * last)); });
             EXPECT_NEAR(made, table[5 + rank].area[r], tolerance) << table[5 + rank].method << ", ray "
                                                                   << "ABCD"[r];
@@ -132,7 +132,7 @@ TEST(CanonicalRays, AColumnOfVoxelsThatIsReadOneSliceInFrontIsWavelets) {
                 for (std::uint32_t k = place.slice; k < slices; ++k)
                     integral[k] += (k == place.slice ? 1 - place.share : 1) * events.back().optical_depth;
             }
-            const std::vector<double> coefficients = haar_coefficients(rank, storage_float, events);
+            const std::vector<double> coefficients = haar_coefficients(rank, events);
             for (int i = 0; i <= 100; ++i) {
                 const double place = i / 100. * (slices - 1);
                 EXPECT_NEAR(sampled_integral(integral, place + .5 - 1, sampling_linear), haar_depth(coefficients, place), 1e-12);

@@ -13,6 +13,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
 
@@ -66,11 +67,7 @@ TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
             const Request request{.frame = frame, .choices = chosen({std::string(technique.name)}, lines_of(point))};
             const Accuracy accuracy = must(session_->judge(request, Stage::transparency, Against::model));
             if (!accuracy.not_supported.empty()) continue;
-            const WorstTexel& w = accuracy.worst;
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst)
-                << fmt::format("({}, {}): got {:.9g} {:.9g} {:.9g}, the model says {:.9g} {:.9g} {:.9g}", w.x, w.y, w.got.x,
-                               w.got.y, w.got.z, w.wanted.x, w.wanted.y, w.wanted.z);
+            expect_within_tolerance(accuracy, technique, request);
             EXPECT_GT(accuracy.compared, 0u) << "all undecided";
         }
 }

@@ -4,6 +4,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
 
@@ -32,11 +33,9 @@ class LeaningNormals : public testing::TestWithParam<const Technique*> {};
 TEST_P(LeaningNormals, AreLitAsTheModelSays) {
     const Technique& technique = *GetParam();
     const auto session = must(Session::open(std::vector<Frame>{leaning_card()}, {.validation = true}));
-    const Accuracy accuracy =
-        must(session->judge({.choices = chosen({std::string(technique.name)})}, Stage::lighting, Against::model));
-    EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse);
-    EXPECT_LE(accuracy.model_worst, technique.tolerance.worst)
-        << "got " << accuracy.worst.got.x << ", the model says " << accuracy.worst.wanted.x;
+    const Request request{.choices = chosen({std::string(technique.name)})};
+    const Accuracy accuracy = must(session->judge(request, Stage::lighting, Against::model));
+    expect_within_tolerance(accuracy, technique, request);
     EXPECT_LT(accuracy.trivial, accuracy.compared) << "the card must be in the picture";
     EXPECT_GT(accuracy.worst.wanted.x, 0) << "and lit";
 }

@@ -6,6 +6,7 @@
 
 #include "passes/registry.h"
 #include "replay/images/image_io.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -55,8 +56,7 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
         for (const std::string& set : method.settings) {
             const Request request{.frame = frame, .choices = chosen({std::string(method.technique)}, {set})};
             const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << set << " " << frame;
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << set << " " << frame;
+            expect_within_tolerance(accuracy, technique, request);
             EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));
         }
 }

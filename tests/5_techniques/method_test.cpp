@@ -86,7 +86,7 @@ std::vector<Figure> judged(const Technique& technique, const Key& key) {
     request.choices = chosen({key.technique});
     const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model_and_truth, &truth));
     if (!accuracy.not_supported.empty()) return {};
-    expect_within_tolerance(accuracy, technique, request, key.scenario);
+    expect_proven_within_tolerance(accuracy, technique, request, key.scenario);
     return accuracy.method;
 }
 

@@ -9,6 +9,7 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/images/image_io.h"
+#include "tests/support/agreement.h"
 #include "tests/support/not_finite.h"
 #include "tests/support/session.h"
 
@@ -126,10 +127,7 @@ TEST_P(HardFrames, AreWhatTheModelsSay) {
         const Request request{.frame = hard_, .choices = chosen({std::string(technique.name)})};
         const auto judged = session_.judge(request, technique.stage, Against::model);
         ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
-        EXPECT_LE(judged->model_rmse, technique.tolerance.rmse) << technique.name;
-        EXPECT_LE(judged->model_worst, technique.tolerance.worst)
-            << technique.name << " " << judged->worst.image << " (" << judged->worst.x << ", " << judged->worst.y << ") layer "
-            << judged->worst.layer;
+        expect_within_tolerance(*judged, technique, request);
     }
 }
 

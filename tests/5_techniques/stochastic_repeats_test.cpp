@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -50,8 +51,7 @@ TEST(StochasticModes, AreWhatTheModelSaysInEveryCombination) {
                 Request request = on_scenario("red_and_green_glass", 4);
                 request.choices = chosen({stochastic}, {mode, subset, correction, "samples=64", "seed=7"});
                 const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-                EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << mode << " " << subset << " " << correction;
-                EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << mode << " " << subset << " " << correction;
+                expect_within_tolerance(accuracy, technique, request, "red_and_green_glass");
             }
 }
 

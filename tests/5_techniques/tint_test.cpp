@@ -5,6 +5,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -58,8 +59,7 @@ TEST(ExhaustiveTintOnTheDevice, IsWhatTheModelSays) {
             Request request = on_scenario(scenario, sets.size() == 2 ? 4 : 1);
             request.choices = chosen({voxel}, sets);
             const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << " " << testing::PrintToString(sets);
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << " " << testing::PrintToString(sets);
+            expect_within_tolerance(accuracy, technique, request, scenario);
         }
 }
 

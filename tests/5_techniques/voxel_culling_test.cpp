@@ -12,6 +12,7 @@
 #include "passes/transparency/voxel/volume/column.h"
 #include "passes/transparency/voxel/volume/volume.h"
 #include "tests/5_techniques/voxel_name.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -146,8 +147,7 @@ TEST(ExhaustiveVoxelPreparedBeforeOpaque, IsWhatTheModelSays) {
     for (const char* resolution : {"resolution=full", "resolution=quarter"}) {
         const Request request = prepared("prepared=before_opaque", {resolution});
         const Accuracy accuracy = must(session->judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << resolution;
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << resolution;
+        expect_within_tolerance(accuracy, technique, request);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "passes/registry.h"
 #include "tests/5_techniques/voxel_name.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -33,8 +34,7 @@ TEST(ExhaustiveVoxelSegmentOnDevice, IsWhatTheModelSays) {
         for (const std::vector<std::string>& sets : combinations) {
             Request request = thick(scenario, sets);
             const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-            EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << scenario << sets.front();
-            EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << scenario << sets.front();
+            expect_within_tolerance(accuracy, technique, request, scenario);
         }
 }
 

@@ -9,6 +9,7 @@
 #include "passes/transparency/voxel/thick_events/segment_model.h"
 #include "passes/transparency/voxel/volume/dimensions.h"
 #include "tests/5_techniques/voxel_name.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -150,8 +151,7 @@ TEST(ExhaustiveVoxelSparse, IsWhatTheModelSaysInCombinations) {
     for (const Sets& sets : combinations) {
         const Request request = sparse_request("glass_and_smoke", sets, 4);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << testing::PrintToString(sets);
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << testing::PrintToString(sets);
+        expect_within_tolerance(accuracy, technique, request, "glass_and_smoke");
     }
 }
 

@@ -7,6 +7,7 @@
 #include "passes/registry.h"
 #include "replay/session/choice_text.h"
 #include "tests/5_techniques/voxel_name.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -68,8 +69,7 @@ TEST(ExhaustiveVoxelVolume, IsWhatTheModelSaysInCombinations) {
         Request request = on_scenario("glass_and_smoke", 4);
         request.choices = chosen({voxel}, sets);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+        expect_within_tolerance(accuracy, technique, request, "glass_and_smoke");
     }
 }
 
@@ -87,8 +87,7 @@ TEST(VoxelVolume, IsWhatTheModelSaysOfInterfaces) {
         Request request = on_scenario("interface_layers", 4);
         request.choices = chosen({voxel}, sets);
         const Accuracy accuracy = must(session_of_scenarios().judge(request, technique.stage, Against::model));
-        EXPECT_LE(accuracy.model_rmse, technique.tolerance.rmse) << sets.front();
-        EXPECT_LE(accuracy.model_worst, technique.tolerance.worst) << sets.front();
+        expect_within_tolerance(accuracy, technique, request, "interface_layers");
     }
 }
 

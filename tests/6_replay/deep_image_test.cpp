@@ -13,6 +13,7 @@
 #include "replay/deep/flatten_deep.h"
 #include "replay/session/loaded_frame.h"
 #include "tests/1_capture/temporary_file.h"
+#include "tests/support/agreement.h"
 #include "tests/support/deep_exr.h"
 #include "tests/support/session.h"
 
@@ -186,10 +187,10 @@ TEST(DeepImportReplayed, IsResolvedByEveryTechniqueWithinItsTolerance) {
     const auto session =
         must(Session::open({must(import_deep(bytes_of(deep_file(wild_image())), "wild", {})).frame}, {.validation = true}));
     for (const Technique* technique : techniques_of(Stage::transparency)) {
-        const Accuracy accuracy = must(session->judge({.choices = chosen({std::string(technique->name)})}, Stage::transparency));
+        const Request request{.choices = chosen({std::string(technique->name)})};
+        const Accuracy accuracy = must(session->judge(request, Stage::transparency));
         EXPECT_GT(accuracy.compared, 300u) << technique->name;
-        EXPECT_LE(accuracy.model_rmse, technique->tolerance.rmse) << technique->name;
-        EXPECT_LE(accuracy.model_worst, technique->tolerance.worst) << technique->name;
+        expect_within_tolerance(accuracy, *technique, request);
         // Exact but for float: sums of a dozen numbers below 1.
         if (technique->stands_in_for_truth) {
             EXPECT_LT(accuracy.method.front().value, 1e-6) << technique->name;

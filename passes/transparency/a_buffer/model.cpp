@@ -11,9 +11,7 @@ namespace strata::transparency {
 namespace {
 
 /// Without a sign, as colors are stored and depths are.
-double stored_as(double x, SmallFloat format) {
-    return rounded(std::clamp(x, 0., format.largest), format, Rounding::to_nearest_code);
-}
+double stored_as(double x, SmallFloat format) { return nearest_code(std::clamp(x, 0., format.largest), format); }
 
 glm::dvec3 through(const Fragment& f, StoredAs kind) {
     return kind == StoredAs::rgb ? f.transmittance : glm::dvec3(1 - coverage(f));

@@ -93,12 +93,12 @@ TEST(FunctionResolve, StallsInPackedFloatsAsTheChapterMeasured) {
 TEST(SmallFloats, RoundAndSaturate) {
     EXPECT_EQ(rounded(1 + 1. / 4096, half_float, Rounding::to_nearest), 1);
     EXPECT_EQ(rounded(1 + 3. / 4096, half_float, Rounding::to_nearest), 1 + 1. / 1024);
-    EXPECT_EQ(rounded(1 + 3. / 4096, half_float), 1);
-    EXPECT_EQ(rounded(-1 - 3. / 4096, half_float), -1);
-    EXPECT_EQ(rounded(7e4, half_float), 65504);
-    EXPECT_EQ(rounded(7e4, float10), 64512);
-    EXPECT_EQ(rounded(1e-9, half_float), 0);
-    EXPECT_EQ(rounded(6e-8, half_float), std::ldexp(1., -24)) << "the smallest denormal";
+    EXPECT_EQ(rounded(1 + 3. / 4096, half_float, Rounding::towards_zero), 1);
+    EXPECT_EQ(rounded(-1 - 3. / 4096, half_float, Rounding::towards_zero), -1);
+    EXPECT_EQ(rounded(7e4, half_float, Rounding::to_nearest), 65504);
+    EXPECT_EQ(rounded(7e4, float10, Rounding::to_nearest), 64512);
+    EXPECT_EQ(rounded(1e-9, half_float, Rounding::to_nearest), 0);
+    EXPECT_EQ(rounded(6e-8, half_float, Rounding::to_nearest), std::ldexp(1., -24)) << "the smallest denormal";
 }
 
 }  // namespace

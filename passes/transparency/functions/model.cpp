@@ -13,8 +13,8 @@ namespace strata::transparency {
 namespace {
 
 /// Adds and rounds as blending into the format does.
-double blended(double sum, double term, std::uint32_t accumulation, SmallFloat format) {
-    return accumulation == accumulation_single ? sum + term : rounded(sum + term, format);
+double blended(double sum, double term, const Summing& how, SmallFloat format) {
+    return how.accumulation == accumulation_single ? sum + term : rounded(sum + term, format, how.rounding);
 }
 
 SmallFloat color_format(std::uint32_t accumulation, int channel) {
@@ -47,7 +47,7 @@ struct Sums {
 Fragment tinted(const Fragment& fragment, double through, const Summing& how, Sums& sums) {
     const glm::dvec2 depths = skew_depths(fragment, through * std::exp(-how.fog_density * fragment.depth));
     const double t = luminance(fragment.transmittance);
-    const auto add = [&](double& sum, double term) { sum = blended(sum, term, how.accumulation, half_float); };
+    const auto add = [&](double& sum, double term) { sum = blended(sum, term, how, half_float); };
     add(sums.normalizer.x, (1 - t) * through);
     add(sums.normalizer.y, optical_depth_in_double(t));
     for (int i = 0; i < 2; ++i) add(sums.skew[i], depths[i]);
@@ -59,19 +59,17 @@ Fragment tinted(const Fragment& fragment, double through, const Summing& how, Su
 }
 
 Sums sums_of(std::span<const Fragment> fragments, const Transmittance& transmittance, const Summing& how) {
-    const std::uint32_t accumulation = how.accumulation;
     Sums sums;
     for (const Fragment& drawn : fragments) {
         const glm::dvec3 through = transmittance(drawn);
         if (how.unseen == Unseen::adds_nothing && through == glm::dvec3(0)) continue;
         const Fragment fragment = how.tint != tint_total ? tinted(drawn, through.x, how, sums) : drawn;
         for (int axis = 0; axis < 2; ++axis)
-            sums.offset[axis] =
-                blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), accumulation, half_float);
+            sums.offset[axis] = blended(sums.offset[axis], fragment.distortion[axis] * luminance(through), how, half_float);
         for (int c = 0; c < 3; ++c) {
             // Grey extinction and weights are one half float each, whatever the color's format.
-            const SmallFloat color = color_format(accumulation, c), weight = how.chromatic ? color : half_float;
-            const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, accumulation, format); };
+            const SmallFloat color = color_format(how.accumulation, c), weight = how.chromatic ? color : half_float;
+            const auto add = [&](double& sum, double term, SmallFloat format) { sum = blended(sum, term, how, format); };
             add(sums.color[c], std::min(fragment.color[c], double(largest_radiance)) * through[c], color);
             add(sums.extinction[c], optical_depth_in_double(fragment.transmittance[c]), weight);
             if (how.tint == tint_total) add(sums.normalizer[c], (1 - fragment.transmittance[c]) * through[c], weight);
@@ -201,7 +199,7 @@ glm::dvec3 function_blend(std::span<const Fragment> fragments, glm::dvec3 behind
 }
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const FunctionOfSample& function) {
-    const Summing how{accumulation, is_chromatic(input.frame)};
+    const Summing how{accumulation, input.rounding, is_chromatic(input.frame)};
     if (!frame_features(input.frame).has(Feature::low_resolution))
         return modelled(input, how,
                         [&](std::span<const Fragment> fragments, glm::uvec3, glm::uvec2) { return Found{function(fragments)}; });
@@ -219,7 +217,11 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     // What a T(z) looks up lives as long as the pixel does.
     Read read;
     const bool chromatic = is_chromatic(input.frame);
-    const Summing how{accumulation, chromatic, model.unseen, chromatic ? model.tint : tint_total,
+    const Summing how{accumulation,
+                      input.rounding,
+                      chromatic,
+                      model.unseen,
+                      chromatic ? model.tint : tint_total,
                       double(input.frame.fog.density)};
     return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         read = read_at(projected, model, extent, glm::uvec2(at));

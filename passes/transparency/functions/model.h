@@ -21,6 +21,7 @@ enum class Unseen { counts, adds_nothing };
 struct Summing {
     /// The sums are rounded to its formats at every blend; accumulation_single stays in double.
     std::uint32_t accumulation = accumulation_single;
+    BlendRounding rounding = {};
     bool chromatic = false;
     Unseen unseen = Unseen::counts;
     std::uint32_t tint = tint_total;

@@ -45,7 +45,7 @@ std::vector<double> bias_moments(const MomentsParams& params) {
 
 /// b0 and the others as the storage keeps them, event by event in submission order. FP32 is part of it: the bias of 5e-7 is only
 /// a few of its steps.
-std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEvent> events) {
+std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEvent> events, Rounding half) {
     std::vector<double> kept(1 + 2 * root_count(params.kind), 0.);
     for (const WarpedEvent& event : events) {
         const std::vector<double> moments = moments_of(params.kind, event.w);
@@ -62,7 +62,8 @@ std::vector<double> stored(const MomentsParams& params, std::span<const WarpedEv
             continue;
         }
         const auto added = [&](double sum, double term) {
-            return params.storage == storage_half ? rounded(sum + term, half_float) : double(static_cast<float>(sum + term));
+            return params.storage == storage_half ? rounded(sum + term, half_float, half)
+                                                  : double(static_cast<float>(sum + term));
         };
         kept[0] = added(before, tau);
         for (std::size_t i = 0; i < moments.size(); ++i) kept[i + 1] = added(kept[i + 1], tau * moments[i]);
@@ -111,7 +112,7 @@ double absorbance_share(std::uint32_t kind, std::span<const double> moments, dou
 
 double transmittance_in_double(const MomentsParams& params, std::span<const WarpedEvent> events, double w,
                                double own_optical_depth) {
-    return transmittance_of(params, stored(params, events), w, own_optical_depth);
+    return transmittance_of(params, stored(params, events, Rounding::to_nearest), w, own_optical_depth);
 }
 
 ImageSet moments_model(const StageInput& input, const Settings& settings) {
@@ -122,13 +123,15 @@ ImageSet moments_model(const StageInput& input, const Settings& settings) {
     const double log_nearest = std::log(double(range.nearest)), log_range = std::log(double(range.farthest)) - log_nearest;
     const auto warped = [=](double z) { return std::clamp(2 * (std::log(z) - log_nearest) / log_range - 1, -1., 1.); };
 
+    const Rounding half = input.rounding.half;
+
     PrepassModel prepass{.divisor = divisor_of(params.resolution)};
     prepass.project = [=](std::span<const Fragment> fragments, glm::uvec2) {
         std::vector<double> all;
         for (std::size_t channel = 0; channel < channels; ++channel) {
             std::vector<WarpedEvent> events;
             for (const Fragment& f : fragments) events.push_back({warped(f.depth), moment_depth(f, channel, channels)});
-            const std::vector<double> kept = stored(params, events);
+            const std::vector<double> kept = stored(params, events, half);
             all.insert(all.end(), kept.begin(), kept.end());
         }
         return all;

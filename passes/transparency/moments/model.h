@@ -18,7 +18,7 @@ double absorbance_share(std::uint32_t kind, std::span<const double> moments, dou
 std::vector<double> quantized(std::uint32_t kind, std::span<const double> moments);
 std::vector<double> dequantized(std::uint32_t kind, std::span<const double> stored);
 
-/// T(w) of optical depths at warped depths, through the whole method at full precision or as stored.
+/// T(w) of optical depths at warped depths, through the whole method at full precision or as stored: half floats to nearest.
 struct WarpedEvent {
     double w = 0, optical_depth = 0;
 };

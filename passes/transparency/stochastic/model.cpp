@@ -83,7 +83,11 @@ double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t
     return std::clamp(mixed, 1e-6, 1.);
 }
 
-BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::dvec3 behind, const StochasticParams& params) {
+BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::dvec3 behind, const StochasticParams& params,
+                               std::optional<Rounding> half) {
+    const auto add = [&](glm::dvec3& sum, glm::dvec3 term) {
+        for (int c = 0; c < 3; ++c) sum[c] = in_half(sum[c] + term[c], half);
+    };
     const std::uint32_t subsamples = subsample_count(params);
     constexpr double uncovered = std::numeric_limits<double>::infinity();
     std::array<double, 64> nearest;
@@ -94,7 +98,8 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
     for (const SeededFragment& fragment : fragments) {
         covered.push_back(covered_by(fragment, params));
         result.undecided |= covered.back().undecided;
-        if (lot_coverage(fragment.event) > 0) reveal *= fragment.event.transmittance;
+        if (lot_coverage(fragment.event) > 0)
+            for (int c = 0; c < 3; ++c) reveal[c] = in_half(reveal[c] * fragment.event.transmittance[c], half);
         for (std::uint32_t s = 0; s < subsamples; ++s)
             if (covered.back().bits >> s & 1) nearest[s] = std::min(nearest[s], std::max(fragment.event.depth, 0.));
     }
@@ -109,9 +114,9 @@ BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::d
         const double share = std::popcount(shown) / double(subsamples), alpha = lot_coverage(event);
         const double weight =
             params.mode == mode_depth_based ? alpha * share : std::popcount(shown & covered[i].bits) / double(subsamples);
-        if (alpha > 0) colors += glm::min(event.color / alpha, glm::dvec3(half_float.largest)) * weight;
-        weights += weight;
-        result.radiance += (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share;
+        if (alpha > 0) add(colors, glm::min(event.color / alpha, glm::dvec3(half_float.largest)) * weight);
+        weights = in_half(weights + weight, half);
+        add(result.radiance, (event.emission + (alpha > 0 ? glm::dvec3(0) : event.color)) * share);
     }
     const auto seen = std::count(nearest.begin(), nearest.begin() + subsamples, uncovered);
     // Without a covered subsample there is no color to correct; hashed alpha is meant to be all or nothing.
@@ -177,7 +182,7 @@ ImageSet stochastic_model(const StageInput& input, const Settings& settings) {
     const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) {
         seeded.clear();
         for (const Fragment& fragment : fragments) seeded.push_back(origins.seeded(fragment, at, params));
-        return stochastic_blend(seeded, behind, params);
+        return stochastic_blend(seeded, behind, params, input.rounding.half);
     };
     return {{"color", blended(background(input), input, blend)}};
 }

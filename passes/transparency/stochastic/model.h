@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "passes/technique.h"
@@ -30,7 +31,9 @@ double mixed_uniformly(double u1, double u2, double l);
 double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed);
 
 /// One sample. Undecided where an alpha is within float rounding of covering one subsample more or less.
-BlendedSample stochastic_blend(std::span<const SeededFragment>, glm::dvec3 behind, const StochasticParams&);
+/// With `half` sums and products are half floats, rounded at every blend.
+BlendedSample stochastic_blend(std::span<const SeededFragment>, glm::dvec3 behind, const StochasticParams&,
+                               std::optional<Rounding> half = {});
 
 ImageSet stochastic_model(const StageInput&, const Settings&);
 

@@ -23,11 +23,6 @@ struct Cells {
     }
 };
 
-/// One sum, in `storage`.
-void add(double& sum, double term, std::uint32_t storage) {
-    sum = storage == storage_half_float ? rounded(sum + term, half_float) : sum + term;
-}
-
 double depth_of(const Fragment& f, std::size_t channel, std::size_t channels) {
     return std::min(channel_depth(f, channel, channels), double(largest_wavelet_depth));
 }
@@ -45,19 +40,19 @@ Cells cells_of(const WaveletParams& params, const DepthRange& range, std::span<c
 
 }  // namespace
 
-std::vector<double> haar_coefficients(std::uint32_t rank, std::uint32_t storage, std::span<const CellEvent> events) {
+std::vector<double> haar_coefficients(std::uint32_t rank, std::span<const CellEvent> events, std::optional<Rounding> half) {
     const std::size_t count = std::size_t{2} << rank;
     std::vector<double> coefficients(count, 0.);
+    const auto add = [&](double& sum, double term) { sum = in_half(sum + term, half); };
     for (const CellEvent& event : events) {
         if (event.optical_depth <= 0) continue;
         const double x = event.place / double(count);
         for (std::uint32_t p = 0; p <= rank; ++p) {
             const double wavelets = std::ldexp(1., int(p)), k = std::floor(x * wavelets);
             const double tent = std::min(x - k / wavelets, (k + 1) / wavelets - x);
-            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], event.optical_depth * std::sqrt(wavelets) * tent,
-                storage);
+            add(coefficients[(std::size_t{1} << p) - 1 + std::size_t(k)], event.optical_depth * std::sqrt(wavelets) * tent);
         }
-        add(coefficients.back(), event.optical_depth * (1 - x), storage);
+        add(coefficients.back(), event.optical_depth * (1 - x));
     }
     return coefficients;
 }
@@ -96,6 +91,7 @@ ImageSet wavelet_model(const StageInput& input, const Settings& settings) {
     const std::size_t channels = channel_count(params.channels, frame_features(input.frame));
     const std::size_t numbers = std::size_t{2} << params.rank;
     const DepthRange range = transparent_depth_range(input.frame);
+    const auto half = params.storage == storage_half_float ? std::optional(input.rounding.half) : std::nullopt;
 
     PrepassModel prepass{.divisor = divisor_of(params.resolution)};
     if (params.bounds == bounds_pixel) prepass.filter = PrepassModel::Filter::nearest;
@@ -106,7 +102,7 @@ ImageSet wavelet_model(const StageInput& input, const Settings& settings) {
         for (std::size_t channel = 0; channel < channels; ++channel) {
             std::vector<CellEvent> events;
             for (const Fragment& f : fragments) events.push_back({cells.place(f.depth), depth_of(f, channel, channels)});
-            const std::vector<double> coefficients = haar_coefficients(params.rank, params.storage, events);
+            const std::vector<double> coefficients = haar_coefficients(params.rank, events, half);
             all.insert(all.end(), coefficients.begin(), coefficients.end());
         }
         return all;

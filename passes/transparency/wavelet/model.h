@@ -2,6 +2,7 @@
 // the master test), except where the storage rounds the coefficients themselves.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "passes/technique.h"
@@ -15,8 +16,8 @@ struct CellEvent {
     double place = 0, optical_depth = 0;
 };
 
-/// The coefficients in heap order, the scaling coefficient last, rounded at every addition if the storage is half floats.
-std::vector<double> haar_coefficients(std::uint32_t rank, std::uint32_t storage, std::span<const CellEvent>);
+/// The coefficients in heap order, the scaling coefficient last. With `half` they are half floats, rounded at every addition.
+std::vector<double> haar_coefficients(std::uint32_t rank, std::span<const CellEvent>, std::optional<Rounding> half = {});
 /// Optical depth in front of a place, mixed from two cells.
 double haar_depth(std::span<const double> coefficients, double place);
 

@@ -16,7 +16,7 @@ CellEvent at(std::uint32_t rank, double depth, double optical_depth) { return {d
 
 TEST(Wavelet, HasTheCoefficientsOfTheChapter) {
     const std::array event{at(1, .3, 1)};
-    const std::vector<double> c = haar_coefficients(1, storage_float, event);
+    const std::vector<double> c = haar_coefficients(1, event);
     ASSERT_EQ(c.size(), 4u);
     EXPECT_NEAR(c[0], .225, 1e-12);
     EXPECT_NEAR(c[1], .318198052, 1e-9);
@@ -25,7 +25,7 @@ TEST(Wavelet, HasTheCoefficientsOfTheChapter) {
     EXPECT_NEAR(haar_depth(c, event[0].place), .09, 1e-12);
 
     const std::array half{at(2, .5, std::log(2.))};
-    const std::vector<double> d = haar_coefficients(2, storage_float, half);
+    const std::vector<double> d = haar_coefficients(2, half);
     const double wanted[] = {.303251891, .061266134, 0, 0, .086643398, 0, 0, .389895289};
     for (std::size_t i = 0; i < d.size(); ++i) EXPECT_NEAR(d[i], wanted[i], 1e-9) << i;
     EXPECT_NEAR(std::exp(-haar_depth(d, half[0].place)), .840896415, 1e-9);
@@ -38,7 +38,7 @@ TEST(Wavelet, IsAVoxelColumnWithLinearSplatsOneSliceBiasAndOtherNumbers) {
         for (int pixel = 0; pixel < 200; ++pixel) {
             std::vector<CellEvent> events;
             for (int i = 0; i < 12; ++i) events.push_back(at(rank, share(random), 3 * share(random)));
-            const std::vector<double> c = haar_coefficients(rank, storage_float, events);
+            const std::vector<double> c = haar_coefficients(rank, events);
             for (int i = 0; i < 20; ++i) {
                 const double place = at(rank, share(random), 0).place;
                 ASSERT_NEAR(haar_depth(c, place), voxel_column_depth(2u << rank, events, place), 1e-12) << rank;
@@ -49,7 +49,7 @@ TEST(Wavelet, IsAVoxelColumnWithLinearSplatsOneSliceBiasAndOtherNumbers) {
 TEST(Wavelet, KnowsWhatShowsThroughEverything) {
     for (std::uint32_t rank = 1; rank <= 4; ++rank) {
         const std::array events{at(rank, 0, .5), at(rank, .37, 2), at(rank, 1, .25)};
-        EXPECT_NEAR(haar_depth(haar_coefficients(rank, storage_float, events), (2u << rank) - 1), 2.5 + .25 * 0, 1e-12);
+        EXPECT_NEAR(haar_depth(haar_coefficients(rank, events), (2u << rank) - 1), 2.5 + .25 * 0, 1e-12);
     }
 }
 
@@ -57,7 +57,7 @@ TEST(Wavelet, KnowsWhatShowsThroughEverything) {
 double blend(std::uint32_t rank, std::uint32_t correction, std::span<const Fragment> fragments, double behind) {
     std::vector<CellEvent> events;
     for (const Fragment& f : fragments) events.push_back(at(rank, f.depth, optical_depth_in_double(f.transmittance.x)));
-    const std::vector<double> c = haar_coefficients(rank, storage_float, events);
+    const std::vector<double> c = haar_coefficients(rank, events);
     const Transmittance function = [&](const Fragment& f) {
         const double place = at(rank, f.depth, 0).place, share = place - std::floor(place);
         double depth = haar_depth(c, place);

@@ -60,8 +60,9 @@ struct Sums {
     }
 };
 
-Sums summed(std::span<const Fragment> fragments, const WeightedParams& params, double near, SumsIn format) {
-    const auto kept = [&](double sum) { return format == SumsIn::halves ? rounded(sum, half_float) : sum; };
+/// In half floats the sums are rounded at every blend, which is how the targets keep them.
+Sums summed(std::span<const Fragment> fragments, const WeightedParams& params, double near, std::optional<Rounding> half) {
+    const auto kept = [&](double sum) { return in_half(sum, half); };
     Sums sums;
     for (const Fragment& fragment : fragments) {
         const double weight = params.form == form_normalized ? weight_in_double(params, near, fragment) : 1;
@@ -92,9 +93,8 @@ glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind, const WeightedParams& p
 
 }  // namespace
 
-glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near,
-                          SumsIn format) {
-    return resolved(summed(fragments, params, near, format), behind, params);
+glm::dvec3 weighted_blend(std::span<const Fragment> fragments, glm::dvec3 behind, const WeightedParams& params, double near) {
+    return resolved(summed(fragments, params, near, std::nullopt), behind, params);
 }
 
 ImageSet weighted_model(const StageInput& input, const Settings& settings) {
@@ -102,7 +102,7 @@ ImageSet weighted_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<WeightedParams>();
     const View& view = input.frame.view;
     const auto sum = [&](std::span<const Fragment> fragments) {
-        return summed(fragments, params, double(view.near), SumsIn::halves);
+        return summed(fragments, params, double(view.near), input.rounding.half);
     };
     const Low low(input, [&](std::span<const Fragment> fragments, glm::uvec2) -> Low::Texel { return {sum(fragments)}; });
     const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {

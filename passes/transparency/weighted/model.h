@@ -12,11 +12,8 @@ namespace strata::transparency {
 /// Weight of a fragment; coverage is 1 - mean(t). `near` is the near plane's distance, for w10.
 double weight_in_double(const WeightedParams&, double near, const Fragment&);
 
-/// Halves: rounded at every blend, as the targets are.
-enum class SumsIn { doubles, halves };
-/// One sample: the weighted average over what shows through.
-glm::dvec3 weighted_blend(std::span<const Fragment>, glm::dvec3 behind, const WeightedParams&, double near,
-                          SumsIn = SumsIn::doubles);
+/// One sample: the weighted average over what shows through, with sums in double.
+glm::dvec3 weighted_blend(std::span<const Fragment>, glm::dvec3 behind, const WeightedParams&, double near);
 
 ImageSet weighted_model(const StageInput&, const Settings&);
 

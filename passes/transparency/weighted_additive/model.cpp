@@ -19,8 +19,8 @@ double mean(const glm::dvec3& v) { return (v.x + v.y + v.z) / 3; }
 double covered(const Fragment& f) { return saturated(coverage(f)); }
 double relative_emission(const Fragment& f, double exposure) { return luminance(f.emission) * exposure; }
 
-double stored(double value, const WeightedAdditiveParams& params) {
-    return params.reveal == reveal_r8 ? std::round(saturated(value) * 255) / 255 : value;
+double stored(double value, const WeightedAdditiveParams& params, std::optional<Rounding> half) {
+    return params.reveal == reveal_r8 ? std::round(saturated(value) * 255) / 255 : in_half(value, half);
 }
 
 }  // namespace
@@ -36,22 +36,27 @@ double additive_weight(const WeightedAdditiveParams& params, double exposure, co
     return additive_depth_weight(params, f.depth) * std::pow(saturated(3 * covered(f) + emission), 3);
 }
 
-AdditiveSums summed(std::span<const Fragment> fragments, const WeightedAdditiveParams& params, double exposure) {
+AdditiveSums summed(std::span<const Fragment> fragments, const WeightedAdditiveParams& params, double exposure,
+                    std::optional<Rounding> half) {
     AdditiveSums sums;
+    const auto add = [&](double& sum, double term) { sum = in_half(sum + term, half); };
+    const auto add_color = [&](glm::dvec3& sum, glm::dvec3 term) {
+        for (int c = 0; c < 3; ++c) add(sum[c], term[c]);
+    };
     const glm::dvec3 brightest(1000);
     for (const Fragment& f : fragments) {
         const double weight = additive_weight(params, exposure, f);
         if (params.normalization == normalization_published) {
-            sums.colors += glm::min(f.color + f.emission, brightest) * weight;
-            sums.weights += weight;
+            add_color(sums.colors, glm::min(f.color + f.emission, brightest) * weight);
+            add(sums.weights, weight);
         } else {
-            sums.colors += glm::min(f.color, brightest) * weight;
-            sums.weights += covered(f) * weight;
-            sums.emissions += glm::min(f.emission, brightest) * weight;
-            if (f.emission != glm::dvec3(0)) sums.emission_weights += weight;
+            add_color(sums.colors, glm::min(f.color, brightest) * weight);
+            add(sums.weights, covered(f) * weight);
+            add_color(sums.emissions, glm::min(f.emission, brightest) * weight);
+            if (f.emission != glm::dvec3(0)) add(sums.emission_weights, weight);
         }
-        for (int c = 0; c < 3; ++c) sums.reveal[c] = stored(sums.reveal[c] * f.transmittance[c], params);
-        sums.additiveness = stored(sums.additiveness + saturated(10 * relative_emission(f, exposure)) / 8, params);
+        for (int c = 0; c < 3; ++c) sums.reveal[c] = stored(sums.reveal[c] * f.transmittance[c], params, half);
+        sums.additiveness = stored(sums.additiveness + saturated(10 * relative_emission(f, exposure)) / 8, params, half);
     }
     return merged(sums, {});
 }
@@ -105,11 +110,11 @@ ImageSet weighted_additive_model(const StageInput& input, const Settings& settin
     const auto params = settings.as<WeightedAdditiveParams>();
     const View& view = input.frame.view;
     const Low low(input, [&](std::span<const Fragment> fragments, glm::uvec2) -> Low::Texel {
-        return {summed(fragments, params, double(view.exposure))};
+        return {summed(fragments, params, double(view.exposure), input.rounding.half)};
     });
     const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) -> BlendedSample {
         const Low::Texel read = low.at(place_of(glm::uvec2(at), {view.width, view.height}));
-        const AdditiveSums all = merged(summed(fragments, params, double(view.exposure)), read.sums);
+        const AdditiveSums all = merged(summed(fragments, params, double(view.exposure), input.rounding.half), read.sums);
         return {composite(all, behind, params), read.undecided};
     };
     return {{"color", blended_at_full_resolution(background(input), input, blend)}};

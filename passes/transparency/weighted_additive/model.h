@@ -1,7 +1,8 @@
 // The method in double precision, from the talk and not from the shader. What is stored in bytes is rounded at every blend, in
-// the order of submission: that is the method. Half floats are not rounded, but they end.
+// the order of submission: that is the method. Half floats end at 65504.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "passes/reference/fragments.h"
@@ -26,8 +27,8 @@ double additive_depth_weight(const WeightedAdditiveParams&, double z);
 /// With the opacity term; exposure scales emission.
 double additive_weight(const WeightedAdditiveParams&, double exposure, const Fragment&);
 
-/// Fragments of one sample, in order of submission.
-AdditiveSums summed(std::span<const Fragment>, const WeightedAdditiveParams&, double exposure);
+/// Fragments of one sample, in order of submission. With `half` what is kept in half floats is rounded at every blend, too.
+AdditiveSums summed(std::span<const Fragment>, const WeightedAdditiveParams&, double exposure, std::optional<Rounding> half = {});
 /// Two resolutions of the same place.
 AdditiveSums merged(const AdditiveSums&, const AdditiveSums&);
 glm::dvec3 composite(const AdditiveSums&, glm::dvec3 behind, const WeightedAdditiveParams&);
