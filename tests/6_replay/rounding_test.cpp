@@ -60,7 +60,7 @@ TEST_P(RoundedModel, AgreesWithTheDeviceByItsRoundingAlone) {
     must(choice.settings.set(param, value));
     const Frame frame = two_hundred_cards();
     const auto session = must(Session::open({frame}, {.validation = true}));
-    const auto run = must(session->run({.uses = {std::string(name)}, .sets = choice.settings.lines(), .outputs = {"color"}}));
+    const auto run = must(session->run({.choices = chosen({std::string(name)}, choice.settings.lines()), .outputs = {"color"}}));
     const Features features = frame_features(frame);
     const ImageSet before{{"color", ReferenceImage(8, 8, 1, {0, 0, 0, 1})}}, result{{"color", in_double(run.images.at("color"))}};
 

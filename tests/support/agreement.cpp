@@ -10,11 +10,14 @@ namespace {
 
 /// Texels that are not background which a comparison must have. What is culled has one texel per draw.
 std::size_t least_nontrivial(Stage stage) { return stage == Stage::culling ? 1 : 16; }
+
+std::string sets_of(const Request& request) { return fmt::format("{}", fmt::join(set_texts(request.choices), " ")); }
+
 }  // namespace
 
 void expect_within_tolerance(const Accuracy& accuracy, const Technique& technique, const Request& request,
                              std::string_view scenario) {
-    const std::string sets = fmt::format("{}", fmt::join(set_texts(request.choices), " "));
+    const std::string sets = sets_of(request);
     const std::string judged = fmt::format("{} {} on {} at {}", technique.name, sets,
                                            scenario.empty() ? fmt::format("frame {}", request.frame) : scenario, request.samples);
     ASSERT_EQ(accuracy.incomparable, "") << judged;
@@ -34,8 +37,7 @@ void expect_proven_within_tolerance(const Accuracy& accuracy, const Technique& t
     const View view = must(session_of_scenarios().frame(request.frame)).view;
     SCOPED_TRACE(fmt::format("reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {} {}",
                              scenario, view.width / request.extent_divisor, view.height / request.extent_divisor, request.samples,
-                             scenario, name(technique.stage),
-                             request.sets.empty() ? "" : fmt::format("--set {}", fmt::join(set_texts(request.choices), " "))));
+                             scenario, name(technique.stage), sets_of(request).empty() ? "" : "--set " + sets_of(request)));
     expect_within_tolerance(accuracy, technique, request, scenario);
     // Two black images agree about nothing; and a model that cannot decide much proves little.
     EXPECT_GE(accuracy.compared - accuracy.trivial, least_nontrivial(technique.stage));
