@@ -184,12 +184,12 @@ struct TimeRatio {
     std::string_view of, against;  ///< the ways; the ratio is the time of the one by that of the other
     /// Parts of the names of the technique's steps that count; none: all of them.
     std::vector<std::string_view> steps = {};
-    /// Stages of which every technique's steps count instead.
-    std::vector<Stage> stages = {};
     std::optional<double> published = {};
     std::string_view source = {};  ///< of what is published: times, machine, extent
     std::string_view scenario = "particle_storm";
     std::vector<std::string_view> counters = {};  ///< that explain it, of either way
+    /// In place of `steps`: stages of which every step counts, whichever technique it belongs to.
+    std::vector<Stage> stages = {};
 };
 
 struct Technique {
