@@ -122,7 +122,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     const auto acts_before = before_last_act(*declared, stage);
     std::vector<std::uint64_t> keys = declared->act_keys;
     if (acts_before) keys.resize(std::min(keys.size(), *acts_before));
-    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys;
     if (!is_known) {
         memo_.drop_unfilled();
         if (!acts_before) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
@@ -152,7 +152,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     if (!execution) return execution.error();
     remember(d, *execution);
     if (!is_known) {
-        found_.emplace(Found{loaded_->key, std::move(keys), {}, {}});
+        found_.emplace(Found{std::move(keys), {}, {}});
         for (const PeekedImage& image : before) found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
     }
     Inspected inspected{.choice = d.choices.at(stage), .result = {}};
