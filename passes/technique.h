@@ -188,7 +188,8 @@ struct TimeRatio {
     std::string_view source = {};  ///< of what is published: times, machine, extent
     std::string_view scenario = "particle_storm";
     std::vector<std::string_view> counters = {};  ///< that explain it, of either way
-    std::vector<Stage> stages = {};               ///< of which every technique's steps count instead of `steps`
+    /// In place of `steps`: stages of which every step counts, whichever technique it belongs to.
+    std::vector<Stage> stages = {};
 };
 
 struct Technique {

@@ -127,7 +127,8 @@ void Model::apply(const ChoiceChanges& changes) {
     const auto made = choose(Frame(), changes);
     if (!made) return;
     Choices choices = choices_;
-    for (const auto& [stage, technique] : changes.techniques) choices.at(stage) = made->at(stage);
+    for (const Technique* technique : changes.techniques)
+        if (technique) choices.at(technique->stage) = made->at(technique->stage);
     change(with(choices), {});
 }
 

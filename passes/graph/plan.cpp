@@ -97,6 +97,14 @@ std::vector<Use> uses(const Step& step) {
     return all;
 }
 
+std::vector<Image> images_written(const Step& step) {
+    std::vector<Image> images;
+    for (const Use& use : uses(step))
+        if (use.image && writes(use.access) && std::ranges::count(images, use.image.id, &Image::id) == 0)
+            images.push_back(use.image);
+    return images;
+}
+
 std::vector<Use> uses(const PlannedStep& planned) {
     std::vector<Use> all = uses(planned.step);
     for (const PlannedBinding& bound : planned.bindings) {

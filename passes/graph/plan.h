@@ -56,6 +56,8 @@ struct Use {
 };
 std::vector<Use> uses(const Step&);         ///< as declared: bindings in their order, attachments, what is cleared or copied
 std::vector<Use> uses(const PlannedStep&);  ///< ... and the offers its shaders take
+/// Every image that the step writes, once.
+std::vector<Image> images_written(const Step&);
 /// What the step does to the part of the image at once: its layout during the step follows from it.
 AccessSet accesses(const PlannedStep&, Image, Part);
 

@@ -54,7 +54,8 @@ Result<SettingChange> parse_setting(const Technique& technique, std::string_view
 
 std::vector<std::string> use_texts(const ChoiceChanges& changes) {
     std::vector<std::string> texts;
-    for (const auto& [stage, technique] : changes.techniques) texts.emplace_back(technique->name);
+    for (const Technique* technique : changes.techniques)
+        if (technique) texts.emplace_back(technique->name);
     return texts;
 }
 

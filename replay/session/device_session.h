@@ -55,8 +55,7 @@ private:
     /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is
     /// kept, and the transparent fragments before it as soon as a model wants them.
     struct Found {
-        std::uint64_t frame = 0;          ///< LoadedFrame::key
-        std::vector<std::uint64_t> keys;  ///< of the acts before; empty: not known to be the same again
+        std::vector<std::uint64_t> keys;  ///< of the acts before (ActKeys: the frame is in each); empty: never the same again
         ImageSet images;
         std::optional<FragmentLists> fragments;
     };

@@ -74,7 +74,7 @@ std::vector<std::pair<const Choice*, Act>> acts_at(Stage stage, const Choices& w
 }  // namespace
 
 void ChoiceChanges::drop(Stage stage) {
-    techniques.erase(stage);
+    techniques[static_cast<std::size_t>(stage)] = nullptr;
     std::erase_if(settings, [&](const SettingChange& change) { return change.technique && change.technique->stage == stage; });
 }
 
@@ -84,7 +84,8 @@ Result<Choices> choose(const Frame& frame, const ChoiceChanges& changes) {
         if (const auto known = techniques_of(stage.stage); !known.empty())
             choices[stage.stage] = {known.front(), Settings(known.front()->params)};
     apply_recorded(frame, choices);
-    for (const auto& [stage, technique] : changes.techniques) choices[stage] = {technique, Settings(technique->params)};
+    for (const Technique* technique : changes.techniques)
+        if (technique) choices[technique->stage] = {technique, Settings(technique->params)};
     for (const SettingChange& change : changes.settings)
         if (const auto done = apply(choices, change); !done) return done.error();
     return choices;

@@ -1,7 +1,9 @@
 // The table of contents of a frame: stages in order, each with its chosen technique, or the reason it is left out.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -32,12 +34,13 @@ struct SettingChange {
 
 /// What a request changes about the choices that a frame was recorded with.
 struct ChoiceChanges {
-    std::map<Stage, const Technique*> techniques;  ///< each with its default settings
-    std::vector<SettingChange> settings;           ///< later ones win
-    void use(const Technique& technique) { techniques[technique.stage] = &technique; }
+    /// By stage, each with its default settings; null: the recorded one with its settings.
+    std::array<const Technique*, std::size(stage_names)> techniques = {};
+    std::vector<SettingChange> settings = {};  ///< later ones win
+    void use(const Technique& technique) { techniques[static_cast<std::size_t>(technique.stage)] = &technique; }
+    const Technique* technique(Stage stage) const { return techniques[static_cast<std::size_t>(stage)]; }
     /// Takes out everything that names a technique of the stage.
     void drop(Stage);
-    bool is_empty() const { return techniques.empty() && settings.empty(); }
     friend bool operator==(const ChoiceChanges&, const ChoiceChanges&) = default;
 };
 

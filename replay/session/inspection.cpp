@@ -12,8 +12,7 @@ namespace {
 /// The last step up to `end` that writes the image, or nothing.
 std::optional<std::size_t> last_write(const Plan& plan, Image image, std::size_t end) {
     for (std::size_t i = std::min(end, plan.steps.size()); i-- > 0;)
-        for (const Barrier& barrier : plan.steps[i].barriers)
-            if (barrier.image.id == image.id && barrier.image && writes(barrier.after)) return i;
+        if (std::ranges::count(images_written(plan.steps[i].step), image.id, &Image::id) > 0) return i;
     return {};
 }
 
@@ -80,11 +79,8 @@ bool is_step_of(const Declaration& d, Stage stage, std::size_t step) {
 
 /// The images of one sample that a step writes.
 std::vector<Image> written_by(const Declaration& d, const PlannedStep& planned) {
-    std::vector<Image> written;
-    for (const Barrier& barrier : planned.barriers) {  // one per mip and layer
-        if (!barrier.image || !writes(barrier.after) || d.graph.shape(barrier.image).samples > 1) continue;
-        if (std::ranges::find(written, barrier.image.id, &Image::id) == written.end()) written.push_back(barrier.image);
-    }
+    std::vector<Image> written = images_written(planned.step);
+    std::erase_if(written, [&](Image image) { return d.graph.shape(image).samples > 1; });
     return written;
 }
 
@@ -126,7 +122,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     const auto acts_before = before_last_act(*declared, stage);
     std::vector<std::uint64_t> keys = declared->act_keys;
     if (acts_before) keys.resize(std::min(keys.size(), *acts_before));
-    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys && found_->frame == loaded_->key;
+    const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys;
     if (!is_known) {
         memo_.drop_unfilled();
         if (!acts_before) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
@@ -156,7 +152,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     if (!execution) return execution.error();
     remember(d, *execution);
     if (!is_known) {
-        found_.emplace(Found{loaded_->key, std::move(keys), {}, {}});
+        found_.emplace(Found{std::move(keys), {}, {}});
         for (const PeekedImage& image : before) found_->images.emplace(image.name, in_double(execution->peeked[image.peek]));
     }
     Inspected inspected{.choice = d.choices.at(stage), .result = {}};

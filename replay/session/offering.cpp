@@ -15,13 +15,13 @@ Result<const Technique*> technique_offering(const Offer& offer, const ChoiceChan
             names.push_back(technique.name);
         }
     if (offering.empty()) return fail(Fault::usage, "every technique that is built in {}", offer.lacking);
-    const auto chosen = choices.techniques.find(offering.front()->stage);
-    if (chosen == choices.techniques.end()) return offering.front();
-    if (!offer.is_made_by(*chosen->second))
+    const Technique* chosen = choices.technique(offering.front()->stage);
+    if (!chosen) return offering.front();
+    if (!offer.is_made_by(*chosen))
         return fail(
-            Fault::usage, "{} {}; {}", chosen->second->name, offer.lacking,
+            Fault::usage, "{} {}; {}", chosen->name, offer.lacking,
             names.size() == 1 ? fmt::format("{} does", names.front()) : fmt::format("these do: {}", fmt::join(names, ", ")));
-    return chosen->second;
+    return chosen;
 }
 
 }  // namespace strata

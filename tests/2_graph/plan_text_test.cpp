@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passes/graph/describe.h"
@@ -35,6 +36,29 @@ TEST(PlanText, AScopeNamesItsTechniqueAndThePlaceWhereThatActs) {
     EXPECT_FALSE(is_act_of(scope, "shadows/some")) << "a copy is not the technique's work";
     EXPECT_EQ(text_of({ScopeKind::view, Stage::shadows, Stage::shadows, "shadows/some", "atlas"}), "view: shadows/some:atlas");
     EXPECT_EQ(text_of({}), "frame");
+}
+
+TEST(ImagesWritten, AreWhatAStepClearsCopiesToStoresOrDrawsIntoEachOnce) {
+    Graph graph;
+    const DrawList list{graph.import("commands", 20, ImportId{1}), graph.import("indices", 12, ImportId{2}), 0, 1};
+    Image read = graph.create("read", small_shape()), depth = graph.create("depth", small_depth()),
+          color = graph.create("color", small_shape()), chain = graph.create("chain", {.extent = {64, 32}, .mips = 2});
+    graph.clear(read, {});
+    graph.copy(read, color);
+    graph.compute("sample.comp").samples("source", read).stores("target", chain, {.mip = 0}).stores("target", chain, {.mip = 1});
+    graph.draw("shade", list).samples("source", read).tests_depth(depth).adds_to(color);
+    graph.draw("paint", list).writes_depth(depth).covers(color);
+    const auto written = [&](std::size_t step) {
+        std::vector<std::string> names;
+        for (const Image image : images_written(graph.steps()[step])) names.push_back(graph.record(image).name);
+        return names;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(written(0), ElementsAre("read"));
+    EXPECT_THAT(written(1), ElementsAre("color"));
+    EXPECT_THAT(written(2), ElementsAre("chain"));
+    EXPECT_THAT(written(3), ElementsAre("color"));
+    EXPECT_THAT(written(4), testing::UnorderedElementsAre("depth", "color"));
 }
 
 /// Opaque draws, a lighting step, and a transparency method with counters and a debug picture nobody asked for.

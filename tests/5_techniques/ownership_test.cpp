@@ -2,7 +2,6 @@
 // device.
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,17 +48,6 @@ void sketch(Sketch& s, const Technique& technique, std::string_view scenario, st
     s.frame = must(declare_frame(s.graph, s.images, choices, technique.needs));
 }
 
-std::set<std::uint32_t> images_written(const Step& step) {
-    std::set<std::uint32_t> ids;
-    for (const Binding& binding : step.bindings)
-        if (writes(binding.access) && binding.image) ids.insert(binding.image.id);
-    for (const Attachment& attachment : step.attachments)
-        if (writes(attachment.access)) ids.insert(attachment.image.id);
-    if (const auto* copy = std::get_if<CopyWork>(&step.work); copy && copy->to) ids.insert(copy->to.id);
-    if (const auto* clear = std::get_if<ClearWork>(&step.work); clear && clear->image) ids.insert(clear->image.id);
-    return ids;
-}
-
 /// "depth in gbuffer/x/fill" for everything the technique's acts write or replace that its stage does not own.
 std::vector<std::string> trespasses(const Sketch& s, const Technique& technique) {
     std::vector<std::string> found;
@@ -73,7 +61,7 @@ std::vector<std::string> trespasses(const Sketch& s, const Technique& technique)
             const Image before = act.before.*row.member;
             if ((after.*row.member).id != before.id) found.push_back(fmt::format("{} is replaced", row.name));
             for (const Step& step : s.graph.steps())
-                if (step.scope == act.scope && before && images_written(step).contains(before.id))
+                if (step.scope == act.scope && before && std::ranges::count(images_written(step), before.id, &Image::id) > 0)
                     found.push_back(fmt::format("{} in {}", row.name, step.name));
         }
     }

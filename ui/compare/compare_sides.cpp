@@ -123,7 +123,7 @@ std::string CompareSides::about(const ChosenSide& side) const {
     if (side.source == Source::variant && side.technique)
         return fmt::format("{} {}", side.technique->name, fmt::join(side.settings.lines(), " "));
     if (side.source != Source::kept || !kept_) return side.picture.picture().about;
-    if (kept_->choices.is_empty()) return "the choices of the capture";
+    if (kept_->choices == ChoiceChanges()) return "the choices of the capture";
     return fmt::format("{} {}", fmt::join(use_texts(kept_->choices), " "), fmt::join(set_texts(kept_->choices), " "));
 }
 

@@ -33,11 +33,7 @@ PlanRow row_of(const Plan& plan, const PlannedStep& planned) {
                 .work = work_text(planned),
                 .short_work = short_work(planned),
                 .draws = draws_of(planned)};
-    for (const Use& use : uses(planned)) {
-        if (!use.image || !writes(use.access)) continue;
-        const std::string& image = plan.images[use.image.id].name;
-        if (std::ranges::find(row.images, image) == row.images.end()) row.images.push_back(image);
-    }
+    for (const Image image : images_written(planned.step)) row.images.push_back(plan.images[image.id].name);
     return row;
 }
 
