@@ -196,10 +196,11 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     report.truth = yardstick->name;
     for (std::size_t i = 0; i < all->size(); ++i) {
         const Variant& variant = (*all)[i];
+        const Tolerance tolerance = tolerance_at(variant.technique->tolerance, variant.settings, {});
         report.rows.push_back({.technique = std::string(variant.technique->name),
                                .settings = variant.settings,
-                               .tolerance = variant.technique->tolerance.rmse,
-                               .tolerated_worst = variant.technique->tolerance.worst,
+                               .tolerance = tolerance.rmse,
+                               .tolerated_worst = tolerance.worst,
                                .model_is = variant.technique->model_is});
         tell(label(variant.technique->name, variant.settings), .1 + .3 * double(i) / double(all->size()));
         auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);

@@ -127,7 +127,7 @@ TEST_P(HardFrames, AreWhatTheModelsSay) {
         const Request request{.frame = hard_, .choices = chosen({std::string(technique.name)})};
         const auto judged = session_.judge(request, technique.stage, Against::model);
         ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
-        expect_within_tolerance(*judged, technique, request);
+        expect_within_tolerance(*judged, technique, request, GetParam().name);  // some are scenarios
     }
 }
 

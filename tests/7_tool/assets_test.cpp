@@ -8,6 +8,7 @@
 
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -40,19 +41,15 @@ class Asset : public testing::TestWithParam<std::filesystem::path> {};
 // Where no assets are, the suite is empty.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Asset);
 
-void expect_within_tolerance(std::string_view technique_name, double rmse, double worst, const std::string& where) {
-    const auto technique = find_technique(technique_name);
-    ASSERT_TRUE(technique) << technique_name;
-    EXPECT_LE(rmse, (*technique)->tolerance.rmse) << where;
-    EXPECT_LE(worst, (*technique)->tolerance.worst) << where;
-}
-
 /// The tool's own report, of the stage that transparent assets are about.
 void expect_report_within_tolerance(const json& report) {
     for (const json& row : report["rows"]) {
         if (row.contains("not_supported")) continue;
-        const json& error = row["implementation_error"];
-        expect_within_tolerance(row["technique"].get<std::string>(), error["rmse"], error["worst"], row.dump(2));
+        const auto technique = find_technique(row["technique"].get<std::string>());
+        ASSERT_TRUE(technique) << row.dump(2);
+        const Tolerance tolerance = tolerance_at((*technique)->tolerance, row["settings"].get<std::string>(), {});
+        EXPECT_LE(row["implementation_error"]["rmse"], tolerance.rmse) << row.dump(2);
+        EXPECT_LE(row["implementation_error"]["worst"], tolerance.worst) << row.dump(2);
     }
 }
 
@@ -63,12 +60,9 @@ void expect_opaque_stages_within_tolerance(const std::filesystem::path& capture)
     for (const Stage stage : {Stage::shadows, Stage::gbuffer, Stage::lighting}) {
         if (std::ranges::find(skipped, stage, &SkippedStage::stage) != skipped.end()) continue;
         for (const Technique* technique : techniques_of(stage)) {
-            const Accuracy accuracy =
-                must(session->judge({.choices = chosen({std::string(technique->name)})}, stage, Against::model));
-            if (!accuracy.not_supported.empty()) continue;
-            const WorstTexel& worst = accuracy.worst;
-            expect_within_tolerance(technique->name, accuracy.model_rmse, accuracy.model_worst,
-                                    fmt::format("worst of {} at ({}, {})", worst.image, worst.x, worst.y));
+            const Request request{.choices = chosen({std::string(technique->name)})};
+            const Accuracy accuracy = must(session->judge(request, stage, Against::model));
+            if (accuracy.not_supported.empty()) expect_within_tolerance(accuracy, *technique, request);
         }
     }
 }

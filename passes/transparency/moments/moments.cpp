@@ -189,11 +189,11 @@ Technique moments() {
                             "a quarter of the card's own optical depth hides it: compensation=own or overestimation=0"}},
         .add = add_function<sums>,
         .model = moments_model,
-        .tolerance = {.rmse = 1.2e-2,
-                      .worst = .4,
-                      .because =
-                          "float sums are a few steps finer than the bias: in a pixel where two panes cross, which of them is in "
-                          "front hangs on their last bits (.37 there, below .1 on every other scenario)"},
+        .tolerance = {.rmse = 2e-3,
+                      .worst = 6e-2,
+                      .because = "float sums are a few steps finer than the bias: where two depths are about its root apart in w "
+                                 "(7e-4), one step of the sums moves T by up to .09 of itself; 5.5e-4 (tail_light), 9.4e-4 (300 "
+                                 "layers in half floats) and .028 (glass_and_smoke, power8) measured on lavapipe"},
     };
 }
 

@@ -161,11 +161,12 @@ Technique stochastic() {
         .model = stochastic_model,
         .model_is = ModelKind::mirror,
         .tolerance =
-            {.rmse = 1e-2,
-             .worst = 8e-2,
+            {.rmse = 3e-4,
+             .worst = 2e-3,
              .because =
                  "which subsamples are covered is the same to the bit; sums and products are rounded to half floats at every "
-                 "blend, by lavapipe towards zero: 200 layers of .01 reveal .1252 (to nearest .1406), not .1340"},
+                 "blend, in the model, too, but a last float bit of a term can turn the rounding of each: 1.3e-4 and 9.3e-4 "
+                 "measured on lavapipe"},
     };
 }
 

@@ -146,7 +146,11 @@ Technique wavelet() {
                            {"H13", 0.231, "panes, smoke and car share a cell"}},
         .add = add_function<sums>,
         .model = wavelet_model,
-        .tolerance = {.rmse = 1e-2, .worst = 1e-1, .because = "to be measured"},
+        .tolerance = {.rmse = 4e-4,
+                      .worst = 5e-3,
+                      .because =
+                          "sums are rounded to half floats at every blend, in the model, too, but a last float bit of a term can "
+                          "turn the rounding of each: 2e-4 and 2.5e-3 measured on lavapipe"},
     };
 }
 
