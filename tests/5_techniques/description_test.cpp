@@ -131,7 +131,7 @@ TEST_P(Description, HasAToleranceWithAReason) {
 std::vector<std::string> texts_in_folder(const Technique& technique, const std::regex& names) {
     std::vector<std::string> texts;
     for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(STRATA_SOURCE_DIR) / "passes" / technique.name))
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(STRATA_SOURCE_DIR) / "passes" / technique.name))
         if (std::regex_match(entry.path().filename().string(), names)) texts.push_back(file_text(entry.path()));
     return texts;
 }
