@@ -25,6 +25,7 @@ enum class Scale : std::uint32_t { linear, logarithmic };
 /// A parameter: it is the command line's option, the slider, the sweep range, the JSON key and the help text.
 struct Param {
     std::string_view name;
+    std::string_view group = {};  ///< heading of this row and those after it, where there are many
     double low = 0, high = 1, fallback = 0;
     std::string_view help;
     Scale scale = Scale::linear;
@@ -109,32 +110,32 @@ private:
     std::vector<double> values_;
 };
 
-using AddFunction = void (*)(Graph&, FrameImages&, const Settings&);
+using DeclareFunction = void (*)(Graph&, FrameImages&, const Settings&);
 
-/// Something a technique does at another stage than its own: before it (preparing) or after it (finishing).
-struct Act {
+/// What a technique does at a stage: its own, or another one before it (preparing) or after it (finishing).
+struct StageWork {
     Stage at;
-    AddFunction add;
+    DeclareFunction declare;
 };
 
-/// A picture of a technique's inside. `add` makes it as an rgba32f image of the frame's extent with one layer.
+/// A picture of a technique's inside. `declare` makes it as an rgba32f image of the frame's extent with one layer.
 struct DebugView {
     std::string_view name, help, unit;
     double low = 0, high = 1;  ///< shown from black to white, in unit
-    Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
+    Image (*declare)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
 struct TableColumn {
     std::string_view name, unit;
 };
 
-/// Numbers of a technique's inside, for JSON and curves. `add` makes them as an rgba32f image one texel wide: a row of the table
-/// per texel, a column per channel. A row that begins with NaN is none.
+/// Numbers of a technique's inside, for JSON and curves. `declare` makes them as an rgba32f image one texel wide: a row of the
+/// table per texel, a column per channel. A row that begins with NaN is none.
 struct DebugTable {
     std::string_view name, help;
     std::vector<TableColumn> columns;  ///< 1 to 4
     std::uint32_t tile = 0;            ///< pixels a side of the tiles, counted row by row, of column "tile"; 0: it has none
-    Image (*add)(Graph&, FrameImages&, const Settings&) = nullptr;
+    Image (*declare)(Graph&, FrameImages&, const Settings&) = nullptr;
 };
 
 /// Variants of a technique's shader, of which every tile is shaded by one: its shading modes.
@@ -215,8 +216,8 @@ struct Technique {
     bool stands_in_for_truth = false;
     /// The common way to do the stage: reports give the others' times as multiples of its time.
     bool is_time_unit = false;
-    AddFunction add = nullptr;
-    std::vector<Act> also = {};
+    DeclareFunction declare = nullptr;
+    std::vector<StageWork> at_other_stages = {};
     Model model = nullptr;
     ModelKind model_is = ModelKind::paper;
     Tolerance tolerance = {};

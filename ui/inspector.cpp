@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/widgets/keys_list.h"
 #include "ui/widgets/widget_tree.h"
 #include "ui/window/keys.h"
@@ -56,7 +56,7 @@ void Inspector::say(LogLine::Kind kind, std::string text) { log_.push_back({kind
 
 void Inspector::say_what_was_opened(const CaptureFacts& facts) {
     say(LogLine::Kind::said,
-        fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), counted(facts.frames, "frame"),
+        fmt::format("opened {} with {} on {} ({} {})", model_.capture.filename().string(), plural(facts.frames, "frame"),
                     facts.device.name, facts.device.driver, facts.device.driver_version));
     for (const std::string& sentence : facts.left_out) say(LogLine::Kind::warned, sentence);
 }
@@ -85,7 +85,7 @@ void Inspector::take_results() {
     for (const std::string& note : replay->run.notes) say(LogLine::Kind::warned, note);
     say(LogLine::Kind::said,
         fmt::format("replayed frame {} in {:.1f} ms: {} executed, {} kept from before", replay->request.frame, replay->ms,
-                    counted(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
+                    plural(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
 }
 
 void Inspector::frame() {
@@ -225,7 +225,7 @@ void Inspector::draw_activity() {
                       &palette().warning);
     } else if (const auto replay = replayer_->shown("A")) {
         widgets_.text("activity",
-                      fmt::format("{} x {}, {}", replay->run.width, replay->run.height, counted(replay->run.samples, "sample")),
+                      fmt::format("{} x {}, {}", replay->run.width, replay->run.height, plural(replay->run.samples, "sample")),
                       &palette().dim);
     } else {
         widgets_.text("activity", "", &palette().dim);

@@ -99,10 +99,10 @@ std::vector<std::uint32_t> Decoder::indices(const flatbuffers::Vector<std::uint3
 
 View Decoder::view(const schema::View& table) {
     return {
-        .origin = same_bits<glm::dvec3>(*table.origin_m()),
-        .to_view = same_bits<glm::dmat3>(*table.to_view()),
-        .projection = same_bits<glm::mat4>(*table.projection()),
-        .jitter = same_bits<glm::vec2>(*table.jitter_ndc()),
+        .origin = bit_copy<glm::dvec3>(*table.origin_m()),
+        .to_view = bit_copy<glm::dmat3>(*table.to_view()),
+        .projection = bit_copy<glm::mat4>(*table.projection()),
+        .jitter = bit_copy<glm::vec2>(*table.jitter_ndc()),
         .width = table.width_px(),
         .height = table.height_px(),
         .samples = table.samples(),
@@ -147,14 +147,14 @@ Material Decoder::material(const schema::Material& table) {
         .name = text(table.name()),
         .lighting_model = static_cast<LightingModel>(table.lighting_model()),
         .alpha_mode = static_cast<AlphaMode>(table.alpha_mode()),
-        .base_color = same_bits<glm::vec4>(*table.base_color()),
+        .base_color = bit_copy<glm::vec4>(*table.base_color()),
         .metallic = table.metallic(),
         .roughness = table.roughness(),
-        .emissive = same_bits<glm::vec3>(*table.emissive_radiance()),
+        .emissive = bit_copy<glm::vec3>(*table.emissive_radiance()),
         .normal_scale = table.normal_scale(),
         .occlusion_strength = table.occlusion_strength(),
         .mask_cutoff = table.mask_cutoff(),
-        .transmission = same_bits<glm::vec3>(*table.transmission()),
+        .transmission = bit_copy<glm::vec3>(*table.transmission()),
         .distortion = table.distortion_uv(),
         .double_sided = table.double_sided(),
         .base_color_texture = texture_use(*table.base_color_texture()),
@@ -170,8 +170,8 @@ Draw Decoder::draw(const schema::Draw& table) {
         .name = text(table.name()),
         .mesh = table.mesh(),
         .material = table.material(),
-        .to_world = same_bits<glm::dmat4>(*table.to_world()),
-        .previous_to_world = same_bits<glm::dmat4>(*table.previous_to_world()),
+        .to_world = bit_copy<glm::dmat4>(*table.to_world()),
+        .previous_to_world = bit_copy<glm::dmat4>(*table.previous_to_world()),
         .mobility = static_cast<Mobility>(table.mobility()),
         .sort_priority = table.sort_priority(),
         .resolution = static_cast<Resolution>(table.resolution()),
@@ -198,20 +198,20 @@ ShadowUse Decoder::shadow(const schema::ShadowUse& table) {
 }
 
 ClipPlane Decoder::clip_plane(const schema::ClipPlane& table) {
-    return {same_bits<glm::dvec3>(*table.normal()), table.distance_m()};
+    return {bit_copy<glm::dvec3>(*table.normal()), table.distance_m()};
 }
 
 Light Decoder::light(const schema::Light& table) {
     return {
         .name = text(table.name()),
         .type = static_cast<LightType>(table.type()),
-        .position = same_bits<glm::dvec3>(*table.position_m()),
-        .direction = same_bits<glm::vec3>(*table.direction()),
-        .axis_u = same_bits<glm::vec3>(*table.axis_u()),
-        .intensity = same_bits<glm::vec3>(*table.intensity()),
+        .position = bit_copy<glm::dvec3>(*table.position_m()),
+        .direction = bit_copy<glm::vec3>(*table.direction()),
+        .axis_u = bit_copy<glm::vec3>(*table.axis_u()),
+        .intensity = bit_copy<glm::vec3>(*table.intensity()),
         .range = table.range_m(),
         .source_radius = table.source_radius_m(),
-        .half_extent = same_bits<glm::vec2>(*table.half_extent_m()),
+        .half_extent = bit_copy<glm::vec2>(*table.half_extent_m()),
         .inner_angle = table.inner_angle_rad(),
         .outer_angle = table.outer_angle_rad(),
         .texture = table.texture(),
@@ -224,9 +224,9 @@ Light Decoder::light(const schema::Light& table) {
 
 Blocker Decoder::blocker(const schema::Blocker& table) {
     return {
-        .center = same_bits<glm::dvec3>(*table.center_m()),
-        .u = same_bits<glm::vec3>(*table.u()),
-        .v = same_bits<glm::vec3>(*table.v()),
+        .center = bit_copy<glm::dvec3>(*table.center_m()),
+        .u = bit_copy<glm::vec3>(*table.u()),
+        .v = bit_copy<glm::vec3>(*table.v()),
         .half_u = table.half_u_m(),
         .half_v = table.half_v_m(),
         .one_sided = table.one_sided(),
@@ -235,9 +235,9 @@ Blocker Decoder::blocker(const schema::Blocker& table) {
 
 Portal Decoder::portal(const schema::Portal& table) {
     return {
-        .center = same_bits<glm::dvec3>(*table.center_m()),
-        .u = same_bits<glm::vec3>(*table.u()),
-        .v = same_bits<glm::vec3>(*table.v()),
+        .center = bit_copy<glm::dvec3>(*table.center_m()),
+        .u = bit_copy<glm::vec3>(*table.u()),
+        .v = bit_copy<glm::vec3>(*table.v()),
         .half_u = table.half_u_m(),
         .half_v = table.half_v_m(),
         .blocker = table.blocker(),
@@ -246,8 +246,8 @@ Portal Decoder::portal(const schema::Portal& table) {
 
 Sun Decoder::sun(const schema::Sun& table) {
     return {
-        .direction = same_bits<glm::vec3>(*table.direction()),
-        .irradiance = same_bits<glm::vec3>(*table.irradiance()),
+        .direction = bit_copy<glm::vec3>(*table.direction()),
+        .irradiance = bit_copy<glm::vec3>(*table.irradiance()),
         .angular_radius = table.angular_radius_rad(),
         .shadow = shadow(*table.shadow()),
         .cascades = table.cascades(),
@@ -260,16 +260,16 @@ LightVolume Decoder::light_volume(const schema::LightVolume& table) {
     return {
         .kind = static_cast<VolumeKind>(table.kind()),
         .occlusion = static_cast<VolumeOcclusion>(table.occlusion()),
-        .center = same_bits<glm::dvec3>(*table.center_m()),
-        .half_extent = same_bits<glm::vec3>(*table.half_extent_m()),
-        .cells = same_bits<glm::uvec3>(*table.cells()),
+        .center = bit_copy<glm::dvec3>(*table.center_m()),
+        .half_extent = bit_copy<glm::vec3>(*table.half_extent_m()),
+        .cells = bit_copy<glm::uvec3>(*table.cells()),
         .cascades = table.cascades(),
         .iterations = table.iterations(),
     };
 }
 
 Rain rain(const schema::Environment& table) {
-    return {table.rain_intensity(), table.rain_wetness(), same_bits<glm::vec3>(*table.rain_direction())};
+    return {table.rain_intensity(), table.rain_wetness(), bit_copy<glm::vec3>(*table.rain_direction())};
 }
 
 Lens lens(const schema::Camera& table) {
@@ -323,9 +323,9 @@ Frame Decoder::decode(const schema::Frame& table) {
         .blockers = list(*table.blockers(), &Decoder::blocker),
         .portals = list(*table.portals(), &Decoder::portal),
         .sun = sun(*table.sun()),
-        .hemisphere = {same_bits<glm::vec3>(*environment.sky_radiance()), same_bits<glm::vec3>(*environment.ground_radiance())},
-        .background = same_bits<glm::vec3>(*environment.background_radiance()),
-        .fog = {environment.fog_density_per_m(), same_bits<glm::vec3>(*environment.fog_radiance())},
+        .hemisphere = {bit_copy<glm::vec3>(*environment.sky_radiance()), bit_copy<glm::vec3>(*environment.ground_radiance())},
+        .background = bit_copy<glm::vec3>(*environment.background_radiance()),
+        .fog = {environment.fog_density_per_m(), bit_copy<glm::vec3>(*environment.fog_radiance())},
         .light_volumes = list(*table.light_volumes(), &Decoder::light_volume),
         .rain = rain(environment),
         .lens = lens(camera),

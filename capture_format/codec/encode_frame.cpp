@@ -54,14 +54,14 @@ private:
     BlobCollector& blobs_;
 };
 
-schema::Vec2 bits(const glm::vec2& v) { return same_bits<schema::Vec2>(v); }
-schema::Vec3 bits(const glm::vec3& v) { return same_bits<schema::Vec3>(v); }
-schema::Vec4 bits(const glm::vec4& v) { return same_bits<schema::Vec4>(v); }
-schema::UVec3 bits(const glm::uvec3& v) { return same_bits<schema::UVec3>(v); }
-schema::DVec3 bits(const glm::dvec3& v) { return same_bits<schema::DVec3>(v); }
-schema::DMat3 bits(const glm::dmat3& m) { return same_bits<schema::DMat3>(m); }
-schema::DMat4 bits(const glm::dmat4& m) { return same_bits<schema::DMat4>(m); }
-schema::Mat4 bits(const glm::mat4& m) { return same_bits<schema::Mat4>(m); }
+schema::Vec2 bits(const glm::vec2& v) { return bit_copy<schema::Vec2>(v); }
+schema::Vec3 bits(const glm::vec3& v) { return bit_copy<schema::Vec3>(v); }
+schema::Vec4 bits(const glm::vec4& v) { return bit_copy<schema::Vec4>(v); }
+schema::UVec3 bits(const glm::uvec3& v) { return bit_copy<schema::UVec3>(v); }
+schema::DVec3 bits(const glm::dvec3& v) { return bit_copy<schema::DVec3>(v); }
+schema::DMat3 bits(const glm::dmat3& m) { return bit_copy<schema::DMat3>(m); }
+schema::DMat4 bits(const glm::dmat4& m) { return bit_copy<schema::DMat4>(m); }
+schema::Mat4 bits(const glm::mat4& m) { return bit_copy<schema::Mat4>(m); }
 schema::Blob named(const BlobName& blob) { return {blob.hash.low, blob.hash.high, blob.bytes}; }
 
 Offset<schema::View> Encoder::view(const View& view) {

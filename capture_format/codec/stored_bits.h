@@ -12,7 +12,7 @@ namespace strata {
 
 /// The same bits as another type, NaN payloads included.
 template <typename To, typename From>
-To same_bits(const From& from) {
+To bit_copy(const From& from) {
     return std::bit_cast<To>(from);
 }
 

@@ -138,7 +138,7 @@ Result<void> BlobStore::read_index(std::size_t number) {
         IndexEntry entry;
         std::memcpy(&entry, stored->data() + sizeof(count) + i * sizeof(IndexEntry), sizeof(IndexEntry));
         if (entry.bytes > section.raw_bytes - offset) break;
-        places_.try_emplace(entry.hash, Place{sections_.size(), offset, entry.bytes});
+        places_.try_emplace(entry.hash, BlobLocation{sections_.size(), offset, entry.bytes});
         blobs.hashes.push_back(entry.hash);
         blobs.sizes.push_back(entry.bytes);
         offset += entry.bytes;

@@ -86,7 +86,7 @@ public:
     std::size_t sections_held() const;
 
 private:
-    struct Place {
+    struct BlobLocation {
         std::size_t section = 0;  ///< in sections_
         std::uint64_t offset = 0, bytes = 0;
     };
@@ -103,7 +103,7 @@ private:
 
     const Container* container_;
     std::vector<BlobsSection> sections_;
-    std::map<BlobHash, Place> places_;
+    std::map<BlobHash, BlobLocation> places_;
     std::uint64_t raw_bytes_ = 0, stored_bytes_ = 0;
 };
 

@@ -32,7 +32,7 @@ float read_value(exr_pixel_type_t type, const std::byte* from) {
 
 void DeepBlock::Storage::Free::operator()(libdeflate_decompressor* freed) const { libdeflate_free_decompressor(freed); }
 
-Error DeepFile::damaged(const Place& place, std::string_view what) {
+Error DeepFile::damaged(const BlockLocation& place, std::string_view what) {
     return fail(Fault::bad_input, "the block of pixels at ({}, {}) {}", place.window.x, place.window.y, what);
 }
 
@@ -55,7 +55,7 @@ Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std
     return {};
 }
 
-Result<void> DeepFile::unpack_table(const Place& place, DeepBlock::Storage& storage) const {
+Result<void> DeepFile::unpack_table(const BlockLocation& place, DeepBlock::Storage& storage) const {
     // At the right and lower border OpenEXR writes the table of a whole tile; only its beginning means something.
     const std::uint64_t pixels = std::uint64_t{place.window.width} * place.window.height;
     for (const std::uint64_t size : {place.table_pixels * sizeof(std::uint32_t), pixels * sizeof(std::uint32_t)}) {
@@ -66,7 +66,7 @@ Result<void> DeepFile::unpack_table(const Place& place, DeepBlock::Storage& stor
     return damaged(place, fmt::format("has a table of counts that does not unpack to its {} pixels", pixels));
 }
 
-Result<void> DeepFile::unpack_counts(const Place& place, DeepBlock& block) const {
+Result<void> DeepFile::unpack_counts(const BlockLocation& place, DeepBlock& block) const {
     const std::size_t pixels = std::size_t{place.window.width} * place.window.height;
     if (const auto done = unpack_table(place, block.storage); !done) return done;
     // Counts are running sums that begin anew in each line.
@@ -89,7 +89,7 @@ Result<void> DeepFile::unpack_counts(const Place& place, DeepBlock& block) const
 Result<std::uint64_t> DeepFile::count_samples(const DeepWindow& window, std::uint64_t most) const {
     std::uint64_t sum = 0;
     DeepBlock block;
-    for (const Place& place : blocks_) {
+    for (const BlockLocation& place : blocks_) {
         if (!overlap(place.window, window)) continue;
         if (const auto done = unpack_counts(place, block); !done) return done.error();
         sum += block.begin.back();
@@ -99,7 +99,7 @@ Result<std::uint64_t> DeepFile::count_samples(const DeepWindow& window, std::uin
 }
 
 Result<DeepBlock> DeepFile::read(std::size_t index, DeepBlock reused) const {
-    const Place& place = blocks_[index];
+    const BlockLocation& place = blocks_[index];
     if (const auto done = unpack_counts(place, reused); !done) return done.error();
     if (place.unpacked > place.samples.size() * largest_expansion)
         return damaged(place, fmt::format("claims {} bytes of samples in {} bytes", place.unpacked, place.samples.size()));

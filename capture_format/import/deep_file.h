@@ -63,7 +63,7 @@ public:
 
 private:
     /// Where a block lies in the file.
-    struct Place {
+    struct BlockLocation {
         DeepWindow window;
         std::uint64_t table_pixels = 0;  ///< of a whole line or tile
         std::span<const std::byte> counts, samples;
@@ -76,12 +76,12 @@ private:
     };
     struct Opening;
 
-    Result<void> unpack_table(const Place&, DeepBlock::Storage&) const;
-    Result<void> unpack_counts(const Place&, DeepBlock&) const;
+    Result<void> unpack_table(const BlockLocation&, DeepBlock::Storage&) const;
+    Result<void> unpack_counts(const BlockLocation&, DeepBlock&) const;
     Result<void> unpack(std::span<const std::byte> packed, std::vector<std::byte>& unpacked, DeepBlock::Storage&) const;
     void set_planes(DeepBlock&) const;
     std::span<const float> plane(DeepBlock&, std::size_t channel) const;
-    static Error damaged(const Place&, std::string_view what);
+    static Error damaged(const BlockLocation&, std::string_view what);
 
     DeepWindow data_, display_;
     std::uint32_t compression_ = 0, deep_parts_ = 0;
@@ -89,7 +89,7 @@ private:
     std::uint64_t sample_bytes_ = 0;                                           ///< of all channels
     std::array<int, static_cast<std::size_t>(DeepChannel::count_)> source_{};  ///< index into channels_, or -1
     std::vector<std::string> ignored_;
-    std::vector<Place> blocks_;
+    std::vector<BlockLocation> blocks_;
 };
 
 }  // namespace strata

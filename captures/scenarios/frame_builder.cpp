@@ -12,7 +12,7 @@ double progress(std::uint32_t frame, const ScenarioOptions& options) {
     return std::min(1.0, (frame + 1.0) / std::max(1u, options.frames));
 }
 
-glm::dmat4 transform(const Place& place) {
+glm::dmat4 transform(const Pose& place) {
     const glm::dmat4 moved = glm::translate(glm::dmat4(1), place.position);
     return glm::scale(glm::rotate(moved, place.yaw, glm::dvec3(0, 1, 0)), place.scale);
 }
@@ -80,7 +80,7 @@ std::uint32_t FrameBuilder::add(Texture texture) {
     return static_cast<std::uint32_t>(frame.textures.size() - 1);
 }
 
-Draw& FrameBuilder::draw(std::uint32_t mesh, std::uint32_t material, const Place& place) {
+Draw& FrameBuilder::draw(std::uint32_t mesh, std::uint32_t material, const Pose& place) {
     Draw& draw = frame.draws.emplace_back();
     draw.name = frame.materials[material].name;
     draw.mesh = mesh;

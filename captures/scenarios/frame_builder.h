@@ -22,12 +22,12 @@ struct Camera {
 };
 
 /// Object to world, rotation around y in radians (counter-clockwise from above), then scale.
-struct Place {
+struct Pose {
     glm::dvec3 position{0};
     double yaw = 0;
     glm::dvec3 scale{1};
 };
-glm::dmat4 transform(const Place&);
+glm::dmat4 transform(const Pose&);
 
 /// Common materials.
 Material lambert(std::string name, glm::vec3 color);
@@ -47,7 +47,7 @@ public:
     std::uint32_t add(Material);
     std::uint32_t add(Texture);
     /// A draw at rest; the reference holds until the next draw.
-    Draw& draw(std::uint32_t mesh, std::uint32_t material, const Place&);
+    Draw& draw(std::uint32_t mesh, std::uint32_t material, const Pose&);
 
     Frame frame;  ///< what has been built
 

@@ -30,7 +30,7 @@ struct Stage {
         builder.frame.background = glm::vec3(0.5f);
     }
 
-    Draw& add_pane(const Material& material, const Place& place) { return builder.draw(pane, builder.add(material), place); }
+    Draw& add_pane(const Material& material, const Pose& place) { return builder.draw(pane, builder.add(material), place); }
 };
 
 /// `count` panes from 2 to 5 m, each a little turned against the last, submitted in shuffled order. Colors go once around.

@@ -12,7 +12,7 @@ People::People(FrameBuilder& builder)
       limb_(builder.add(capsule(0.075f, 0.3f, 12))),
       foot_(builder.add(box({0.06f, 0.04f, 0.13f}))) {}
 
-void People::add(FrameBuilder& builder, std::uint32_t material, const Place& place) const {
+void People::add(FrameBuilder& builder, std::uint32_t material, const Pose& place) const {
     const glm::dmat4 body = transform(place);
     const auto part = [&](std::uint32_t mesh, glm::dvec3 at, double lean) {
         Draw& draw = builder.draw(mesh, material, {});
@@ -28,8 +28,8 @@ void People::add(FrameBuilder& builder, std::uint32_t material, const Place& pla
     }
 }
 
-void add_crate(FrameBuilder& builder, std::uint32_t material, glm::dvec3 half, const Place& place) {
-    Place raised = place;
+void add_crate(FrameBuilder& builder, std::uint32_t material, glm::dvec3 half, const Pose& place) {
+    Pose raised = place;
     raised.position.y += half.y * place.scale.y;
     builder.draw(builder.add(box(glm::vec3(half))), material, raised);
 }

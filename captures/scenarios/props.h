@@ -14,13 +14,13 @@ namespace strata::scenario {
 class People {
 public:
     explicit People(FrameBuilder&);
-    void add(FrameBuilder&, std::uint32_t material, const Place&) const;
+    void add(FrameBuilder&, std::uint32_t material, const Pose&) const;
 
 private:
     std::uint32_t head_, torso_, limb_, foot_;
 };
 
 /// A box with its lower face at y = 0 of `place`, `half` in size.
-void add_crate(FrameBuilder&, std::uint32_t material, glm::dvec3 half, const Place&);
+void add_crate(FrameBuilder&, std::uint32_t material, glm::dvec3 half, const Pose&);
 
 }  // namespace strata::scenario

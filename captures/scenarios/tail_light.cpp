@@ -26,7 +26,7 @@ Frame tail_light(std::uint32_t frame, const ScenarioOptions& options) {
     constexpr double turned = 0.5;
     // Along the lamp's own axes: x to its right, z out of it.
     const auto in_lamp = [&](glm::dvec3 position) {
-        return Place{.position = glm::dvec3(transform({.yaw = turned}) * glm::dvec4(position, 1)), .yaw = turned};
+        return Pose{.position = glm::dvec3(transform({.yaw = turned}) * glm::dvec4(position, 1)), .yaw = turned};
     };
     Material mirror = unlit("mirror", glm::vec4(1));
     mirror.base_color_texture.texture = builder.add(checker(8, glm::vec3(0.9f), glm::vec3(0.35f)));

@@ -165,8 +165,8 @@ enum class ScopeKind : std::uint32_t {
 /// Which technique some steps belong to, and what they are for.
 struct Scope {
     ScopeKind kind = ScopeKind::frame;
-    Stage stage = {};            ///< the technique's own stage
-    Stage at = {};               ///< the place of an act in the frame: another stage than its own for what Technique::also lists
+    Stage stage = {};  ///< the technique's own stage
+    Stage at = {};     ///< the place of an act in the frame: another stage than its own for what Technique::at_other_stages lists
     std::string technique = {};  ///< "transparency/weighted"
     std::string view = {};       ///< the name of a view or table
     friend auto operator<=>(const Scope&, const Scope&) = default;

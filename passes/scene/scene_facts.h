@@ -52,8 +52,8 @@ public:
     DepthRange transparent_depths() const;
     DepthRange world_depths() const;
     float farthest_depth_offset() const;
-    /// Of transparent geometry on images of an extent: see row_bounds.h.
-    const std::vector<std::uint64_t>& row_bounds(Extent) const;
+    /// Of transparent geometry on images of an extent: see most_fragments_by_row.h.
+    const std::vector<std::uint64_t>& most_fragments_by_row(Extent) const;
     TextureUses texture_uses(Surfaces) const;
     /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
     std::uint32_t light_features() const;
@@ -76,8 +76,9 @@ private:
     Kept<std::vector<ShadowView>> views_[2];  ///< by Allocation
     Kept<DepthRange> transparent_depths_, world_depths_;
     Kept<float> farthest_depth_offset_;
-    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint64_t>> row_bounds_;  ///< by width and height
-    Kept<TextureUses> texture_uses_[2];                                                                 ///< by Surfaces
+    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint64_t>>
+        most_fragments_by_row_;          ///< by width and height
+    Kept<TextureUses> texture_uses_[2];  ///< by Surfaces
     Kept<std::uint32_t> light_features_, spectrum_, highest_interface_layer_;
     mutable std::map<std::uint32_t, std::vector<std::uint32_t>> possible_spectra_;  ///< by features
 };

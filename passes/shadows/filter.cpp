@@ -108,14 +108,14 @@ std::vector<DebugView> shadow_map_views() {
              .unit = "",
              .low = 0,
              .high = 1,
-             .add = atlas_view}};
+             .declare = atlas_view}};
 }
 
 std::vector<DebugTable> shadow_map_tables() {
     return {{.name = "map_places",
              .help = "the shadow maps by slot: their layer, their upper left texel in it and their edge",
              .columns = {{"layer", ""}, {"x", "texels"}, {"y", "texels"}, {"size", "texels"}},
-             .add = atlas_table}};
+             .declare = atlas_table}};
 }
 
 }  // namespace strata

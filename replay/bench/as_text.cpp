@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "replay/bench/bench.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/table.h"
 #include "replay/report/variants.h"
 
@@ -38,7 +38,7 @@ std::string details_of(const MeasuredRatio& row) {
     const std::vector<std::string> steps = counted_steps(stated);
     text += wrapped("    ", fmt::format("{} of {}, {} x {}, {} per pixel",
                                         steps.empty() ? "the whole stage" : fmt::format("{}", fmt::join(steps, ", ")),
-                                        row.claim.scene, row.width, row.height, counted(row.samples, "sample")));
+                                        row.claim.scene, row.width, row.height, plural(row.samples, "sample")));
     if (stated.published) text += wrapped("    ", fmt::format("published: {:.2f}, {}", *stated.published, stated.source));
     return text;
 }
@@ -47,7 +47,7 @@ std::string details_of(const MeasuredRatio& row) {
 
 std::string as_text(const Bench& bench) {
     std::string text = fmt::format("device {} ({}), {} of each way, in turn within one run\n", bench.device.name,
-                                   bench.device.driver, counted(bench.repeats, "timed run"));
+                                   bench.device.driver, plural(bench.repeats, "timed run"));
     if (bench.device.software) text += "a CPU renders here: times rank ways on this driver only, they model no GPU\n";
     text += fmt::format("\n{}", as_text(table_of(bench)));
     for (const MeasuredRatio& row : bench.rows) text += fmt::format("\n{}", details_of(row));

@@ -6,8 +6,8 @@
 
 #include "capture_format/expectation_writer.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
 #include "replay/expectations/expectation_check.h"
+#include "replay/plural.h"
 #include "replay/revision.h"
 #include "replay/session/repeat.h"
 
@@ -104,8 +104,8 @@ Result<void> accept(const AcceptArguments& options) {
         if (const auto finished = writer->finish(); !finished) return finished;
     const std::string file = options.open.capture.string();
     if (news == 0) fmt::print("nothing changed: {} stays as it is\n", file);
-    else if (options.dry_run) fmt::print("{} would be expected anew; {} stays as it is\n", counted(news, "frame"), file);
-    else fmt::print("{} expected anew in {}{}\n", counted(news, "frame"), file, options.with_images ? ", images kept" : "");
+    else if (options.dry_run) fmt::print("{} would be expected anew; {} stays as it is\n", plural(news, "frame"), file);
+    else fmt::print("{} expected anew in {}{}\n", plural(news, "frame"), file, options.with_images ? ", images kept" : "");
     return {};
 }
 

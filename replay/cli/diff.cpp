@@ -6,10 +6,10 @@
 
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
+#include "replay/plural.h"
 #include "replay/revision.h"
 
 namespace strata {
@@ -126,7 +126,7 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     comparison.a = describe(options.a, a);
     comparison.b = describe(options.b, b);
     if (options.frames.empty() && a.frame_count() != b.frame_count())
-        return fail(Fault::usage, "A has {} and B {}; choose with --frames", counted(a.frame_count(), "frame"), b.frame_count());
+        return fail(Fault::usage, "A has {} and B {}; choose with --frames", plural(a.frame_count(), "frame"), b.frame_count());
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
     for (const std::size_t frame : *frames) {

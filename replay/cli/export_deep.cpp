@@ -5,10 +5,10 @@
 #include "passes/transparency/truth.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/run_json.h"
-#include "replay/counted.h"
 #include "replay/deep/deep_image.h"
 #include "replay/deep/flatten_deep.h"
-#include "replay/scene/fit_textures.h"
+#include "replay/plural.h"
+#include "replay/scene/shrink_textures.h"
 #include "replay/session/loaded_frame.h"
 
 namespace strata {
@@ -29,7 +29,7 @@ Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samp
     if (options.sample == no_index) return 0u;
     if (options.sample >= samples)
         return fail(Fault::usage, "a pixel of this frame has {}, counted from 0; there is no sample {}",
-                    counted(samples, "sample"), options.sample);
+                    plural(samples, "sample"), options.sample);
     return options.sample;
 }
 
@@ -61,7 +61,7 @@ Result<void> export_deep(const ExportOptions& options) {
     auto loaded = load_frame(*std::move(recorded), variant_of(*request));
     if (!loaded) return loaded.error();
     Frame& frame = (*loaded)->frame;
-    fit_textures(frame, (*session)->device().max_buffer_bytes);
+    shrink_textures(frame, (*session)->device().max_buffer_bytes);
     const auto sample = sample_of(options, frame.view.samples);
     if (!sample) return sample.error();
     const auto run = (*session)->run(*request);
@@ -82,7 +82,7 @@ Result<void> export_deep(const ExportOptions& options) {
     if (!exr) return exr.error();
     if (const auto done = write_whole_file(options.output, *exr); !done) return done;
 
-    fmt::print(stderr, "exported {}", counted(image->begin.back(), "fragment"));
+    fmt::print(stderr, "exported {}", plural(image->begin.back(), "fragment"));
     if (transmittance->second == Transmittance::mean) {
         fmt::print(stderr, "\n");
         return {};

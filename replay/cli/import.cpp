@@ -9,7 +9,7 @@
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -64,8 +64,8 @@ Result<void> import_deep_image(const ImportArguments& options) {
     const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
     if (!recorded) return recorded.error();
     const DeepCensus& census = image->census;
-    fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", counted(census.samples, "sample"),
-               options.scene.filename().string(), counted(census.fragments, "fragment"), counted(census.pixels, "pixel"),
+    fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", plural(census.samples, "sample"),
+               options.scene.filename().string(), plural(census.fragments, "fragment"), plural(census.pixels, "pixel"),
                census.deepest, output_of(options).string());
     return {};
 }
@@ -82,9 +82,9 @@ Result<void> import(const ImportArguments& options) {
     const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
     print_warnings(scene->warnings());
     if (!last) return last.error();
-    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", counted(options.frames, "frame"),
-               counted(last->draws.size(), "draw"), counted(last->materials.size(), "material"),
-               counted(last->textures.size(), "texture"), counted(last->lights.size(), "light"), output_of(options).string());
+    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"),
+               plural(last->draws.size(), "draw"), plural(last->materials.size(), "material"),
+               plural(last->textures.size(), "texture"), plural(last->lights.size(), "light"), output_of(options).string());
     return {};
 }
 

@@ -7,7 +7,7 @@
 
 #include "capture_format/frame_features.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -67,13 +67,13 @@ ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t ind
 
 void print(const Capture& capture, const Frame& frame, std::size_t index) {
     const CaptureSummary& summary = capture.summary();
-    fmt::print("capture {}, format {}, {}, {} bytes{}\n", capture.id(), summary.format_version, counted(summary.frames, "frame"),
+    fmt::print("capture {}, format {}, {}, {} bytes{}\n", capture.id(), summary.format_version, plural(summary.frames, "frame"),
                summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
     if (!summary.notes.empty()) fmt::print("notes: {}\n", summary.notes);
-    fmt::print("{} of meshes, textures and particles: {} bytes, {} unpacked\n", counted(summary.blobs, "blob"),
+    fmt::print("{} of meshes, textures and particles: {} bytes, {} unpacked\n", plural(summary.blobs, "blob"),
                summary.blob_bytes_stored, summary.blob_bytes_raw);
     fmt::print("\nframe {}: {} x {}, {} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
-               counted(frame.view.samples, "sample"), frame.time);
+               plural(frame.view.samples, "sample"), frame.time);
     for (const Count& count : counts(frame))
         if (count.value) fmt::print("  {:>8} {}\n", count.value, count.value == 1 ? count.one : count.name);
     fmt::print("it calls for\n");
@@ -88,7 +88,7 @@ Result<void> info(const InfoArguments& options) {
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
-        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"),
+        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"),
                     options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
@@ -104,7 +104,7 @@ Result<void> validate(const InfoArguments& options) {
         if (const auto frame = capture->frame(i); !frame)
             return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
     fmt::print("{}: {}, every section and every index is sound\n", options.capture.filename().string(),
-               counted(capture->frame_count(), "frame"));
+               plural(capture->frame_count(), "frame"));
     return {};
 }
 

@@ -9,9 +9,9 @@
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/isa/isa_report.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -63,7 +63,7 @@ Result<void> dump(const IsaArguments& options, const std::string& gpu, const Com
             ++written;
             without_assembly += is_ir;
         }
-    fmt::print(stderr, "wrote {} for {} to {}\n", counted(written, "program"), gpu, options.dump.string());
+    fmt::print(stderr, "wrote {} for {} to {}\n", plural(written, "program"), gpu, options.dump.string());
     if (without_assembly > 0)
         fmt::print(stderr, "strata: the driver has no disassembler for {}: what it writes is the compiler's last form, ACO IR\n",
                    gpu);

@@ -41,8 +41,10 @@ void print(const Technique& technique, const ListArguments& options) {
     if (options.what.empty()) return;
     fmt::print("  {:<32}{}\n", "", technique.summary);
     fmt::print("      model: {}\n", model_text(technique.model_is));
-    for (const Param& param : technique.params)
+    for (const Param& param : technique.params) {
+        if (!param.group.empty()) fmt::print("    {}:\n", param.group);
         fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
+    }
     for (const std::string_view point : technique.points) fmt::print("      reported also at {}\n", point);
     for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
     for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
@@ -59,13 +61,17 @@ ordered_json json_of(const Technique& technique) {
                       {"summary", technique.summary},
                       {"model_is", name(technique.model_is)},
                       {"parameters", ordered_json::array()}};
-    for (const Param& param : technique.params)
+    std::string_view group;
+    for (const Param& param : technique.params) {
+        if (!param.group.empty()) group = param.group;
         json["parameters"].push_back({{"name", param.name},
+                                      {"group", group},
                                       {"low", param.low},
                                       {"high", param.high},
                                       {"default", param.fallback},
                                       {"choices", param.choices},
                                       {"help", param.help}});
+    }
     json["points"] = technique.points;
     for (const Counter& counter : technique.counters)
         json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});

@@ -7,7 +7,7 @@
 #include "capture_format/recorder.h"
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -47,7 +47,7 @@ Result<void> record(const RecordArguments& options) {
     }
     if (const auto done = recorder->finish(); !done) return done;
     if (const auto done = file->commit(); !done) return done;
-    fmt::print(stderr, "recorded {} of {} at {} x {} into {}\n", counted(wanted.frames, "frame"), options.scenario, wanted.width,
+    fmt::print(stderr, "recorded {} of {} at {} x {} into {}\n", plural(wanted.frames, "frame"), options.scenario, wanted.width,
                wanted.height, output.string());
     return {};
 }

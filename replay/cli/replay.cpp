@@ -9,9 +9,9 @@
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
-#include "replay/counted.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/images/image_io.h"
+#include "replay/plural.h"
 #include "replay/session/repeat.h"
 
 namespace strata {
@@ -153,7 +153,7 @@ std::string counters_of(const Run& run, std::string_view choice) {
 
 /// A line per stage, in the order of a frame, and what its technique counted below it.
 void print_summary(const Request& request, const Run& run) {
-    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, counted(run.steps.size(), "step"),
+    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, plural(run.steps.size(), "step"),
                double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
     for (const StageInfo& stage : stages()) {
         for (const SkippedStage& skipped : run.skipped)

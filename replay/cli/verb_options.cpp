@@ -11,8 +11,8 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
-#include "replay/counted.h"
 #include "replay/images/image_io.h"
+#include "replay/plural.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
@@ -124,7 +124,7 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
             parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
         if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
         if (last >= count)
-            return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"), last);
+            return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"), last);
         for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
         begin = end + 1;
     }

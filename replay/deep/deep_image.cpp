@@ -16,7 +16,7 @@
 #include <ImfStringAttribute.h>
 
 #include "passes/transparency/sample_blend.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/session/drawn_by.h"
 
 namespace strata {
@@ -41,7 +41,7 @@ Result<void> refuse_chromatic(const FragmentLists& lists, std::uint32_t sample, 
     return fail(Fault::usage,
                 "{} let red, green and blue through differently, {} of them of {}; a plain deep image has one alpha: choose "
                 "--transmittance mean, or channels for AR, AG and AB besides",
-                counted(count, "fragment"), most->second, most->first);
+                plural(count, "fragment"), most->second, most->first);
 }
 
 void add_sample(DeepImage& image, const Fragment& fragment) {

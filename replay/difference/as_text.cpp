@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "replay/counted.h"
 #include "replay/difference/comparison.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -87,7 +87,7 @@ std::string as_text(const Comparison& comparison) {
                 ++images;
                 over += image.verdict == Verdict::over;
             }
-    return text + fmt::format("\n{}: {} of {} over tolerance\n", shouted(verdict(comparison)), over, counted(images, "image"));
+    return text + fmt::format("\n{}: {} of {} over tolerance\n", shouted(verdict(comparison)), over, plural(images, "image"));
 }
 
 }  // namespace strata

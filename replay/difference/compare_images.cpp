@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {

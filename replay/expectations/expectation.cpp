@@ -5,8 +5,8 @@
 #include <xxhash.h>
 #include <nlohmann/json.hpp>
 
-#include "replay/counted.h"
 #include "replay/images/image_io.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -77,7 +77,7 @@ ExpectedOn expected_on(const DeviceInfo& device) {
 }
 
 std::string text(const ExpectedOn& on) {
-    return fmt::format("{}, {} {}, {}, {}", on.device, on.driver, on.driver_version, counted(on.vector_width, "lane"), on.cpu);
+    return fmt::format("{}, {} {}, {}, {}", on.device, on.driver, on.driver_version, plural(on.vector_width, "lane"), on.cpu);
 }
 
 Expectation expectation_of(const Session& session, const Request& request, const Run& run) {

@@ -8,7 +8,7 @@
 #include "replay/gpu/sample_layers.h"
 #include "replay/gpu/step_recorder.h"
 #include "replay/gpu/stopwatch.h"
-#include "replay/measure/lap.h"
+#include "replay/measure/host_timer.h"
 
 namespace strata {
 namespace {
@@ -127,7 +127,7 @@ void VulkanExecutor::fail_on_messages() {
 
 Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     Execution execution;
-    Lap lap;
+    HostTimer timer;
     if (!memory_ || !memory_->serves(plan)) {
         memory_.reset();
         memory_.emplace(*device_, plan);
@@ -140,7 +140,7 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
                 Stopwatch(*device_, intervals),
                 {Readback(*device_), {}},
                 std::vector<HostCopies::Copy>(options.peeks.size())};
-    execution.host_ms.allocate = lap();
+    execution.host_ms.allocate = timer();
     const double pipelines_ms = pipelines_.milliseconds();
     const std::size_t pipelines_before = pipelines_.created();
 
@@ -157,17 +157,17 @@ Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
     commands.end();
     execution.pipelines_created = pipelines_.created() - pipelines_before;
     execution.host_ms.pipelines = pipelines_.milliseconds() - pipelines_ms;
-    execution.host_ms.record = lap() - execution.host_ms.pipelines;
+    execution.host_ms.record = timer() - execution.host_ms.pipelines;
 
     place_ = "run the frame";
     device_->submit(commands);
-    execution.host_ms.render = lap();
+    execution.host_ms.render = timer();
     fail_on_messages();
 
     execution.step_costs = frame.stopwatch.costs();
     for (const HostCopies::Copy& copy : frame.peeked) execution.peeked.push_back(frame.peeks.take(copy));
     read_kept(frame, execution);
-    execution.host_ms.read_back = lap();
+    execution.host_ms.read_back = timer();
     return execution;
 }
 

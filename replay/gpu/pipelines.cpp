@@ -12,7 +12,7 @@
 #include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/raster_state.h"
-#include "replay/measure/lap.h"
+#include "replay/measure/host_timer.h"
 
 namespace strata {
 namespace {
@@ -242,7 +242,7 @@ void PipelineStore::make(const Plan& plan, std::size_t steps, const std::stop_to
     std::vector<Missing*> order;  // the largest first, so that none is left over at the end
     for (auto& [key, one] : missing) order.push_back(&one);
     std::ranges::sort(order, std::ranges::greater(), [](const Missing* one) { return code_bytes(*one->step); });
-    Lap lap;
+    HostTimer timer;
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
         for (std::size_t i = next++; i < order.size() && !stop.stop_requested(); i = next++) try {
@@ -256,7 +256,7 @@ void PipelineStore::make(const Plan& plan, std::size_t steps, const std::stop_to
         for (std::size_t i = 1; i < workers; ++i) others.emplace_back(work);
         work();
     }
-    milliseconds_ += lap();
+    milliseconds_ += timer();
     for (auto& [key, one] : missing)
         if (one.pipeline) pipelines_.emplace(key, *std::move(one.pipeline));
 }
@@ -265,9 +265,9 @@ const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vecto
     const RasterState state = state_of(planned, images, device_->info().software);
     std::string key = key_of(planned, state);
     if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
-    Lap lap;
+    HostTimer timer;
     const auto made_now = pipelines_.emplace(std::move(key), made(planned, state)).first;
-    milliseconds_ += lap();
+    milliseconds_ += timer();
     return made_now->second;
 }
 

@@ -1,8 +1,8 @@
 // The report for people, and the table of GPUs.
 #include <cmath>
 
-#include "replay/counted.h"
 #include "replay/isa/isa_report.h"
+#include "replay/plural.h"
 #include "replay/report/table.h"
 
 namespace strata {
@@ -65,12 +65,12 @@ std::string tiles_text(const TileWaves& waves) {
         table.rows.push_back(std::move(row));
     }
     return fmt::format("\n  {}: {:.2f} waves per SIMD, the mean over {}\n", waves.technique, waves.mean,
-                       counted(waves.tiles, "shaded tile")) +
+                       plural(waves.tiles, "shaded tile")) +
            as_text(table);
 }
 
 std::string describe(const GpuModel& model) {
-    return fmt::format("{}, {} x {} SIMDs, {} MHz", model.board, counted(model.units, model.unit->called), model.unit->simds,
+    return fmt::format("{}, {} x {} SIMDs, {} MHz", model.board, plural(model.units, model.unit->called), model.unit->simds,
                        model.clock_mhz);
 }
 
@@ -78,7 +78,7 @@ std::string describe(const GpuModel& model) {
 
 std::string as_text(const IsaReport& report) {
     std::string text = fmt::format("frame {} of {}, {} x {}, {}\n", report.frame, report.capture, report.width, report.height,
-                                   counted(report.samples, "sample"));
+                                   plural(report.samples, "sample"));
     for (const IsaOfGpu& gpu : report.gpus) {
         text += fmt::format("\n{}{}\n  {}, {}\n", gpu.name, gpu.model ? ": " + describe(*gpu.model) : "", gpu.device, gpu.driver);
         text += as_text(programs_of(gpu));

@@ -6,8 +6,8 @@
 
 #include <fmt/ranges.h>
 
-#include "replay/counted.h"
 #include "replay/isa/tile_waves.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -44,9 +44,9 @@ void draw_legend(Canvas& canvas, int top, const TileWaves& waves, const GpuModel
         const Box swatch{gap, top, 3 * Canvas::line, Canvas::line - 4};
         canvas.fill(swatch, color_of(value, model));
         canvas.outline(swatch, faint);
-        const std::string text = fmt::format("{} waves per SIMD: {} ({:.1f} %), by {}: {} {}", value,
-                                             counted(entry.tiles, "tile"), 100 * double(entry.tiles) / double(waves.tiles),
-                                             fmt::join(entry.limits, ", "), waves.constant, fmt::join(entry.variants, ", "));
+        const std::string text = fmt::format("{} waves per SIMD: {} ({:.1f} %), by {}: {} {}", value, plural(entry.tiles, "tile"),
+                                             100 * double(entry.tiles) / double(waves.tiles), fmt::join(entry.limits, ", "),
+                                             waves.constant, fmt::join(entry.variants, ", "));
         const int left = 2 * gap + swatch.width;
         canvas.text(text, {left, top + 3, canvas.width() - left - gap, 0}, ink);
         top += Canvas::line;
@@ -62,7 +62,7 @@ Canvas tile_waves_picture(const TileWaves& waves, const GpuModel& model) {
     const int lines = static_cast<int>(legend_of(waves).size());
     Canvas canvas(width * zoom + 2 * gap, top + height * zoom + 2 * gap + lines * Canvas::line, paper);
     canvas.text(fmt::format("{}: {:.2f} of {} waves per SIMD over {}", model.name, waves.mean, model.unit->wave_slots,
-                            counted(waves.tiles, "tile")),
+                            plural(waves.tiles, "tile")),
                 {gap, gap, canvas.width() - 2 * gap, 0}, ink);
     for (std::uint32_t y = 0; y < extent.height; ++y)
         for (std::uint32_t x = 0; x < extent.width; ++x)

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "passes/transparency/sample_blend.h"
-#include "replay/counted.h"
 #include "replay/images/image_io.h"
+#include "replay/plural.h"
 #include "replay/probe/order.h"
 #include "replay/probe/probe.h"
 #include "replay/probe/svg.h"
@@ -82,7 +82,7 @@ private:
     void titles() {
         drawing_.text({70, 28}, "Transmittance along the ray: " + place_of(probe_), Anchor::start, 17);
         drawing_.text({70, 48}, fmt::format("{}; T behind them {:.4g}. Methods on {}, mapped to {:.4g} to {:.4g} m",
-                                            counted(probe_.fragments.size(), "fragment"), luminance(probe_.exact_total),
+                                            plural(probe_.fragments.size(), "fragment"), luminance(probe_.exact_total),
                                             probe_.device.name, probe_.nearest, probe_.farthest));
     }
 

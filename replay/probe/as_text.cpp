@@ -1,7 +1,7 @@
 // A probe for a terminal and for spreadsheets.
 #include <cmath>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/probe/order.h"
 #include "replay/probe/probe.h"
 
@@ -53,7 +53,7 @@ std::string figure_lines(const Probe& probe) {
 
 std::string as_text(const Probe& probe) {
     std::string text = fmt::format("{}: {}, exact T behind them {}\n", place_of(probe),
-                                   counted(probe.fragments.size(), "fragment"), rgb_text(probe.exact_total));
+                                   plural(probe.fragments.size(), "fragment"), rgb_text(probe.exact_total));
     if (probe.undecided) text += "which fragments there are hangs on rounding: the device may see others\n";
     text += '\n' + fragment_lines(probe);
     text += fmt::format(

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/pooled.h"
 #include "replay/report/table.h"
 #include "replay/report/variants.h"
@@ -85,7 +85,7 @@ std::string counters_text(const Report& report) {
     std::string text;
     for (const auto& [technique, by_counters] : by_technique)
         for (const auto& [counters, rows] : by_counters) {
-            const std::string several = fmt::format("{} at {}", below_stage(technique), counted(rows.size(), "setting"));
+            const std::string several = fmt::format("{} at {}", below_stage(technique), plural(rows.size(), "setting"));
             text += fmt::format("   {}: {}\n", rows.size() == 1 ? short_label(*rows.front()) : several, counters);
         }
     return text.empty() ? "" : "\ncounted\n" + text;
@@ -117,15 +117,15 @@ std::string implementation_text(const Report& report) {
 std::string heading(const Report& report) {
     std::string text =
         fmt::format("{} of {} frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.capture_name,
-                    report.frame, report.width, report.height, counted(report.samples, "sample"), report.capture_id);
+                    report.frame, report.width, report.height, plural(report.samples, "sample"), report.capture_id);
     text += fmt::format("device {} ({}), {} each, interleaved\n", report.device.name, report.device.driver,
-                        counted(report.repeats, "timed run"));
+                        plural(report.repeats, "timed run"));
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
     text += fmt::format("truth: {}\n", report.truth);
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
-                            counted(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
+                            plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
                             short_number(report.flicker->pan));
     return text;
 }
@@ -150,7 +150,7 @@ std::string as_text(const Report& report) {
 }
 
 std::string as_text(const Pool& pool) {
-    std::string text = fmt::format("{} of {}: geometric means\n\n", name(pool.stage), counted(pool.captures, "capture"));
+    std::string text = fmt::format("{} of {}: geometric means\n\n", name(pool.stage), plural(pool.captures, "capture"));
     Table table{.heads = {pool.error}, .rows = {}};
     const auto has_flicker = [](const PooledRow& row) { return row.flicker.has_value(); };
     const bool flickers = !pool.rows.empty() && std::ranges::all_of(pool.rows, has_flicker);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/flicker.h"
 #include "replay/report/variants.h"
 
@@ -58,7 +58,7 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
     return fail(Fault::usage,
                 "{} x {} at {} per pixel is too large for the truth of {} in double, and no technique can stand in; record a "
                 "smaller frame",
-                view.width, view.height, counted(view.samples, "sample"), name(wanted.stage));
+                view.width, view.height, plural(view.samples, "sample"), name(wanted.stage));
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {

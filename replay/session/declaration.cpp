@@ -33,7 +33,7 @@ Result<void> add_inside(Declaration& d, const std::string& output) {
         const auto make = [&](const auto& candidate) {
             d.graph.enter({ScopeKind::view, stage, stage, std::string(technique), std::string(wanted)},
                           choice.technique->counter_bytes);
-            const Image image = candidate.add(d.graph, d.images, choice.settings);
+            const Image image = candidate.declare(d.graph, d.images, choice.settings);
             d.graph.keep(image);
             return image;
         };

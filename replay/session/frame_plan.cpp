@@ -51,23 +51,23 @@ Result<void> check_needs(const Technique& technique, const Capabilities& device)
 }
 
 /// Declares what the technique does at one place of the frame, in a scope of its own.
-DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const Act& what) {
+DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const StageWork& what) {
     const Technique& technique = *choice.technique;
     graph.enter({ScopeKind::act, technique.stage, what.at, std::string(technique.name)}, technique.counter_bytes);
     const auto scope = static_cast<std::uint32_t>(graph.scopes().size() - 1);
     DeclaredAct declared{&technique, what.at, scope, images};
-    what.add(graph, images, choice.settings);
+    what.declare(graph, images, choice.settings);
     return declared;
 }
 
 /// Every act in the order of the frame: a stage's own technique first, then what others do there.
-std::vector<std::pair<const Choice*, Act>> acts_at(Stage stage, const Choices& wanted) {
-    std::vector<std::pair<const Choice*, Act>> acts;
+std::vector<std::pair<const Choice*, StageWork>> acts_at(Stage stage, const Choices& wanted) {
+    std::vector<std::pair<const Choice*, StageWork>> acts;
     for (const auto& [own, choice] : wanted)
-        if (own == stage) acts.push_back({&choice, {stage, choice.technique->add}});
+        if (own == stage) acts.push_back({&choice, {stage, choice.technique->declare}});
     for (const auto& [own, choice] : wanted)
-        for (const Act& also : choice.technique->also)
-            if (also.at == stage) acts.push_back({&choice, also});
+        for (const StageWork& other : choice.technique->at_other_stages)
+            if (other.at == stage) acts.push_back({&choice, other});
     return acts;
 }
 

@@ -4,8 +4,8 @@
 
 #include "passes/frame_images.h"
 #include "passes/registry.h"
-#include "replay/counted.h"
 #include "replay/measure/flip.h"
+#include "replay/plural.h"
 
 namespace strata {
 namespace {
@@ -66,7 +66,7 @@ void compare(std::string_view name, const ReferenceImage& got, const ReferenceIm
 }
 
 std::string extent_text(const ReferenceImage& image) {
-    return fmt::format("{} x {} with {}", image.width, image.height, counted(image.layers, "layer"));
+    return fmt::format("{} x {} with {}", image.width, image.height, plural(image.layers, "layer"));
 }
 
 bool same_extent(const ReferenceImage& a, const ReferenceImage& b) {
@@ -88,7 +88,7 @@ std::string incomparable_with_model(const StageInfo& of_stage, const ImageSet& r
         if (!same_extent(got->second, wanted))
             return fmt::format("{} is {}, the model's is {}", name, extent_text(got->second), extent_text(wanted));
         if (got->second.channels != wanted.channels)
-            return fmt::format("{} has {}, the model's has {}", name, counted(got->second.channels, "channel"), wanted.channels);
+            return fmt::format("{} has {}, the model's has {}", name, plural(got->second.channels, "channel"), wanted.channels);
     }
     for (const std::string_view output : of_stage.outputs)
         if (result.contains(output) && !model.contains(output) && !is_coded(output))

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
-#include "replay/counted.h"
 #include "replay/gpu/measured_rounding.h"
 #include "replay/measure/host_memory.h"
-#include "replay/measure/lap.h"
-#include "replay/scene/fit_textures.h"
+#include "replay/measure/host_timer.h"
+#include "replay/plural.h"
+#include "replay/scene/shrink_textures.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 
@@ -44,7 +44,7 @@ std::size_t DeviceSession::frame_count() const {
 Result<Frame> DeviceSession::frame(std::size_t index) {
     const std::size_t count = frame_count();
     if (index >= count)
-        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", counted(count, "frame"), index);
+        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"), index);
     if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
     return std::get<std::vector<Frame>>(source_)[index];
 }
@@ -105,16 +105,16 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
     if (const auto on = check_going(); !on) return on.error();
     const FrameVariant variant = variant_of(request);
     times_ = {};
-    Lap lap;
+    HostTimer timer;
     if (!loaded_ || loaded_->variant != variant) {
         auto recorded = frame(request.frame);
         if (!recorded) return recorded.error();
         if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
-        times_.load = lap();
+        times_.load = timer();
     }
     auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
     if (!declared) memo_.drop_unfilled();
-    times_.declare = lap();
+    times_.declare = timer();
     return declared;
 }
 
@@ -122,7 +122,7 @@ Result<void> DeviceSession::load(Frame frame, const FrameVariant& variant) {
     auto loaded = load_frame(std::move(frame), variant);
     if (!loaded) return loaded.error();
     loaded_ = *std::move(loaded);
-    loaded_->notes = fit_textures(loaded_->frame, device().max_buffer_bytes);
+    loaded_->notes = shrink_textures(loaded_->frame, device().max_buffer_bytes);
     not_uploaded_ = scene_records(loaded_->facts);
     scene_.describe(*not_uploaded_);
     return {};
@@ -158,14 +158,14 @@ Result<BlendRounding> DeviceSession::rounding() {
 
 void DeviceSession::upload_scene() {
     if (!not_uploaded_) return;
-    Lap lap;
+    HostTimer timer;
     if (memory_budget_ != 0) {  // the old frame's memory goes first
         executor_->forget_plan();
         scene_.forget();
     }
     scene_.upload(*not_uploaded_);
     not_uploaded_.reset();
-    times_.upload = lap();
+    times_.upload = timer();
 }
 
 void DeviceSession::make_remembered(const Plan& plan) {
@@ -216,7 +216,7 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
     run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;
     if (const std::size_t replaced = shader_sets_.empty() ? 0 : shader_sets_.back()->compiled.size())
-        run.notes.push_back(fmt::format("{} replaced at run time", counted(replaced, "shader")));
+        run.notes.push_back(fmt::format("{} replaced at run time", plural(replaced, "shader")));
     run.pipelines_created = execution.pipelines_created;
     run.host_ms = times_;
     const DeviceMemory memory = executor_->memory();

@@ -3,7 +3,7 @@
 
 #include <fmt/ranges.h>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/table.h"
 #include "replay/spectra/spectra.h"
 
@@ -39,7 +39,7 @@ std::string modes_text(const SpectraReport& report) {
         for (const lighting::SpectrumRow& row : report.rows)
             if (row.mode == i) tiles += row.tiles;
         text += fmt::format("mode {:2}  0x{:04x}  cost {}  {} ({:.1f} %){}\n", i, mode.features, short_number(mode.cost),
-                            counted(tiles, "tile"), share(double(tiles), double(all_tiles(report))),
+                            plural(tiles, "tile"), share(double(tiles), double(all_tiles(report))),
                             report.costs.waves ? fmt::format("  {} waves per SIMD", report.costs.waves(mode.features)) : "");
         text += wrapped("    ", mode.features == 0 ? "no feature" : lighting::braced_names(mode.features));
         if (const std::string unused = superfluous_text(report.rows, i); !unused.empty())
@@ -55,7 +55,7 @@ std::string prediction_text(const SpectraReport& report) {
     std::string text = fmt::format("Predicted ({}{}):\n", report.costs.unit,
                                    report.wish.aim == lighting::Aim::worst ? ", of the worst frame" : "");
     text += line("one full mode", report.full) + line("the modes it was replayed with", report.as_replayed);
-    text += line(fmt::format("{}{}", counted(report.found.modes.size(), "mode"),
+    text += line(fmt::format("{}{}", plural(report.found.modes.size(), "mode"),
                              report.found.proven ? ", proven the best" : ", the best found"),
                  report.by_modes);
     return text + line("a mode for every spectrum", report.ideal);
@@ -75,8 +75,8 @@ std::string as_text(const SpectraReport& report) {
     std::set<std::string> captures;
     for (const FrameSpectra& frame : report.frames) captures.insert(frame.capture);
     std::string text = fmt::format(
-        "{}: {} of {}, {} with something to light, {}; costs: {}\n\n", report.technique, counted(report.frames.size(), "frame"),
-        counted(captures.size(), "capture"), counted(all_tiles(report), "tile"),
+        "{}: {} of {}, {} with something to light, {}; costs: {}\n\n", report.technique, plural(report.frames.size(), "frame"),
+        plural(captures.size(), "capture"), plural(all_tiles(report), "tile"),
         report.rows.size() == 1 ? std::string("1 spectrum") : fmt::format("{} spectra", report.rows.size()), report.cost_source);
     text += modes_text(report) + "\n" + prediction_text(report) + waves_text(report) +
             "\nThe most frequent spectra by these modes:\n";

@@ -108,7 +108,7 @@ TEST_P(Description, HasViewsThatCanBeShown) {
     expect_distinct_and_explained(GetParam().views);
     for (const DebugView& view : GetParam().views) {
         EXPECT_LT(view.low, view.high) << view.name;
-        EXPECT_NE(view.add, nullptr) << view.name;
+        EXPECT_NE(view.declare, nullptr) << view.name;
     }
 }
 
@@ -190,7 +190,7 @@ TEST_P(Description, WithAModelThatRunsTheShadersFunctionsSaysThatItIsAMirror) {
     EXPECT_EQ(shares, technique.model_is == ModelKind::mirror);
 }
 
-TEST_P(Description, AddsSomething) { EXPECT_NE(GetParam().add, nullptr); }
+TEST_P(Description, DeclaresSomething) { EXPECT_NE(GetParam().declare, nullptr); }
 
 TEST(Stages, AStageWithTechniquesHasATruthAJudgeAndScenariosThatExist) {
     for (const StageInfo& stage : stages()) {

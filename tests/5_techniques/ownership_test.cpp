@@ -92,7 +92,7 @@ TEST(Trespassing, IsSeenInStepsAndInHandles) {
         graph.clear(frame.light, {});
         frame.depth_layers = graph.create("my own depth", {.extent = frame.extent, .format = Format::r32f});
     };
-    const Technique technique{.stage = Stage::transparency, .name = "transparency/trespasser", .add = trespass};
+    const Technique technique{.stage = Stage::transparency, .name = "transparency/trespasser", .declare = trespass};
     Sketch s;
     sketch(s, technique, "glass_and_smoke", 1);
     EXPECT_THAT(trespasses(s, technique), testing::UnorderedElementsAre("light in clear light", "depth_layers is replaced"));

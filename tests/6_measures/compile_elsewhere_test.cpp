@@ -14,12 +14,12 @@ namespace files = std::filesystem;
 using testing::HasSubstr;
 
 /// A folder of its own with a driver's description in it, and an environment that leads there.
-struct Place {
+struct DriverFolder {
     files::path folder;
     std::vector<std::string> variables;
     std::vector<const char*> environment;
 
-    explicit Place(const std::string& driver) {
+    explicit DriverFolder(const std::string& driver) {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
         folder = files::path(testing::TempDir()) / "strata_isa" / test->name();
         files::remove_all(folder);
@@ -50,7 +50,7 @@ constexpr const char* radv = "radeon_icd.x86_64.json";
 constexpr const char* empty_answer = R"(echo '{"device":"'$RADV_FORCE_FAMILY'","driver":"'$VK_ICD_FILENAMES'","pipelines":[]}')";
 
 TEST(CompileElsewhere, FindsRadvWhereTheLoaderWould) {
-    Place place(radv);
+    DriverFolder place(radv);
     const auto found = find_radv(place.environment.data());
     ASSERT_TRUE(found) << found.error().sentence;
     EXPECT_THAT(*found, HasSubstr((place.folder / "vulkan/icd.d" / radv).string()));
@@ -61,7 +61,7 @@ TEST(CompileElsewhere, FindsRadvWhereTheLoaderWould) {
 }
 
 TEST(CompileElsewhere, WithoutRadvNamesThePackageToInstall) {
-    const Place place("lvp_icd.x86_64.json");
+    const DriverFolder place("lvp_icd.x86_64.json");
     const auto made = place.compile("bonaire", empty_answer);
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().fault, Fault::device_lacks);
@@ -69,7 +69,7 @@ TEST(CompileElsewhere, WithoutRadvNamesThePackageToInstall) {
 }
 
 TEST(CompileElsewhere, GivesTheProcessTheFamilyAndTheDriver) {
-    const Place place(radv);
+    const DriverFolder place(radv);
     const auto made = place.compile("ps4", empty_answer);
     ASSERT_TRUE(made) << made.error().sentence;
     EXPECT_EQ(made->device, "bonaire");
@@ -77,7 +77,7 @@ TEST(CompileElsewhere, GivesTheProcessTheFamilyAndTheDriver) {
 }
 
 TEST(CompileElsewhere, ACrashIsASentenceWithWhatItSaidLast) {
-    const Place place(radv);
+    const DriverFolder place(radv);
     const auto made = place.compile("bonaire", "echo first >&2; echo 'out of luck' >&2; kill -SEGV $$");
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().fault, Fault::device_failed);
@@ -85,7 +85,7 @@ TEST(CompileElsewhere, ACrashIsASentenceWithWhatItSaidLast) {
 }
 
 TEST(CompileElsewhere, AFamilyThatALaterMesaRenamedIsTriedByItsLaterName) {
-    const Place place(radv);
+    const DriverFolder place(radv);
     const auto made = place.compile(
         "gfx1100",
         std::string("[ $RADV_FORCE_FAMILY = navi31 ] || { echo 'radv: Unknown family' >&2; kill -ABRT $$; }\n") + empty_answer);
@@ -94,7 +94,7 @@ TEST(CompileElsewhere, AFamilyThatALaterMesaRenamedIsTriedByItsLaterName) {
 }
 
 TEST(CompileElsewhere, AFailureKeepsItsKindAndItsSentence) {
-    const Place place(radv);
+    const DriverFolder place(radv);
     const auto made = place.compile("bonaire", "echo 'strata: it lacks everything' >&2; exit 4");
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().fault, Fault::device_lacks);

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/frame/timeline.h"
@@ -276,7 +276,7 @@ TEST(FramePanel, HasTimeMemoryAndWorkBesideEveryActAndStep) {
     desk.expect_no_conflicts();
     must(desk.player->choose("Frame/beside", "Work"));
     for (const FrameAct& act : rows.acts) {
-        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", text_of(act.scope))), counted(act.end - act.first, "step"));
+        EXPECT_EQ(desk.said(fmt::format("Frame/{} work", text_of(act.scope))), plural(act.end - act.first, "step"));
         EXPECT_EQ(desk.said(fmt::format("Frame/{} waits", text_of(act.scope))), fmt::format("{}", act.barriers));
     }
     EXPECT_EQ(desk.said(path_of(*replay, step) + " work"), replay->steps[step].short_work);

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/plan/plan_chart.h"
@@ -94,7 +94,7 @@ TEST(PlanPanel, SaysWhatASelectedStepWaitsForAndTouches) {
     must(desk.player->click("tabs/Plan"));
     must(desk.player->wait());
     const auto replay = desk.replay();
-    EXPECT_THAT(desk.said("Plan/counts"), HasSubstr(counted(replay->steps.size(), "step")));
+    EXPECT_THAT(desk.said("Plan/counts"), HasSubstr(plural(replay->steps.size(), "step")));
     const auto busiest = std::ranges::max_element(replay->steps, {}, &PlanRow::barriers);
     const auto index = static_cast<std::size_t>(busiest - replay->steps.begin());
     desk.model().step = index;

@@ -14,7 +14,7 @@
 #include "capture_format/recorder.h"
 #include "consumer/engine.h"
 #include "passes/registry.h"
-#include "replay/measure/lap.h"
+#include "replay/measure/host_timer.h"
 #include "replay/measure/timing.h"
 #include "tests/support/session.h"
 
@@ -46,9 +46,9 @@ public:
     double run(const std::string& arguments) const {
         const std::string command =
             fmt::format("cd '{}' && '{}/strata' {} > out.txt 2> err.txt", folder_.string(), STRATA_BINARY_DIR, arguments);
-        Lap lap;
+        HostTimer timer;
         if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: strata " + arguments);
-        return lap();
+        return timer();
     }
 
 private:

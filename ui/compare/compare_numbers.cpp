@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata::ui {
 
@@ -21,7 +21,7 @@ std::string flip_help(const ComparedPictures& compared) {
         "{:.3g}\nfor a person 0.7 m before a monitor 0.7 m wide with 3840 pixels",
         flip->median, flip->high);
     if (flip->exposures.count > 0)
-        text += fmt::format("\nthe worst of {} from {:+.1f} to {:+.1f} stops", counted(flip->exposures.count, "exposure"),
+        text += fmt::format("\nthe worst of {} from {:+.1f} to {:+.1f} stops", plural(flip->exposures.count, "exposure"),
                             flip->exposures.start, flip->exposures.stop);
     return text;
 }
@@ -37,7 +37,7 @@ std::string worst_text(const ComparedPictures& compared) {
     const WorstPixel& at = error.worst_pixel;
     const std::string far = std::isinf(error.worst) ? fmt::format("{:.3g} against {:.3g}", at.a, at.b)
                             : error.kind == ImageError::Kind::depth
-                                ? counted(static_cast<std::uint64_t>(error.worst), "float step")
+                                ? plural(static_cast<std::uint64_t>(error.worst), "float step")
                                 : fmt::format("{:.4g}", error.worst);
     return fmt::format("worst {} at {} {}{}{}", far, at.x, at.y, at.layer > 0 ? fmt::format(" layer {}", at.layer) : "",
                        error.channels > 1 ? letters[at.channel] : "");
@@ -53,9 +53,9 @@ std::string oddities_text(const ComparedPictures& compared) {
     std::string text;
     if (error.in_a.nan + error.in_b.nan > 0) text += fmt::format("NaN: {} in A, {} in B  ", error.in_a.nan, error.in_b.nan);
     if (error.in_a.inf + error.in_b.inf > 0) text += fmt::format("infinite: {} in A, {} in B  ", error.in_a.inf, error.in_b.inf);
-    if (error.disagreeing > 0) text += fmt::format("{} in one alone, in no RMSE  ", counted(error.disagreeing, "value"));
+    if (error.disagreeing > 0) text += fmt::format("{} in one alone, in no RMSE  ", plural(error.disagreeing, "value"));
     if (compared.undecided > 0)
-        text += fmt::format("{} where rounding decides coverage count as equal", counted(compared.undecided, "texel"));
+        text += fmt::format("{} where rounding decides coverage count as equal", plural(compared.undecided, "texel"));
     return text;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "passes/graph/describe.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -76,12 +76,12 @@ void FrameColumns::draw_act(Widgets& widgets, const ShownFrame& frame, const Fra
     }
     const bool is_memory = beside_ == Beside::memory;
     text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "made" : "work"),
-                  is_memory ? size_or_nothing(act.made_bytes) : counted(act.end - act.first, "step"));
-    widgets.help(is_memory ? "images and buffers that its steps are the first to use" : counted(act.draws, "draw"));
+                  is_memory ? size_or_nothing(act.made_bytes) : plural(act.end - act.first, "step"));
+    widgets.help(is_memory ? "images and buffers that its steps are the first to use" : plural(act.draws, "draw"));
     ImGui::TableSetColumnIndex(column + 1);
     text_at_right(widgets, fmt::format("{} {}", text_of(act.scope), is_memory ? "alive" : "waits"),
                   is_memory ? size_or_nothing(act.alive_bytes) : fmt::format("{}", act.barriers));
-    widgets.help(is_memory ? "the most that is alive at one of its steps" : counted(act.barriers, "barrier"));
+    widgets.help(is_memory ? "the most that is alive at one of its steps" : plural(act.barriers, "barrier"));
 }
 
 void FrameColumns::draw_step(Widgets& widgets, const ShownFrame& frame, std::string_view label, std::size_t step,

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata::ui {
 namespace {
@@ -85,7 +85,7 @@ std::string short_name(std::string_view step) { return std::string(step.substr(s
 
 std::string executed_text(const FrameRows& rows) {
     const std::size_t executed = rows.executed();
-    return fmt::format("{} of {} executed, {} kept", executed, counted(rows.acts.size(), "act"), rows.acts.size() - executed);
+    return fmt::format("{} of {} executed, {} kept", executed, plural(rows.acts.size(), "act"), rows.acts.size() - executed);
 }
 
 std::optional<std::size_t> step_beside(const std::vector<std::size_t>& steps, std::optional<std::size_t> selected,

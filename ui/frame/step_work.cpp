@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 
 namespace strata::ui {
 namespace {
@@ -42,10 +42,10 @@ std::string short_work(const PlannedStep& planned) {
         std::string operator()(const ComputeWork& work) const {
             if (work.arguments) return "indirect";
             const Extent& groups = planned.groups;
-            return counted(std::size_t{groups.width} * groups.height * groups.depth, "group");
+            return plural(std::size_t{groups.width} * groups.height * groups.depth, "group");
         }
         std::string operator()(const DrawWork& work) const {
-            return fmt::format("{}{}", work.count ? "\xe2\x89\xa4 " : "", counted(work.list.count, "draw"));
+            return fmt::format("{}{}", work.count ? "\xe2\x89\xa4 " : "", plural(work.list.count, "draw"));
         }
         std::string operator()(const FullscreenWork&) const { return "every pixel"; }
         std::string operator()(const CopyWork&) const { return "copy"; }

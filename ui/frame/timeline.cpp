@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -95,7 +95,7 @@ Timeline timeline_of(const FrameTimes& times) {
     }
     for (TimelineBar& act : made.acts)
         act.help = fmt::format("{}\n{}", help_of(act.face, *spread_of_sum(steps, act.first, act.end), frame_ms),
-                               counted(act.end - act.first, "step"));
+                               plural(act.end - act.first, "step"));
     return made;
 }
 

@@ -1,7 +1,7 @@
 // What the frame is made of, as tables. A draw or an emitter that is selected is outlined in the picture.
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/frame/capture_tables.h"
 #include "ui/frame/counter_rows.h"
 #include "ui/panel.h"
@@ -102,7 +102,7 @@ private:
         ImGui::SameLine();
         if (!order_is_known_) order_ = rows_with(tables_[table_], find_);
         const std::size_t all = tables_[table_].rows.size();
-        widgets.text("rows", order_.size() == all ? counted(all, "row") : fmt::format("{} of {}", order_.size(), all),
+        widgets.text("rows", order_.size() == all ? plural(all, "row") : fmt::format("{} of {}", order_.size(), all),
                      &palette().dim);
         if (model.draw) draw_cover_line(model, widgets);
     }

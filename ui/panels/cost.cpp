@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/variants.h"
 #include "ui/panel.h"
 #include "ui/report/report_job.h"
@@ -91,7 +91,7 @@ private:
             forget_zoom();
             services.log.push_back(
                 {LogLine::Kind::said, services.seconds,
-                 fmt::format("measured {} of {}", counted(study.report.rows.size(), "setting"), name(running_))});
+                 fmt::format("measured {} of {}", plural(study.report.rows.size(), "setting"), name(running_))});
         } else {
             failure_ = result.error().sentence;
             services.log.push_back({LogLine::Kind::failed, services.seconds, failure_});
@@ -112,7 +112,7 @@ private:
         ImGui::SameLine();
         std::array<std::string, turns.size()> texts;
         std::array<std::string_view, turns.size()> items;
-        for (std::size_t i = 0; i < turns.size(); ++i) items[i] = texts[i] = counted(turns[i], "turn");
+        for (std::size_t i = 0; i < turns.size(); ++i) items[i] = texts[i] = plural(turns[i], "turn");
         ImGui::SetNextItemWidth(96);
         if (const auto chosen = widgets.combo("turns", items, turns_)) turns_ = *chosen;
         widgets.help("how often each setting is timed, in turn with all others; the median and its deviation are shown");
@@ -214,8 +214,8 @@ private:
             return;
         }
         widgets.text("summary",
-                     fmt::format("{} of {}, {} each; truth: {}", counted(report.rows.size(), "setting"), name(report.stage),
-                                 counted(report.repeats, "turn"), report.truth),
+                     fmt::format("{} of {}, {} each; truth: {}", plural(report.rows.size(), "setting"), name(report.stage),
+                                 plural(report.repeats, "turn"), report.truth),
                      &palette().dim);
         widgets.help(fmt::format(
             "measured on {}{}", report.device.name,
@@ -261,7 +261,7 @@ private:
         const ReportPlot plot = plot_of(study.report, axes, now);
         if (plot.without_place > 0)
             widgets.text("without place",
-                         fmt::format("{} of 0 cannot be on a logarithmic axis", counted(plot.without_place, "setting")),
+                         fmt::format("{} of 0 cannot be on a logarithmic axis", plural(plot.without_place, "setting")),
                          &palette().warning);
         const ImVec2 room = ImGui::GetContentRegionAvail();
         const bool beside = room.x >= side_by_side;

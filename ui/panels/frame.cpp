@@ -2,7 +2,7 @@
 // left out and why.
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/frame/frame_columns.h"
 #include "ui/frame/timeline.h"
 #include "ui/panel.h"
@@ -205,8 +205,8 @@ private:
         ImGui::PushStyleColor(ImGuiCol_Text, color_of_stage(static_cast<std::size_t>(act.scope.stage)));
         const Widgets::TreeRow row = widgets.tree(text_of(act.scope), false, 0, face_of(act.scope));
         ImGui::PopStyleColor();
-        widgets.help(fmt::format("{}\n{}, {}, {}", text_of(act.scope), counted(act.end - act.first, "step"),
-                                 counted(act.draws, "draw"), counted(act.barriers, "barrier")));
+        widgets.help(fmt::format("{}\n{}, {}, {}", text_of(act.scope), plural(act.end - act.first, "step"),
+                                 plural(act.draws, "draw"), plural(act.barriers, "barrier")));
         if (row.open) {
             for (std::size_t i = act.first; i < act.end; ++i)
                 if (matches(frame.replay.steps[i])) draw_step(model, widgets, frame, i);
@@ -237,7 +237,7 @@ private:
         if (is_selected && model.step != step_seen_ && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
         std::string help = fmt::format("{}\n{}", row.name, row.work);
         for (const std::string& image : row.images) help += fmt::format("\nwrites {}", image);
-        help += fmt::format("\n{} before it", counted(row.barriers, "barrier"));
+        help += fmt::format("\n{} before it", plural(row.barriers, "barrier"));
         widgets.help(help);
         columns_.draw_step(widgets, frame, label, index, first_beside);
         if (is_clicked) select_here(model, frame.replay, index);

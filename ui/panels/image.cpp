@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/panel.h"
 #include "ui/picture/camera.h"
 #include "ui/picture/legend.h"
@@ -10,7 +10,7 @@
 #include "ui/picture/outputs.h"
 #include "ui/picture/picture_view.h"
 #include "ui/picture/save_shown.h"
-#include "ui/replayer/asked.h"
+#include "ui/replayer/live_query.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -325,7 +325,7 @@ private:
     ShownPicture shown_;
     std::string shown_name_ = "display", message_;
     Look default_;
-    Asked<Peek, std::shared_ptr<const HostImage>> peeked_;
+    LiveQuery<Peek, std::shared_ptr<const HostImage>> peeked_;
     JobOf<std::filesystem::path> saved_;
     Camera camera_;
     Placement placement_;

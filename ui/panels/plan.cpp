@@ -3,7 +3,7 @@
 #include <array>
 
 #include "passes/graph/describe.h"
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/panel.h"
 #include "ui/plan/plan_chart.h"
 #include "ui/window/theme.h"
@@ -82,8 +82,8 @@ private:
         }
         ImGui::SameLine(0, 14);
         widgets.text("counts",
-                     fmt::format("{}, {}, {} left out", counted(picture_->steps.size(), "step"),
-                                 counted(picture_->barriers(), "barrier"), picture_->skipped.size() + picture_->culled.size()),
+                     fmt::format("{}, {}, {} left out", plural(picture_->steps.size(), "step"),
+                                 plural(picture_->barriers(), "barrier"), picture_->skipped.size() + picture_->culled.size()),
                      &palette().dim);
         const std::uint64_t saved = picture_->unshared_bytes - std::min(picture_->unshared_bytes, picture_->image_bytes);
         ImGui::PushTextWrapPos(0);
@@ -177,7 +177,7 @@ private:
         if (marks.step_under) {
             const PlanStep& step = picture_->steps[*marks.step_under];
             help = fmt::format("{} {}\n{}\n{}, {} before it", *marks.step_under, step.name, text_of(step.scope), step.work,
-                               counted(step.barriers.size(), "barrier"));
+                               plural(step.barriers.size(), "barrier"));
         }
         if (!under) return help;
         const PlanResource& resource = picture_->resources[*under];
@@ -232,7 +232,7 @@ private:
         widgets.text("work", step.work, &palette().dim);
         draw_touched(model, widgets, index);
         ImGui::Dummy({0, 3});
-        widgets.text("barriers", fmt::format("{} before it", counted(step.barriers.size(), "barrier")), &palette().dim);
+        widgets.text("barriers", fmt::format("{} before it", plural(step.barriers.size(), "barrier")), &palette().dim);
         widgets.help("what must be finished, and in which state it is handed over");
         for (std::size_t i = 0; i < step.barriers.size(); ++i) {
             ImGui::Indent(10);

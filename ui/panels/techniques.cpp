@@ -68,7 +68,10 @@ private:
             widgets.text("left out", skipped->reason, &palette().dim);
             ImGui::PopTextWrapPos();
         } else {
-            for (const Param& param : choice.technique->params) draw_param(model, widgets, stage.stage, param);
+            for (const Param& param : choice.technique->params) {
+                if (!param.group.empty()) widgets.text(fmt::format("group {}", param.group), param.group, &palette().dim);
+                draw_param(model, widgets, stage.stage, param);
+            }
         }
         ImGui::Dummy({0, 2});
         ImGui::Separator();

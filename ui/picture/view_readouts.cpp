@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/picture/legend.h"
 #include "ui/widgets/param_widget.h"
 #include "ui/window/theme.h"
@@ -209,7 +209,7 @@ void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice
 
 void ViewReadouts::draw_waves_of(Model& model, Widgets& widgets, const TileWaves& waves) {
     widgets.text("mean", fmt::format("{:.2f} of {} waves per SIMD over {}", waves.mean, gpu_->unit->wave_slots,
-                                     counted(waves.tiles, "tile")));
+                                     plural(waves.tiles, "tile")));
     ImGui::SameLine();
     if (widgets.button("show", "Show"))
         model.image = {
@@ -222,7 +222,7 @@ void ViewReadouts::draw_waves_of(Model& model, Widgets& widgets, const TileWaves
     for (const VariantWaves& variant : waves.variants) {
         const std::string registers = variant.registers ? fmt::format("{:.0f} registers, ", *variant.registers) : "";
         widgets.text(fmt::format("{}", variant.number),
-                     fmt::format("{} {}: {}, {}{:g} waves ({})", waves.constant, variant.number, counted(variant.tiles, "tile"),
+                     fmt::format("{} {}: {}, {}{:g} waves ({})", waves.constant, variant.number, plural(variant.tiles, "tile"),
                                  registers, variant.occupancy.waves_per_simd, name(variant.occupancy.limit)),
                      variant.tiles == 0 ? &palette().dim : &palette().text);
     }
@@ -233,7 +233,7 @@ void ViewReadouts::draw_tables(Widgets& widgets, const TechniqueViews& found) co
     for (const auto& [name, table] : found.tables) {
         const std::size_t first = std::min(rows_at_first, table.rows.size());
         const auto of = widgets.in(name);
-        widgets.text("name", fmt::format("{}: {}", name, counted(table.rows.size(), "row")), &palette().accent);
+        widgets.text("name", fmt::format("{}: {}", name, plural(table.rows.size(), "row")), &palette().accent);
         ImGui::PushTextWrapPos(0);
         for (std::size_t r = 0; r < first; ++r) widgets.text(fmt::format("{}", r), row_text(table, r));
         ImGui::PopTextWrapPos();

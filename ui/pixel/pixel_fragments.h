@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "passes/reference/fragments.h"
-#include "ui/replayer/asked.h"
+#include "ui/replayer/live_query.h"
 
 namespace strata::ui {
 

@@ -1,7 +1,7 @@
 // The transparent fragments of the pinned pixel, nearest first.
 #include <algorithm>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/pixel/pixel_fragments.h"
 #include "ui/pixel/pixel_part.h"
 #include "ui/window/theme.h"
@@ -57,7 +57,7 @@ private:
             widgets.text("count", "no transparent fragment here", &palette().dim);
             return;
         }
-        widgets.text("count", fmt::format("{}, nearest first", counted(sample.fragments.size(), "fragment")));
+        widgets.text("count", fmt::format("{}, nearest first", plural(sample.fragments.size(), "fragment")));
         widgets.value("let through", fmt::format("T {}", rgb(sample.through)));
         widgets.help("the share of the light behind all of them that arrives, per channel, by the exact order");
         widgets.value("added", rgb(sample.light));
@@ -98,7 +98,7 @@ private:
         cell("drawn by", row.drawn_by, palette().text);
     }
 
-    Asked<PixelQuestion, std::vector<SampleFragments>> asked_;
+    LiveQuery<PixelQuestion, std::vector<SampleFragments>> asked_;
     std::size_t sample_ = 0;
 };
 

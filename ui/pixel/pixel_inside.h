@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "passes/technique.h"
-#include "ui/replayer/asked.h"
+#include "ui/replayer/live_query.h"
 
 namespace strata::ui {
 

@@ -104,7 +104,7 @@ private:
             widgets.text("more", fmt::format("and {} more rows", rows.rows.size() - most_rows), &palette().dim);
     }
 
-    Asked<InsideQuestion, PixelInside> asked_;
+    LiveQuery<InsideQuestion, PixelInside> asked_;
     const Technique* chosen_ = nullptr;
 };
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "ui/panel.h"
-#include "ui/replayer/asked.h"
+#include "ui/replayer/live_query.h"
 
 namespace strata::ui {
 
@@ -28,7 +28,7 @@ enum class StatePress { none, stop, again };
 StatePress draw_state(Widgets&, const Progress*, const std::string& error);
 
 template <typename Question, typename Answer>
-void draw_state_of(Widgets& widgets, Asked<Question, Answer>& asked) {
+void draw_state_of(Widgets& widgets, LiveQuery<Question, Answer>& asked) {
     const StatePress pressed = draw_state(widgets, asked.progress(), asked.error());
     if (pressed == StatePress::stop) asked.stop();
     if (pressed == StatePress::again) asked.again();

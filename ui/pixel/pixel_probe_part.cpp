@@ -3,7 +3,7 @@
 #include <array>
 #include <set>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/probe/order.h"
 #include "ui/pixel/pixel_part.h"
 #include "ui/pixel/probe_series.h"
@@ -20,7 +20,7 @@ std::string help_of(const ProbeCurve& curve) {
     if (!curve.slices.empty()) {
         const auto [thinnest, thickest] =
             std::ranges::minmax(curve.slices, {}, [](const DepthSpan& slice) { return slice.to - slice.from; });
-        text += fmt::format("\n{} of depth, {:.3g} to {:.3g} m thick", counted(curve.slices.size(), "slice"),
+        text += fmt::format("\n{} of depth, {:.3g} to {:.3g} m thick", plural(curve.slices.size(), "slice"),
                             thinnest.to - thinnest.from, thickest.to - thickest.from);
     }
     for (const std::string& note : curve.notes) text += fmt::format("\n{}", note);
@@ -207,7 +207,7 @@ private:
         friend bool operator==(const Look&, const Look&) = default;
     };
 
-    Asked<ProbeQuestion, Probe> asked_;
+    LiveQuery<ProbeQuestion, Probe> asked_;
     std::vector<PlotSeries> series_;
     Look drawn_;
     PlotView view_;

@@ -122,7 +122,7 @@ private:
         widgets.help(fmt::format("{} {}: {}", value.image, row(value.format).name, changes[static_cast<int>(value.change)]));
     }
 
-    Asked<PixelQuestion, std::vector<PixelStep>> asked_;
+    LiveQuery<PixelQuestion, std::vector<PixelStep>> asked_;
     std::string find_;
     bool changes_ = false;
 };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "replay/probe/probe.h"
-#include "ui/replayer/asked.h"
+#include "ui/replayer/live_query.h"
 #include "ui/widgets/plot.h"
 
 namespace strata::ui {

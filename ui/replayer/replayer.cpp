@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "replay/measure/lap.h"
+#include "replay/measure/host_timer.h"
 #include "ui/frame/step_work.h"
 
 namespace strata::ui {
@@ -47,7 +47,7 @@ std::vector<PlanRow> rows_of(const Plan& plan) {
 }
 
 Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
-    Lap lap;
+    HostTimer timer;
     auto planned = session.plan(request);
     if (!planned) return planned.error();
     auto run = session.run(request);
@@ -59,7 +59,7 @@ Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& re
     made->steps = rows_of(planned->plan);
     made->skipped = std::move(planned->skipped);
     made->culled = std::move(planned->plan.culled);
-    made->ms = lap();
+    made->ms = timer();
     return std::shared_ptr<const Replay>(std::move(made));
 }
 
@@ -123,7 +123,7 @@ bool Replayer::end(const std::shared_ptr<Session>& session, const Progress& prog
 }
 
 void Replayer::show(const std::string& place, const Request& request) {
-    Place& known = places_[place];
+    Slot& known = places_[place];
     if (known.wish > 0 && known.wished == request) return;
     known.wished = request;
     wish(place);
@@ -134,7 +134,7 @@ void Replayer::show_again() {
 }
 
 void Replayer::wish(const std::string& place) {
-    Place& known = places_.at(place);
+    Slot& known = places_.at(place);
     ++known.wish;
     {
         const std::scoped_lock lock(mutex_);
@@ -186,7 +186,7 @@ void Replayer::take_results() {
         opened_.reset();
     }
     for (Answer& answer : answers_) {
-        Place& place = places_[answer.place];
+        Slot& place = places_[answer.place];
         place.answered = answer.wish;
         place.error.reset();
         if (answer.replay) place.good = *std::move(answer.replay);

@@ -95,7 +95,7 @@ public:
     bool is_idle() const { return queue_.is_idle(); }
 
 private:
-    struct Place {
+    struct Slot {
         Request wished;
         std::shared_ptr<const Replay> good;
         std::optional<Error> error;
@@ -137,7 +137,7 @@ private:
     Yields yields_ = Yields::at_once;                                  ///< that job
     std::stop_source closing_;
 
-    std::map<std::string, Place> places_;  // the window's
+    std::map<std::string, Slot> places_;  // the window's
     std::optional<CaptureFacts> facts_;
     std::optional<Error> open_error_;
 

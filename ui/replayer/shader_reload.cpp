@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -25,7 +25,7 @@ void ShaderReload::take_result(Model& model, Services& services) {
         return;
     }
     model.uses_shaders = !done->replaced.empty();
-    says_ = model.uses_shaders ? fmt::format("{} of {}", counted(done->replaced.size(), "changed shader"),
+    says_ = model.uses_shaders ? fmt::format("{} of {}", plural(done->replaced.size(), "changed shader"),
                                              std::filesystem::absolute(model.shaders).lexically_normal().string())
                                : "";
     services.log.push_back(

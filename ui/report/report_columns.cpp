@@ -6,7 +6,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "replay/counted.h"
+#include "replay/plural.h"
 #include "replay/report/table.h"
 #include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
@@ -82,7 +82,7 @@ std::string note_of(const Report& report, const ReportAxes& axes, std::size_t ro
     const std::string& settings = report.rows[row].settings;
     std::string note = settings.empty() ? "default settings" : settings;
     if (!axes.cost.spreads.empty())
-        note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), counted(report.repeats, "turn"));
+        note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), plural(report.repeats, "turn"));
     if (on_front) note += "\nnothing is both more accurate and cheaper";
     return note + "\nclick applies it";
 }
@@ -241,7 +241,7 @@ std::vector<ReportRemark> remarks_of(const Report& report) {
     }
     for (const auto& [key, rows] : unable)
         remarks.push_back({rows.size() == 1 ? name_of(*rows.front())
-                                            : fmt::format("{} at {}", below_stage(key.first), counted(rows.size(), "setting")),
+                                            : fmt::format("{} at {}", below_stage(key.first), plural(rows.size(), "setting")),
                            fmt::format("cannot do this frame: {}", key.second)});
     return remarks;
 }

@@ -39,8 +39,8 @@ Technique hi_lo() {
             .summary =
                 "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
                 "that bright saturated colors turn white.",
-            .add = add_color,
-            .also = {{.at = Stage::film, .add = add_display}},
+            .declare = add_color,
+            .at_other_stages = {{.at = Stage::film, .declare = add_display}},
             .model = hi_lo_model,
             .tolerance = {
                 .rmse = 1e-3,

@@ -11,7 +11,7 @@ ImageSet frustum_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) {
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
     const DrawList& all = frame.all_opaque;
     const Extent extent{visible_width, visible_rows(all.count)};
     frame.visible = graph.create("visible", {.extent = extent, .format = Format::r32ui});
@@ -42,7 +42,7 @@ Technique frustum() {
         .counters = {counter<&FrustumCounters::tested>({.name = "tested", .help = "opaque draws tested"}),
                      counter<&FrustumCounters::culled>({.name = "culled", .help = "opaque draws outside the view"})},
         .counter_bytes = sizeof(FrustumCounters),
-        .add = add,
+        .declare = declare,
         .model = frustum_model,
         .tolerance = {
             .rmse = 0, .worst = 0, .because = "a yes or no per draw; spheres that hang on float rounding are undecided"}};

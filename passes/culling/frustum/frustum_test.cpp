@@ -98,7 +98,7 @@ TEST(frustum_culling, commands_keep_their_number_and_stand_in_a_buffer_of_their_
     images.all_opaque = {
         .commands = graph.create("commands", 100), .indices = graph.create("indices", 12), .first = 3, .count = 2};
     const Technique technique = frustum();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_NE(images.opaque.commands.id, images.all_opaque.commands.id);
     EXPECT_EQ(graph.record(images.opaque.commands).bytes, 40u);
     EXPECT_EQ(images.opaque.indices, images.all_opaque.indices);
@@ -110,7 +110,7 @@ TEST(frustum_culling, a_frame_without_opaque_draws_is_left_alone) {
     Graph graph;
     FrameImages images;
     const Technique technique = frustum();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_TRUE(images.visible);
     EXPECT_EQ(images.opaque.count, 0u);
 }

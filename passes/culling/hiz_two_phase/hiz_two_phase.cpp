@@ -111,7 +111,7 @@ void second_phase(Graph& graph, Culling& c) {
     build_pyramid(graph, c);
 }
 
-void add(Graph& graph, FrameImages& frame, const Settings& settings) {
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const auto params = settings.as<HizParams>();
     const Extent extent{visible_width, visible_rows(frame.all_opaque.count)};
     frame.visible = graph.create("visible", {.extent = extent, .format = Format::r32ui});
@@ -210,7 +210,7 @@ Technique hiz_two_phase() {
             .counter_bytes = sizeof(HizCounters),
             .views = hiz_two_phase_views(),
             .ratios = ratios(),
-            .add = add,
+            .declare = declare,
             .model = hiz_two_phase_model,
             .tolerance = {.rmse = 0,
                           .worst = 0,

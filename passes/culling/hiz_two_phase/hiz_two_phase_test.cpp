@@ -320,7 +320,7 @@ TEST(hiz_two_phase, draws_depth_once_in_one_phase_and_twice_in_two_and_remembers
         images.all_opaque = {
             .commands = graph.create("commands", 100), .indices = graph.create("indices", 12), .first = 3, .count = 2};
         const Technique technique = hiz_two_phase();
-        technique.add(graph, images, with({{"phases", phases}}));
+        technique.declare(graph, images, with({{"phases", phases}}));
         std::size_t draws = 0, dispatches = 0;
         for (const Step& step : graph.steps()) {
             draws += std::holds_alternative<DrawWork>(step.work);
@@ -339,7 +339,7 @@ TEST(hiz_two_phase, a_frame_without_opaque_draws_is_left_alone) {
     Graph graph;
     FrameImages images;
     const Technique technique = hiz_two_phase();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_TRUE(images.visible);
     EXPECT_EQ(images.opaque.count, 0u);
     EXPECT_EQ(graph.steps().size(), 1u);

@@ -31,20 +31,20 @@ std::vector<DebugView> hiz_two_phase_views() {
              .unit = "m",
              .low = 0,
              .high = 50,
-             .add = view<hiz_view_pyramid>},
+             .declare = view<hiz_view_pyramid>},
             {.name = "hidden",
              .help = "draws in view that are culled, where their bounds are",
              .unit = "draws",
              .low = 0,
              .high = 16,
-             .add = view<hiz_view_hidden>},
+             .declare = view<hiz_view_hidden>},
             {.name = "bounds",
              .help = "borders of the draws' bounds: red of what is hidden, green of what is drawn and was in phase 1, blue of "
                      "what is drawn and was not",
              .unit = "",
              .low = 0,
              .high = 1,
-             .add = view<hiz_view_bounds>}};
+             .declare = view<hiz_view_bounds>}};
 }
 
 }  // namespace strata::culling

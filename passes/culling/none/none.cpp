@@ -8,7 +8,7 @@ ImageSet none_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) {
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
     frame.opaque = frame.all_opaque;
     frame.visible =
         graph.create("visible", {.extent = {visible_width, visible_rows(frame.all_opaque.count)}, .format = Format::r32ui});
@@ -23,7 +23,7 @@ Technique none() {
             .title = "No culling",
             .source = "the baseline: every draw is submitted",
             .summary = "Draws everything the frame holds; never wrong, and pays for whatever is out of sight.",
-            .add = add,
+            .declare = declare,
             .model = none_model,
             .tolerance = {.rmse = 0, .worst = 0, .because = "a cleared integer image is exact"}};
 }

@@ -13,7 +13,7 @@ TEST(no_culling, draws_what_the_frame_holds_and_copies_nothing) {
     images.all_opaque = {
         .commands = graph.create("commands", 40), .indices = graph.create("indices", 12), .first = 3, .count = 2};
     const Technique technique = none();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_EQ(images.opaque.commands, images.all_opaque.commands);
     EXPECT_EQ(images.opaque.first, 3u);
     EXPECT_EQ(images.opaque.count, 2u);

@@ -8,7 +8,7 @@ ImageSet all_samples_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) {
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
     if (frame.samples == 1) return;  // one sample has no edges; the stage may still be forced on
     frame.edges = graph.create("edges", {.extent = frame.extent, .format = Format::r8ui});
     graph.compute("edges/all_samples/mark.comp").stores("edges", frame.edges).over(frame.extent);
@@ -25,7 +25,7 @@ Technique all_samples() {
             .counters = {counter<&AllSamplesCounters::edge_pixels>(
                 {.name = "edge_pixels", .help = "pixels whose samples are shaded one by one"})},
             .counter_bytes = sizeof(AllSamplesCounters),
-            .add = add,
+            .declare = declare,
             .model = all_samples_model,
             .tolerance = {.rmse = 0, .worst = 0, .because = "the integer 1 everywhere"}};
 }

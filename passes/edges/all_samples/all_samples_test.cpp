@@ -59,7 +59,7 @@ TEST(every_sample, does_nothing_at_one_sample) {
     Graph graph;
     FrameImages images;
     const Technique technique = all_samples();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_FALSE(images.edges);
     EXPECT_TRUE(graph.steps().empty());
 }

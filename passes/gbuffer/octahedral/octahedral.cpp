@@ -8,7 +8,7 @@ ImageSet octahedral_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/octahedral"); }
+void declare(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/octahedral"); }
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Technique octahedral() {
         .summary =
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
-        .add = add,
+        .declare = declare,
         .model = octahedral_model,
         .tolerance = {.rmse = 2e-3,
                       .worst = 0.04,

@@ -8,7 +8,7 @@ ImageSet packed_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/packed"); }
+void declare(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/packed"); }
 
 }  // namespace
 
@@ -18,7 +18,7 @@ Technique packed() {
             .title = "Clear Sky packing, 96 bits",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
             .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
-            .add = add,
+            .declare = declare,
             .model = packed_model,
             .tolerance = {.rmse = 3e-3,
                           .worst = 0.08,

@@ -12,7 +12,7 @@ ImageSet brute_force_model(const StageInput&, const Settings&);
 
 namespace {
 
-void add(Graph& graph, FrameImages& frame, const Settings&) {
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
     if (!frame.gbuffer0) return;
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
     sample_edges(sample_gbuffer(graph.compute("lighting/brute_force/shade.comp"), frame), frame)
@@ -37,7 +37,7 @@ Technique brute_force() {
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
         .counter_bytes = sizeof(BruteForceCounters),
-        .add = add,
+        .declare = declare,
         .model = brute_force_model,
         .tolerance = shaded_light_tolerance};
 }

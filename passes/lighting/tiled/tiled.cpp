@@ -44,7 +44,7 @@ void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const Cu
         .indirect(culled.dispatches, (mode >> 16) * sizeof(ModeDispatch));
 }
 
-void add(Graph& graph, FrameImages& frame, const Settings& settings) {
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<TiledParams>();
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
@@ -200,7 +200,7 @@ Technique tiled() {
         .tables = tiled_tables(),
         .variants = {.constant = "mode", .view = "mode numbers", .table = "modes"},
         .ratios = tiled_ratios(),
-        .add = add,
+        .declare = declare,
         .model = tiled_model,
         .model_is = ModelKind::mirror,
         .tolerance = shaded_light_tolerance};

@@ -126,22 +126,22 @@ std::vector<DebugTable> tiled_tables() {
          .help = "feature spectra, most tiles first: bits of light_features.shared.h, tiles, the mode that shades them, and what "
                  "the mode has that they do not need",
          .columns = {{"spectrum", "bits"}, {"tiles", ""}, {"mode", ""}, {"superfluous", "bits"}},
-         .add = spectra_table},
+         .declare = spectra_table},
         {.name = "modes",
          .help = "shading modes this frame may need, from cheap to dear: number, features, tiles",
          .columns = {{"mode", ""}, {"features", "bits"}, {"tiles", ""}},
-         .add = mode_table},
+         .declare = mode_table},
         {.name = "lists",
          .help = "lights of each tile, and which of the light's 32 blockers the tile's pixels test; the first ones of each tile "
                  "where they are more than fit",
          .columns = {{"tile", ""}, {"light", ""}, {"blockers 0 to 15", "bits"}, {"blockers 16 to 31", "bits"}},
          .tile = tile_size,
-         .add = list_table<list_blockers>},
+         .declare = list_table<list_blockers>},
         {.name = "portals",
          .help = "the same of the light's 32 portals",
          .columns = {{"tile", ""}, {"light", ""}, {"portals 0 to 15", "bits"}, {"portals 16 to 31", "bits"}},
          .tile = tile_size,
-         .add = list_table<list_portals>},
+         .declare = list_table<list_portals>},
     };
 }
 

@@ -30,7 +30,7 @@ ComputePass bind_lists(ComputePass pass, const FrameImages& frame, const ZBins& 
         .push(lists.push);
 }
 
-void add(Graph& graph, FrameImages& frame, const Settings& settings) {
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<ZBinnedParams>();
     const ZBins lists = z_bins(graph, frame, params);
@@ -152,23 +152,23 @@ Technique z_binned() {
                    .help = "lights of the pixel's bin and tile",
                    .unit = "lights",
                    .high = 64,
-                   .add = view<view_pixel_lights>},
+                   .declare = view<view_pixel_lights>},
                   {.name = "tile lights",
                    .help = "lights of the tile at all depths",
                    .unit = "lights",
                    .high = 64,
-                   .add = view<view_tile_lights>},
+                   .declare = view<view_tile_lights>},
                   {.name = "idle lights",
                    .help = "lights of the pixel's list that add nothing to it",
                    .unit = "lights",
                    .high = 64,
-                   .add = view<view_idle_lights>}},
+                   .declare = view<view_idle_lights>}},
         .tables = {{.name = "bins",
                     .help = "where each bin lies, and its lights in the order of depth",
                     .columns = {{"begins", "m"}, {"ends", "m"}, {"first light", ""}, {"lights", ""}},
-                    .add = bins_table}},
+                    .declare = bins_table}},
         .ratios = ratios(),
-        .add = add,
+        .declare = declare,
         .model = z_binned_model,
         .tolerance = shaded_light_tolerance};
 }

@@ -183,7 +183,7 @@ TEST(pcf, draws_each_map_into_the_corner_of_its_own_layer) {
     FrameImages images = images_of(facts);
     images.casters = one_caster(graph);
     const Technique technique = pcf();
-    technique.add(graph, images, Settings(technique.params));
+    technique.declare(graph, images, Settings(technique.params));
     EXPECT_EQ(graph.shape(images.shadow_maps).layers, 4u);
     EXPECT_EQ(graph.shape(images.shadow_maps).extent.width, 512u);
     ASSERT_EQ(graph.steps().size(), 5u);  // a clear and four maps
@@ -202,7 +202,7 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     const Technique technique = pcf();
     Settings settings(technique.params);
     ASSERT_TRUE(settings.set("allocation", "need"));
-    technique.add(graph, images, settings);
+    technique.declare(graph, images, settings);
     // 320 pixels per slope: 1 m of range 8 m away is 2 / sqrt(63) of them, 81.
     EXPECT_EQ(graph.shape(images.shadow_maps).layers, 6u);
     EXPECT_EQ(graph.shape(images.shadow_maps).extent.width, 128u);
@@ -212,7 +212,7 @@ TEST(pcf, draws_maps_that_share_a_layer_into_their_squares_of_it) {
     const SceneFacts facts_of_two(frame);
     images = images_of(facts_of_two);
     images.casters = one_caster(two);
-    technique.add(two, images, settings);
+    technique.declare(two, images, settings);
     EXPECT_EQ(two.shape(images.shadow_maps).layers, 7u);  // six maps of 32 texels share the seventh
     ASSERT_EQ(two.steps().size(), 13u);
     const Step& last = two.steps().back();
@@ -232,8 +232,8 @@ TEST(pcf, does_nothing_where_no_light_has_a_map) {
     FrameImages images = images_of(facts);
     const Technique technique = pcf();
     const Settings settings(technique.params);
-    technique.add(graph, images, settings);
-    technique.also.front().add(graph, images, settings);
+    technique.declare(graph, images, settings);
+    technique.at_other_stages.front().declare(graph, images, settings);
     EXPECT_TRUE(graph.steps().empty());
     EXPECT_FALSE(images.visibility);
 }

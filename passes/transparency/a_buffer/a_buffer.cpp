@@ -62,7 +62,7 @@ Merged create_merged(Graph& graph, const FrameImages& images, const ABufferPush&
     return merged;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const ABufferPush push = push_of(images, settings);
     Layers layers = create_layers(graph, images, push);
@@ -123,10 +123,10 @@ Technique a_buffer() {
                    .unit = "fragments",
                    .low = 0,
                    .high = 32,
-                   .add = a_buffer_overflow_view}},
+                   .declare = a_buffer_overflow_view}},
         .known_failures = {{"H5", 0.126, "nine layers are sorted, 191 merged behind them"},
                            {"H10b", 0.00625, "alpha is kept in bytes"}},
-        .add = add,
+        .declare = declare,
         .model = a_buffer_model,
         .tolerance = {.rmse = 3e-4,
                       .worst = 3.2e-2,

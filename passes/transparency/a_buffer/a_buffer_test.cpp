@@ -135,7 +135,7 @@ double bytes_per_pixel(std::string_view layout, std::uint32_t samples) {
         .recorded = &frame, .features = &facts.features(), .facts = &facts, .extent = {32, 32, 1}, .samples = samples};
     images.depth = graph.create("depth", {.extent = images.extent, .format = Format::d32f, .samples = samples});
     images.color = graph.create("color", {.extent = images.extent, .format = Format::rgba32f, .layers = samples});
-    technique.add(graph, images, settings);
+    technique.declare(graph, images, settings);
     std::uint64_t sum = bytes(graph.shape(graph.find_image("a_buffer colors"))) +
                         bytes(graph.shape(graph.find_image("a_buffer transmittances"))) +
                         bytes(graph.shape(graph.find_image("a_buffer depths")));

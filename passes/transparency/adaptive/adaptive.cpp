@@ -58,7 +58,7 @@ Technique adaptive() {
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},
-        .add = add_function<sums>,
+        .declare = add_function<sums>,
         .model = adaptive_model,
         .tolerance = {.rmse = 5e-3,
                       .worst = 5e-2,

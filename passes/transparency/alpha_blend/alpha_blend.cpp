@@ -10,7 +10,7 @@ ImageSet alpha_blend_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-void add(Graph& graph, FrameImages& images, const Settings&) {
+void declare(Graph& graph, FrameImages& images, const Settings&) {
     distort_background(graph, images);
     Image color = gather(graph, images.color, "alpha_blend color");
     draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
@@ -31,7 +31,7 @@ Technique alpha_blend() {
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),
         .is_time_unit = true,
-        .add = add,
+        .declare = declare,
         .model = alpha_blend_model,
         .tolerance =
             {.rmse = 1e-5,

@@ -61,7 +61,7 @@ void composite(Graph& graph, const FrameImages& images, std::uint32_t pass, cons
         .over({images.extent.width, images.extent.height, images.samples});
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const std::uint32_t passes = settings.as<DepthPeelingParams>().passes;
     Targets targets = create_targets(graph, images);
@@ -105,12 +105,12 @@ Technique depth_peeling() {
                    .unit = "fragments",
                    .low = 0,
                    .high = 32,
-                   .add = depth_peeling_beyond_view}},
+                   .declare = depth_peeling_beyond_view}},
         .known_failures = {{"H5", 0.789, "eight layers of 200 are peeled"},
                            {"H7", 0.19, "eight layers of ten are peeled"},
                            {"H10a", 0.3125, "coincident layers are lost"},
                            {"H10b", 0.81, "coincident layers are lost"}},
-        .add = add,
+        .declare = declare,
         .model = depth_peeling_model,
         .tolerance =
             {.rmse = 1e-5,

@@ -40,7 +40,7 @@ Technique exact_function() {
         .counters = function_counters_with_lists(),
         .counter_bytes = sizeof(FunctionCounters),
         .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},
-        .add = add_function<sums>,
+        .declare = add_function<sums>,
         .model = exact_function_model,
         .tolerance = {.rmse = 2e-3,
                       .worst = 2e-2,

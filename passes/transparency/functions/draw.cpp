@@ -158,13 +158,13 @@ Image normalization_view(Graph& graph, const FrameImages& images, const Function
     return picture;
 }
 
-DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&)) {
+DebugView normalization_row(Image (*declare)(Graph&, FrameImages&, const Settings&)) {
     return {.name = "normalization",
             .help = "what the resolve multiplies the color by: 1 where T(z) is exact, below 1 where it lets too much through",
             .unit = "",
             .low = 0,
             .high = 2,
-            .add = add};
+            .declare = declare};
 }
 
 }  // namespace strata::transparency

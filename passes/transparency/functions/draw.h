@@ -70,7 +70,7 @@ void add_function(Graph& graph, FrameImages& images, const Settings& settings) {
 }
 
 /// The row of its normalization view.
-DebugView normalization_row(Image (*add)(Graph&, FrameImages&, const Settings&));
+DebugView normalization_row(Image (*declare)(Graph&, FrameImages&, const Settings&));
 template <SumsFunction sums>
 DebugView normalization_row() {
     return normalization_row([](Graph& graph, FrameImages& images, const Settings& settings) {

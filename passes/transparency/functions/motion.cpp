@@ -33,7 +33,7 @@ Image motion_view(Graph& graph, const FrameImages& images, const FunctionSums& s
     return picture;
 }
 
-DebugView motion_row(Image (*add)(Graph&, FrameImages&, const Settings&)) {
+DebugView motion_row(Image (*declare)(Graph&, FrameImages&, const Settings&)) {
     return {.name = "motion",
             .help =
                 "red, green: how far right and down what is seen has moved since the frame before, by a camera that stood still; "
@@ -41,7 +41,7 @@ DebugView motion_row(Image (*add)(Graph&, FrameImages&, const Settings&)) {
             .unit = "pixels",
             .low = 0,
             .high = 16,
-            .add = add};
+            .declare = declare};
 }
 
 }  // namespace strata::transparency

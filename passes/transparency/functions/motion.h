@@ -10,7 +10,7 @@ namespace strata::transparency {
 Image motion_view(Graph&, const FrameImages&, const FunctionSums&);
 
 /// The row of that view.
-DebugView motion_row(Image (*add)(Graph&, FrameImages&, const Settings&));
+DebugView motion_row(Image (*declare)(Graph&, FrameImages&, const Settings&));
 template <SumsFunction sums>
 DebugView motion_row() {
     return motion_row([](Graph& graph, FrameImages& images, const Settings& settings) {

@@ -46,7 +46,7 @@ void keep(Graph& graph, const FrameImages& images, const KBufferParams& params, 
     if (params.tail == tail_hybrid) draw.adds_to(tail.color).adds_to(tail.count);
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const auto params = settings.as<KBufferParams>();
     const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
@@ -99,12 +99,12 @@ Technique k_buffer() {
                    .unit = "fragments",
                    .low = 0,
                    .high = 32,
-                   .add = k_buffer_beyond_view}},
+                   .declare = k_buffer_beyond_view}},
         .needs = {Capability::buffer_int64_atomics},
         .cannot = {Feature::chromatic},
         .known_failures = {{"H5", 0.067, "alpha is kept in 1/256: .01 is .0117"},
                            {"H15", 0.25, "of equal depths the bits of color decide which is in front"}},
-        .add = add,
+        .declare = declare,
         .model = k_buffer_model,
         .tolerance = {.rmse = 1e-4,
                       .worst = 1e-2,

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "passes/scene/row_bounds.h"
+#include "passes/scene/fragments_by_row.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/layers_beyond.h"
@@ -17,10 +17,10 @@ std::uint32_t groups(const Band& band) { return (cells(band) + cells_per_group -
 
 std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
     const double limit = double(pool_millions) * 1e6 / images.samples;
-    const std::vector<std::uint64_t>& row_bounds = images.facts->row_bounds(images.extent);
+    const std::vector<std::uint64_t>& most_fragments_by_row = images.facts->most_fragments_by_row(images.extent);
     std::vector<Band> bands;
     std::uint64_t pool = 1;
-    for (const RowBand& rows : row_bands(row_bounds, static_cast<std::uint64_t>(limit))) {
+    for (const RowBand& rows : row_bands(most_fragments_by_row, static_cast<std::uint64_t>(limit))) {
         pool = std::max(pool, rows.bound * images.samples);
         bands.push_back({rows.first_row, rows.rows, images.extent.width, images.samples, 0});
     }

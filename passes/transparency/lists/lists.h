@@ -58,6 +58,6 @@ inline constexpr DebugView layers_view_row = {.name = "layers",
                                               .unit = "fragments",
                                               .low = 0,
                                               .high = 32,
-                                              .add = layers_view};
+                                              .declare = layers_view};
 
 }  // namespace strata::transparency

@@ -187,7 +187,7 @@ Technique moments() {
                            {"H13", 0.134, "the panes are closer than the bias can tell apart"},
                            {"H14b", 0.469,
                             "a quarter of the card's own optical depth hides it: compensation=own or overestimation=0"}},
-        .add = add_function<sums>,
+        .declare = add_function<sums>,
         .model = moments_model,
         .tolerance = {.rmse = 2e-3,
                       .worst = 6e-2,

@@ -14,7 +14,7 @@ ImageSet multi_layer_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const auto params = settings.as<MultiLayerParams>();
     const DepthRange range = images.facts->transparent_depths();
@@ -63,7 +63,7 @@ Technique multi_layer() {
         .counter_bytes = sizeof(MultiLayerCounters),
         .views = {layers_view_row},
         .known_failures = {{"H5", 0.121, "what comes later cannot get between merged layers"}},
-        .add = add,
+        .declare = declare,
         .model = multi_layer_model,
         .tolerance = {.rmse = 1e-5,
                       .worst = 5e-3,

@@ -10,7 +10,7 @@ ImageSet sorted_lists_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     const Image behind = undistorted(graph, images);
     EventLists lists = create_lists(graph, images, settings.as<SortedListsParams>().pool);
     for (const Band& band : lists.bands) {
@@ -39,7 +39,7 @@ Technique sorted_lists() {
         .counter_bytes = sizeof(ListCounters),
         .views = {layers_view_row},
         .stands_in_for_truth = true,
-        .add = add,
+        .declare = declare,
         .model = sorted_lists_model,
         .tolerance =
             {.rmse = 1e-5,

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
-#include "passes/scene/row_bounds.h"
+#include "passes/scene/fragments_by_row.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"
 
@@ -119,13 +119,13 @@ TEST(SortedTruth, BlendsCardsInTheirOrderOfDepthPerSample) {
 TEST(RowBounds, CountEveryPixelOfAFullScreenQuadOnce) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, 5}, .size = 20}}});
-    EXPECT_THAT(transparent_row_bounds(frame, draw_lists(frame), {8, 8, 1}), testing::Each(8u));
+    EXPECT_THAT(most_fragments_by_row(frame, draw_lists(frame), {8, 8, 1}), testing::Each(8u));
 }
 
 TEST(RowBounds, CountNothingBehindTheEye) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, -5}, .size = 20}}});
-    EXPECT_THAT(transparent_row_bounds(frame, draw_lists(frame), {8, 8, 1}), testing::Each(0u));
+    EXPECT_THAT(most_fragments_by_row(frame, draw_lists(frame), {8, 8, 1}), testing::Each(0u));
 }
 
 TEST(RowBounds, AreNeverBelowWhatIsCovered) {
@@ -142,7 +142,7 @@ TEST(RowBounds, AreNeverBelowWhatIsCovered) {
         {.name = "smoke",
          .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
     const FragmentLists lists = transparent_fragments(frame, ReferenceImage(32, 32));
-    const std::vector<std::uint64_t> bounds = transparent_row_bounds(frame, draw_lists(frame), {32, 32, 1});
+    const std::vector<std::uint64_t> bounds = most_fragments_by_row(frame, draw_lists(frame), {32, 32, 1});
     std::uint64_t bound = 0;
     for (std::uint32_t y = 0; y < 32; ++y) {
         std::uint64_t covered = 0;

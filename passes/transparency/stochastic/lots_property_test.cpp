@@ -18,19 +18,19 @@ namespace {
 
 constexpr std::uint32_t fragments = 20000;
 
-struct Place {
+struct FragmentId {
     glm::uvec3 at{0};  ///< pixel, sample
     std::uint32_t draw = 3, triangle = 10, seed = 0;
 };
 
 /// Pixels that are no neighbors: a test of neighbors uses each of them once.
-Place place(std::uint32_t i) { return {.at = {i % 160 * 2, i / 160 * 2, 0}}; }
+FragmentId place(std::uint32_t i) { return {.at = {i % 160 * 2, i / 160 * 2, 0}}; }
 
 struct Drawn {
     std::uint32_t subsamples = 8, subset = subset_stratified;
 };
 
-std::uint64_t mask(double alpha, const Place& p, const Drawn& drawn) {
+std::uint64_t mask(double alpha, const FragmentId& p, const Drawn& drawn) {
     return covered_subset(alpha, subset_key(p.seed, p.at, p.draw, p.triangle), drawn.subsamples, drawn.subset);
 }
 
@@ -87,15 +87,15 @@ TEST(StochasticLots, StratifiedTakeEverySubsetOfASizeAsOften) {
 /// What makes another fragment of one, by name.
 struct Neighbor {
     const char* name;
-    Place (*of)(Place);
+    FragmentId (*of)(FragmentId);
 };
-constexpr Neighbor neighbors[] = {{"pixel to the right", [](Place p) { return ++p.at.x, p; }},
-                                  {"pixel below", [](Place p) { return ++p.at.y, p; }},
-                                  {"sample", [](Place p) { return ++p.at.z, p; }},
-                                  {"draw", [](Place p) { return ++p.draw, p; }},
-                                  {"pair of triangles", [](Place p) { return p.triangle += 2, p; }},
-                                  {"draw and pair, swapped", [](Place p) { return p.draw = 5, p.triangle = 6, p; }},
-                                  {"seed", [](Place p) { return ++p.seed, p; }}};
+constexpr Neighbor neighbors[] = {{"pixel to the right", [](FragmentId p) { return ++p.at.x, p; }},
+                                  {"pixel below", [](FragmentId p) { return ++p.at.y, p; }},
+                                  {"sample", [](FragmentId p) { return ++p.at.z, p; }},
+                                  {"draw", [](FragmentId p) { return ++p.draw, p; }},
+                                  {"pair of triangles", [](FragmentId p) { return p.triangle += 2, p; }},
+                                  {"draw and pair, swapped", [](FragmentId p) { return p.draw = 5, p.triangle = 6, p; }},
+                                  {"seed", [](FragmentId p) { return ++p.seed, p; }}};
 
 TEST(StochasticLots, OfTwoFragmentsHaveNothingToDoWithEachOther) {
     constexpr double alpha = .5, other_alpha = .25;
@@ -123,7 +123,7 @@ TEST(StochasticLots, OfManyLayersLetThroughTheProductOfWhatEachLetsThrough) {
             for (std::uint32_t i = 0; i < fragments; ++i) {
                 std::uint64_t covered = 0;
                 for (std::uint32_t layer = 0; layer < alphas.size(); ++layer) {
-                    Place p = place(i);
+                    FragmentId p = place(i);
                     p.draw = layer;
                     covered |= mask(alphas[layer], p, {8, subset});
                 }

@@ -83,7 +83,7 @@ void resolve(Graph& graph, FrameImages& images, const Targets& targets, const St
         .over({band.width, band.rows, band.samples});
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const std::vector<StochasticBand> listed = bands(images, settings.as<StochasticParams>());
     Targets targets = create_targets(graph, images, listed.front());
@@ -157,7 +157,7 @@ Technique stochastic() {
                            {"H13", 0.231, "eight subsamples hold T in eighths"},
                            {"H14a", 0.1, "in some pixels a layer of .1 covers no subsample"},
                            {"H14b", 0.1, "in some pixels a layer of .1 covers no subsample"}},
-        .add = add,
+        .declare = declare,
         .model = stochastic_model,
         .model_is = ModelKind::mirror,
         .tolerance =

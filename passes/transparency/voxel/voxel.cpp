@@ -57,6 +57,7 @@ void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
 std::vector<Param> code_params() {
     return {
         param<&VoxelParams::slices>({.name = "slices",
+                                     .group = "the volume",
                                      .low = 32,
                                      .high = most_slices,
                                      .fallback = 128,
@@ -92,6 +93,7 @@ std::vector<Param> code_params() {
              .choices = skippings}),
         param<&VoxelParams::splat>(
             {.name = "splat",
+             .group = "its words",
              .low = 0,
              .high = 4,
              .fallback = splat_overflow_minimum,
@@ -125,9 +127,12 @@ std::vector<Param> params() {
     Param resolution = resolution_row;
     resolution.high = 4;
     resolution.choices = resolutions;
+    Param channels = channels_row;
+    channels.group = "functions and sums";
     std::vector<Param> rows = code_params();
     const std::vector<Param> places = {
         param<&VoxelParams::splatting>({.name = "splatting",
+                                        .group = "fragments in slices",
                                         .low = 0,
                                         .high = 1,
                                         .fallback = splatting_linear,
@@ -153,6 +158,7 @@ std::vector<Param> params() {
                                     .help = "slices by which that is farther: above 0 fragments hide themselves"}),
         param<&VoxelParams::curve>(
             {.name = "curve",
+             .group = "where slices lie",
              .low = 0,
              .high = 2,
              .fallback = curve_slices,
@@ -183,12 +189,13 @@ std::vector<Param> params() {
                                        .fallback = 800,
                                        .help = "metres at which the last slice ends, with range=fixed; what is beyond is in it",
                                        .scale = Scale::logarithmic}),
-        param<&VoxelParams::channels>(channels_row),
+        param<&VoxelParams::channels>(channels),
         param<&VoxelParams::tint>(tint_row),
         param<&VoxelParams::resolution>(resolution),
         param<&VoxelParams::accumulation>(accumulation_row),
         param<&VoxelParams::culling>(
             {.name = "culling",
+             .group = "culling",
              .low = 0,
              .high = 3,
              .fallback = culling_quads_16,
@@ -206,11 +213,13 @@ std::vector<Param> params() {
              .choices = preparations}),
         param<&VoxelParams::hysteresis>(
             {.name = "hysteresis",
+             .group = "from frame to frame",
              .low = 0,
              .high = 100,
              .fallback = 0,
              .help = "frames for which thicker slices are held, with volume=adaptive: thinner ones must have fitted so long"}),
         param<&VoxelParams::shown_slice>({.name = "shown_slice",
+                                          .group = "views",
                                           .low = 0,
                                           .high = 1023,
                                           .fallback = 0,
@@ -338,8 +347,8 @@ Technique voxel() {
         .known_failures = {{"H4", 0.125, "the panes share a slice: the value of a tie"},
                            {"H5", 0.129, "8 bits lose layers below .0108 altogether"}},
         .ratios = voxel_ratios(),
-        .add = add_function<sums>,
-        .also = {{.at = Stage::extinction, .add = prepare}},
+        .declare = add_function<sums>,
+        .at_other_stages = {{.at = Stage::extinction, .declare = prepare}},
         .model = voxel_model,
         .model_is = ModelKind::mirror,
         .tolerance = {.rmse = 5e-4,

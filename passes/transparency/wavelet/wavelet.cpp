@@ -144,7 +144,7 @@ Technique wavelet() {
                            {"H4", 0.125, "the panes share a cell: the value of a tie"},
                            {"H5", 0.0304, "eight cells, and half floats cut what is added"},
                            {"H13", 0.231, "panes, smoke and car share a cell"}},
-        .add = add_function<sums>,
+        .declare = add_function<sums>,
         .model = wavelet_model,
         .tolerance = {.rmse = 4e-4,
                       .worst = 5e-3,

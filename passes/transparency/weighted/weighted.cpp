@@ -42,7 +42,7 @@ Targets accumulate(Graph& graph, const FrameImages& images, const WeightedParams
     return targets;
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const auto params = settings.as<WeightedParams>();
     const Targets full = accumulate(graph, images, params, Resolution::full, "weighted ");
@@ -114,7 +114,7 @@ Technique weighted() {
                            {"H9", 0.0417, "weights end at .01: what is beyond is averaged"},
                            {"H13", 0.338, "at 150 m all weights are alike"},
                            {"H14b", 0.0687, "w7 weighs the smoke in front too much"}},
-        .add = add,
+        .declare = declare,
         .model = weighted_model,
         .tolerance =
             {.rmse = 5e-3,

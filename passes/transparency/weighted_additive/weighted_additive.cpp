@@ -60,7 +60,7 @@ Targets by_sample(Graph& graph, const Targets& targets) {
             by_sample(graph, targets.emitted)};
 }
 
-void add(Graph& graph, FrameImages& images, const Settings& settings) {
+void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     distort_background(graph, images);
     const auto params = settings.as<WeightedAdditiveParams>();
     const bool has_low = images.features->has(Feature::low_resolution);
@@ -166,7 +166,7 @@ Technique weighted_additive() {
                            {"H13", 0.38, "beyond 50 m all weights are alike"},
                            {"H14b", 0.0961, "the card's weight is twenty times the smoke's"},
                            {"H15", 0.25, "premultiplied colors are averaged: stacks of alpha are too dark"}},
-        .add = add,
+        .declare = declare,
         .model = weighted_additive_model,
         .tolerance =
             {.rmse = 4e-2,

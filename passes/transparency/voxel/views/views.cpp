@@ -78,30 +78,30 @@ std::vector<DebugTable> voxel_tables() {
                  "virtual ones it is, how many "
                  "tiles use it",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"virtual slice", ""}, {"tiles", ""}},
-         .add = table<table_slices>},
+         .declare = table<table_slices>},
         {.name = "runs",
          .help = "what the depth warp leaves: stretches of depth with something in them, their first physical slice and how "
                  "many they have",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"first slice", ""}, {"slices", ""}},
-         .add = table<table_runs>},
+         .declare = table<table_runs>},
         {.name = "histogram",
          .help =
              "all virtual slices: where each begins and ends, which physical one it has, -1 without, and how many columns of all "
              "channels hold something in it",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"slice", ""}, {"filled", "columns"}},
-         .add = table<table_histogram>},
+         .declare = table<table_histogram>},
         {.name = "overflows",
          .help =
              "the physical slices that hold something: where each begins, its number, in how many columns of all channels it is "
              "the first to overflow or to be full",
          .columns = {{"begins", "m"}, {"slice", ""}, {"overflowed", "columns"}, {"saturated", "columns"}},
-         .add = table<table_overflows>},
+         .declare = table<table_overflows>},
         {.name = "divider",
          .help =
              "halvings of the finest slices' number, such as this frame needs and hysteresis does not hold, virtual slices that "
              "are left, and used ones of these",
          .columns = {{"halvings", ""}, {"needed", ""}, {"virtual slices", ""}, {"used", ""}},
-         .add = table<table_divider>}};
+         .declare = table<table_divider>}};
 }
 
 }  // namespace strata::transparency

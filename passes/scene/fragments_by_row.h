@@ -14,7 +14,7 @@ namespace strata {
 
 /// Per row of the extent: pixels each transparent triangle (each particle's quad) can touch in it, summed. Depth is not
 /// tested and edges are widened by a quarter pixel for float transforms and snapping, so no device covers more.
-std::vector<std::uint64_t> transparent_row_bounds(const Frame&, const DrawLists&, Extent);
+std::vector<std::uint64_t> most_fragments_by_row(const Frame&, const DrawLists&, Extent);
 
 /// Rows that are done together.
 struct RowBand {
@@ -24,6 +24,6 @@ struct RowBand {
 
 /// The rows as few bands with at most `limit` fragments each. A band has an even number of rows but for the last, so no 2x2
 /// quad straddles two; where a single pair of rows exceeds the limit, so does its band. Always at least one band.
-std::vector<RowBand> row_bands(std::span<const std::uint64_t> row_bounds, std::uint64_t limit);
+std::vector<RowBand> row_bands(std::span<const std::uint64_t> most_fragments_by_row, std::uint64_t limit);
 
 }  // namespace strata

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "capture_format/codec/texture_bytes.h"
-#include "replay/scene/fit_textures.h"
+#include "replay/scene/shrink_textures.h"
 
 namespace strata {
 namespace {
@@ -18,14 +18,14 @@ Texture pyramid(std::uint32_t edge) {
 TEST(FitTextures, WhatFitsIsLeftAlone) {
     Frame frame;
     frame.textures = {pyramid(8)};
-    EXPECT_TRUE(fit_textures(frame, texture_bytes(frame.textures[0])).empty());
+    EXPECT_TRUE(shrink_textures(frame, texture_bytes(frame.textures[0])).empty());
     EXPECT_EQ(frame.textures[0].width, 8u);
 }
 
 TEST(FitTextures, TheLargestLosesItsFinestMipsFirstAndASentenceSaysSo) {
     Frame frame;
     frame.textures = {pyramid(4), pyramid(16)};
-    const auto notes = fit_textures(frame, texture_bytes(pyramid(4)) + texture_bytes(pyramid(8)));
+    const auto notes = shrink_textures(frame, texture_bytes(pyramid(4)) + texture_bytes(pyramid(8)));
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_NE(notes[0].find("without its 1 finest"), std::string::npos);
     EXPECT_EQ(frame.textures[0].width, 4u);
@@ -38,7 +38,7 @@ TEST(FitTextures, TheLargestLosesItsFinestMipsFirstAndASentenceSaysSo) {
 TEST(FitTextures, TheCoarsestMipAlwaysStays) {
     Frame frame;
     frame.textures = {pyramid(8)};
-    EXPECT_EQ(fit_textures(frame, 0).size(), 1u);
+    EXPECT_EQ(shrink_textures(frame, 0).size(), 1u);
     EXPECT_EQ(frame.textures[0].mips, 1u);
     EXPECT_EQ(frame.textures[0].texels.size(), 4u);
 }

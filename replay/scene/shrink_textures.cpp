@@ -1,4 +1,4 @@
-#include "replay/scene/fit_textures.h"
+#include "replay/scene/shrink_textures.h"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +21,7 @@ void drop_finest(Texture& t) {
 
 }  // namespace
 
-std::vector<std::string> fit_textures(Frame& frame, std::uint64_t budget) {
+std::vector<std::string> shrink_textures(Frame& frame, std::uint64_t budget) {
     std::uint64_t total = 0;
     for (const Texture& t : frame.textures) total += texture_bytes(t);
     std::map<std::size_t, std::uint32_t> dropped;  // mips by texture

@@ -11,6 +11,6 @@ namespace strata {
 
 /// Leaves out the finest mips of the largest textures until all take at most `budget` bytes, or only coarsest mips are left.
 /// Returns a sentence for each texture that lost some.
-std::vector<std::string> fit_textures(Frame&, std::uint64_t budget);
+std::vector<std::string> shrink_textures(Frame&, std::uint64_t budget);
 
 }  // namespace strata

@@ -12,14 +12,14 @@
 namespace strata::ui {
 
 template <typename Question, typename Answer>
-class Asked {
+class LiveQuery {
 public:
     using Compute = std::function<Result<Answer>(Session&, Progress&, const Question&)>;
 
-    Asked() = default;
-    Asked(const Asked&) = delete;
-    Asked& operator=(const Asked&) = delete;
-    ~Asked() { withdraw(); }
+    LiveQuery() = default;
+    LiveQuery(const LiveQuery&) = delete;
+    LiveQuery& operator=(const LiveQuery&) = delete;
+    ~LiveQuery() { withdraw(); }
 
     /// Once per frame with what is to be known now; costs nothing while that stays the same. While the picture "A" is on its way
     /// the session is left to it.

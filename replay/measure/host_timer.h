@@ -7,7 +7,7 @@
 namespace strata {
 
 /// Milliseconds since the last call, or since it was made.
-class Lap {
+class HostTimer {
 public:
     double operator()() {
         const auto before = std::exchange(last_, std::chrono::steady_clock::now());

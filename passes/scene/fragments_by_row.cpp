@@ -1,4 +1,4 @@
-#include "passes/scene/row_bounds.h"
+#include "passes/scene/fragments_by_row.h"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +96,7 @@ void add_particle(const Frame& frame, const Particle& particle, RowSum& sum) {
 
 }  // namespace
 
-std::vector<std::uint64_t> transparent_row_bounds(const Frame& frame, const DrawLists& lists, Extent extent) {
+std::vector<std::uint64_t> most_fragments_by_row(const Frame& frame, const DrawLists& lists, Extent extent) {
     RowSum sum(frame.view, extent);
     for (const std::uint32_t index : lists.transparent) {
         if (index < frame.draws.size()) {
@@ -109,11 +109,11 @@ std::vector<std::uint64_t> transparent_row_bounds(const Frame& frame, const Draw
     return sum.take();
 }
 
-std::vector<RowBand> row_bands(std::span<const std::uint64_t> row_bounds, std::uint64_t limit) {
+std::vector<RowBand> row_bands(std::span<const std::uint64_t> most_fragments_by_row, std::uint64_t limit) {
     std::vector<RowBand> bands{{}};
-    for (std::size_t y = 0; y < row_bounds.size(); y += 2) {
-        const std::uint32_t rows = y + 1 < row_bounds.size() ? 2 : 1;
-        const std::uint64_t pair = row_bounds[y] + (rows == 2 ? row_bounds[y + 1] : 0);
+    for (std::size_t y = 0; y < most_fragments_by_row.size(); y += 2) {
+        const std::uint32_t rows = y + 1 < most_fragments_by_row.size() ? 2 : 1;
+        const std::uint64_t pair = most_fragments_by_row[y] + (rows == 2 ? most_fragments_by_row[y + 1] : 0);
         if (bands.back().rows > 0 && bands.back().bound + pair > limit)
             bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
         bands.back().rows += rows;

@@ -9,7 +9,7 @@
 namespace strata {
 
 /// "1 frame", "2 frames".
-inline std::string counted(std::size_t count, std::string_view thing) {
+inline std::string plural(std::size_t count, std::string_view thing) {
     return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
