@@ -8,7 +8,7 @@
 namespace strata::tiny {
 
 /// 48 blockers and about as many portals around an eye that looks anywhere, mirrored in half of the frames; an omni light, a
-/// sphere light and a directional one that list them in any order, some of them twice. No view shows them: there are no draws.
+/// sphere light and a directional one that list them in any order, some of them twice. There are no draws.
 Frame blockers_at_random(Random&);
 
 }  // namespace strata::tiny

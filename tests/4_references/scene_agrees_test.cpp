@@ -115,7 +115,7 @@ LightBlockers given_blockers(const LightRecords& given, const LightRecord& light
     return result;
 }
 
-/// But for the rounding of records, which is a tenth of what a blocker grows by.
+/// Whether values agree to within 1e-6: more than the rounding of records, a tenth of what a blocker grows by.
 bool is_near(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-6 * (1 + glm::length(b)); }
 bool is_near(double a, double b) { return std::abs(a - b) < 1e-6 * (1 + std::abs(b)); }
 
