@@ -23,9 +23,9 @@ Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path&
     std::error_code problem;
     std::filesystem::copy_file(capture, file->temporary(), std::filesystem::copy_options::overwrite_existing, problem);
     if (problem) return fail(Fault::usage, "cannot copy {}: {}", capture.string(), problem.message());
-    auto writer = ContainerWriter::extend(file->temporary());
-    if (!writer) return writer.error();
-    return ExpectationWriter(std::make_unique<Extended>(Extended{*std::move(file), *std::move(writer)}));
+    return ContainerWriter::extend(file->temporary()).and_then([&](auto& writer) {
+        return ExpectationWriter(std::make_unique<Extended>(Extended{*std::move(file), std::move(writer)}));
+    });
 }
 
 ExpectationWriter::ExpectationWriter(std::unique_ptr<Extended> extended) : extended_(std::move(extended)) {}

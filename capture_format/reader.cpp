@@ -227,9 +227,9 @@ Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, st
         contents.images = *std::move(opened);
     }
     contents.images->keep_only_used();  // those of the expectation before the last
-    const auto found = contents.images->find({*hash, bytes});
-    if (!found) return found.error();
-    return std::vector<std::byte>(found->begin(), found->end());
+    return contents.images->find({*hash, bytes}).and_then([&](auto& found) {
+        return std::vector<std::byte>(found.begin(), found.end());
+    });
 }
 
 Result<Frame> Capture::frame(std::size_t index) const {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -35,6 +36,20 @@ Error fail(Fault fault, fmt::format_string<Args...> format, Args&&... args) {
     return {fault, fmt::format(format, std::forward<Args>(args)...)};
 }
 
+template <typename T>
+class Result;
+
+namespace detail {
+template <typename T>
+struct AsResult {
+    using Type = Result<T>;
+};
+template <typename T>
+struct AsResult<Result<T>> {
+    using Type = Result<T>;
+};
+}  // namespace detail
+
 /// A T or an Error. Test it as a bool before use.
 template <typename T>
 class [[nodiscard]] Result {
@@ -50,6 +65,13 @@ public:
     T* operator->() { return &std::get<0>(held_); }
     const Error& error() const { return std::get<1>(held_); }
 
+    /// What `next`, which takes a T& and returns a value or a Result, makes of the value; or the error.
+    template <typename Next>
+    auto and_then(Next&& next) && {
+        using Made = typename detail::AsResult<std::invoke_result_t<Next, T&>>::Type;
+        return *this ? Made(next(std::get<0>(held_))) : Made(error());
+    }
+
 private:
     std::variant<T, Error> held_;
 };
@@ -63,6 +85,13 @@ public:
 
     explicit operator bool() const { return !error_; }
     const Error& error() const { return *error_; }
+
+    /// What `next`, which takes nothing and returns a value or a Result, makes; or the error.
+    template <typename Next>
+    auto and_then(Next&& next) && {
+        using Made = typename detail::AsResult<std::invoke_result_t<Next>>::Type;
+        return *this ? Made(next()) : Made(error());
+    }
 
 private:
     std::optional<Error> error_;

@@ -226,9 +226,8 @@ Result<ImportedDeep> import_deep(std::span<const std::byte> bytes, std::string_v
 }
 
 Result<ImportedDeep> import_deep(const std::filesystem::path& path, const DeepOptions& options) {
-    const auto file = MappedFile::open(path);
-    if (!file) return file.error();
-    return import_deep(file->bytes(), path.filename().string(), options);
+    return MappedFile::open(path).and_then(
+        [&](auto& file) { return import_deep(file.bytes(), path.filename().string(), options); });
 }
 
 }  // namespace strata

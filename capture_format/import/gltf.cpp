@@ -55,9 +55,9 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
 
 Result<GltfScene> GltfScene::open(const std::filesystem::path& path, const GltfOptions& options) {
     gltf::Budget budget(options.memory_budget);
-    auto bytes = gltf::read_file(path, budget);
-    if (!bytes) return bytes.error();
-    return read(*std::move(bytes), gltf::Folder(path), path.string(), options);
+    return gltf::read_file(path, budget).and_then([&](auto& bytes) {
+        return read(std::move(bytes), gltf::Folder(path), path.string(), options);
+    });
 }
 
 Result<GltfScene> GltfScene::open(std::span<const std::byte> bytes, const std::string& name, const GltfOptions& options) {
@@ -75,9 +75,7 @@ const std::vector<std::string>& GltfScene::warnings() const { return contents_->
 Result<ImportedScene> import_gltf(const std::filesystem::path& path, const GltfOptions& options) {
     auto scene = GltfScene::open(path, options);
     if (!scene) return scene.error();
-    auto frame = scene->frame(0);
-    if (!frame) return frame.error();
-    return ImportedScene{*std::move(frame), scene->warnings()};
+    return scene->frame(0).and_then([&](auto& frame) { return ImportedScene{std::move(frame), scene->warnings()}; });
 }
 
 }  // namespace strata

@@ -9,9 +9,7 @@ namespace {
 
 Result<Frame> recorded_frame(const ExportOptions& options) {
     const Partial partial = options.open.allow_partial ? Partial::allowed : Partial::refused;
-    const auto capture = open_capture(options.open.capture, partial);
-    if (!capture) return capture.error();
-    return capture->frame(options.frame);
+    return open_capture(options.open.capture, partial).and_then([&](auto& capture) { return capture.frame(options.frame); });
 }
 
 }  // namespace

@@ -116,13 +116,13 @@ bool needs_a_run(const Plan& plan) {
 }
 
 Result<IsaReport> describe_frame(Session& session, const Request& request, const IsaArguments& options) {
-    const auto frame = session.frame(request.frame);
-    if (!frame) return frame.error();
-    return IsaReport{.capture = options.open.capture.filename().string(),
-                     .frame = request.frame,
-                     .width = frame->view.width,
-                     .height = frame->view.height,
-                     .samples = request.samples ? request.samples : frame->view.samples};
+    return session.frame(request.frame).and_then([&](auto& frame) {
+        return IsaReport{.capture = options.open.capture.filename().string(),
+                         .frame = request.frame,
+                         .width = frame.view.width,
+                         .height = frame.view.height,
+                         .samples = request.samples ? request.samples : frame.view.samples};
+    });
 }
 
 /// The compilations of one plan, in the order of the models.

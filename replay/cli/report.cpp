@@ -89,9 +89,9 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
     if (!options.points) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
-    const auto made = measure_hard_cases(options.open.device, *rows, show_progress);
-    if (!made) return made.error();
-    return write(options, options.json ? as_json(*made) : as_text(*made));
+    return measure_hard_cases(options.open.device, *rows, show_progress).and_then([&](auto& made) {
+        return write(options, options.json ? as_json(made) : as_text(made));
+    });
 }
 
 Result<void> report(const ReportArguments& options) {

@@ -11,9 +11,9 @@ namespace {
 /// The expected image of the capture, where it is kept.
 Result<std::optional<HostImage>> kept_image(const Capture& capture, const ExpectedImage& expected) {
     if (expected.texels.empty()) return std::optional<HostImage>();
-    auto texels = capture.expected_image(expected.texels, bytes(expected.shape));
-    if (!texels) return texels.error();
-    return std::optional(HostImage{expected.shape, *std::move(texels)});
+    return capture.expected_image(expected.texels, bytes(expected.shape)).and_then([&](auto& texels) {
+        return std::optional(HostImage{expected.shape, std::move(texels)});
+    });
 }
 
 const ExpectedImage* find(const ExpectedAct& act, std::string_view name) {

@@ -48,9 +48,7 @@ Result<Request> stand_in(Session& session, Stage stage, Request base) {
 Result<ReferenceImage> picture(Session& session, Request request, Stage stage) {
     const std::string output(info(stage).outputs.front());
     request.outputs = {output};
-    const auto run = session.run(request);
-    if (!run) return run.error();
-    return in_double(run->images.at(output));
+    return session.run(request).and_then([&](auto& run) { return in_double(run.images.at(output)); });
 }
 
 }  // namespace

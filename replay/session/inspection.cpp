@@ -110,9 +110,9 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     const Image handle = declared->graph.find_image(image);
     if (!handle) return fail(Fault::usage, "the frame has no image '{}'", image);
     if (!last_write(plan, handle, step + 1)) return fail(Fault::usage, "'{}' is not written yet after step {}", image, step);
-    auto execution = execute(*declared, {.until = step, .peeks = {{step, handle}}});
-    if (!execution) return execution.error();
-    return std::move(execution->peeked.front());
+    return execute(*declared, {.until = step, .peeks = {{step, handle}}}).and_then([&](auto& execution) {
+        return std::move(execution.peeked.front());
+    });
 }
 
 Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, Stage stage) {

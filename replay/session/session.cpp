@@ -90,9 +90,9 @@ Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request>
 }
 
 Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
-    auto declared = prepare(request, nullptr, Keep::outputs);
-    if (!declared) return declared.error();
-    return PlannedFrame{std::move(declared->plan), std::move(declared->frame.skipped)};
+    return prepare(request, nullptr, Keep::outputs).and_then([&](auto& declared) {
+        return PlannedFrame{std::move(declared.plan), std::move(declared.frame.skipped)};
+    });
 }
 
 Result<void> DeviceSession::check_going() const {
@@ -236,9 +236,10 @@ void DeviceSession::remember(const Declaration& d, const Execution& execution) {
 namespace {
 
 Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, DeviceSession::Source source) {
-    auto device = Device::open(choice);
-    if (!device) return device.error();
-    return std::unique_ptr<Session>(std::make_unique<DeviceSession>(*std::move(device), std::move(source), choice.memory_budget));
+    return Device::open(choice).and_then([&](auto& device) {
+        return std::unique_ptr<Session>(
+            std::make_unique<DeviceSession>(std::move(device), std::move(source), choice.memory_budget));
+    });
 }
 
 }  // namespace
@@ -257,9 +258,7 @@ Result<std::unique_ptr<Session>> Session::open(std::vector<Frame> frames, const 
 Result<std::vector<ActImages>> Session::act_images(Request request) {
     request.outputs.clear();
     request.acts = Acts::brought_back;
-    auto run = this->run(request);
-    if (!run) return run.error();
-    return std::move(run->acts);
+    return this->run(request).and_then([&](auto& run) { return std::move(run.acts); });
 }
 
 }  // namespace strata

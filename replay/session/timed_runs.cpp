@@ -82,9 +82,7 @@ Result<DeviceSession::TimedRun> DeviceSession::time_alone(const Request& request
 }
 
 Result<Run> DeviceSession::plan_run(const Request& request) {
-    const auto declared = prepare(request, nullptr, Keep::outputs);
-    if (!declared) return declared.error();
-    return describe_run(*declared);
+    return prepare(request, nullptr, Keep::outputs).and_then([&](auto& declared) { return describe_run(declared); });
 }
 
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {

@@ -167,9 +167,8 @@ SidePicture picture_of(const ReferenceImage& truth) {
 Result<SidePicture> read_picture(const std::filesystem::path& path, const std::string& image) {
     const std::string kind = path.extension().string(), file = path.filename().string();
     if (kind == ".png") {
-        const auto bytes = read_png(path);
-        if (!bytes) return bytes.error();
-        return SidePicture{.image = as_light(*bytes), .is_bytes = true, .about = file};
+        return read_png(path).and_then(
+            [&](auto& bytes) { return SidePicture{.image = as_light(bytes), .is_bytes = true, .about = file}; });
     }
     if (kind != ".exr") return fail(Fault::usage, "pictures are read from .png and .exr, not from '{}'", file);
     auto images = read_exr(path);

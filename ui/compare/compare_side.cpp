@@ -63,10 +63,10 @@ const Expectation* best_of(std::span<const Expectation> all, const Expectation& 
 }
 
 Result<SidePicture> kept_picture(const Capture& capture, const ExpectedImage& image, const Expectation& expected) {
-    auto texels = capture.expected_image(image.texels, bytes(image.shape));
-    if (!texels) return texels.error();
-    return SidePicture{.image = std::make_shared<HostImage>(HostImage{image.shape, *std::move(texels)}),
-                       .about = fmt::format("expected on {}", text(expected.on))};
+    return capture.expected_image(image.texels, bytes(image.shape)).and_then([&](auto& texels) {
+        return SidePicture{.image = std::make_shared<HostImage>(HostImage{image.shape, std::move(texels)}),
+                           .about = fmt::format("expected on {}", text(expected.on))};
+    });
 }
 
 }  // namespace

@@ -39,9 +39,7 @@ private:
             frame_ = frame;
             if (reading_) reading_->progress.cancel();
             reading_ = services.replayer.start<Tables>([frame](Session& session, ui::Progress&) -> Result<Tables> {
-                const auto read = session.frame(frame);
-                if (!read) return read.error();
-                return capture_tables(*read);
+                return session.frame(frame).and_then([&](auto& read) { return capture_tables(read); });
             });
         }
         if (!reading_ || !reading_->result()) return;

@@ -14,9 +14,7 @@ namespace {
 
 /// Takes seconds for a large picture.
 Result<std::shared_ptr<const ComparedPictures>> compared(const PicturePair& pair) {
-    auto pictures = compare(pair);
-    if (!pictures) return pictures.error();
-    return std::make_shared<const ComparedPictures>(*std::move(pictures));
+    return compare(pair).and_then([&](auto& pictures) { return std::make_shared<const ComparedPictures>(std::move(pictures)); });
 }
 
 class ComparePanel final : public Panel {

@@ -85,9 +85,9 @@ private:
         tried_ = without_outputs(request);
         timing_ = services.replayer.start<FrameTimes>([request](Session& session, Progress& progress) -> Result<FrameTimes> {
             if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
-            auto runs = session.time(std::span(&request, 1), repeats);
-            if (!runs) return runs.error();
-            return FrameTimes{request, std::move(runs->front())};
+            return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) {
+                return FrameTimes{request, std::move(runs.front())};
+            });
         });
     }
 

@@ -118,9 +118,9 @@ private:
         peek.image.layer = 0;  // all of them come at once
         peeked_.ask(services.replayer, peek,
                     [](Session& session, Progress&, const Peek& of) -> Result<std::shared_ptr<const HostImage>> {
-                        auto image = session.peek(of.request, *of.image.step, of.image.name);
-                        if (!image) return image.error();
-                        return std::make_shared<const HostImage>(*std::move(image));
+                        return session.peek(of.request, *of.image.step, of.image.name).and_then([&](auto& image) {
+                            return std::make_shared<const HostImage>(std::move(image));
+                        });
                     });
         message_ = peeked_.error();
         return peeked_.answer() ? *peeked_.answer() : nullptr;

@@ -45,9 +45,7 @@ private:
             if (job_) job_->progress.cancel();
             const Request request = replay->request;
             job_ = services.replayer.start<PlanPicture>([request](Session& session, ui::Progress&) -> Result<PlanPicture> {
-                const auto planned = session.plan(request);
-                if (!planned) return planned.error();
-                return picture_of(*planned);
+                return session.plan(request).and_then([&](auto& planned) { return picture_of(planned); });
             });
         }
         if (!job_ || !job_->result()) return;

@@ -40,9 +40,9 @@ public:
         asked_.ask(services.replayer, {replay.request, glm::uvec2(*model.pin)},
                    [](Session& session, Progress& progress, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
                        if (!progress.at(0, "the frame, step by step")) return fail(Fault::usage, "stopped");
-                       const auto steps = session.pixel_steps(question.request, question.pixel);
-                       if (!steps) return steps.error();
-                       return history_of(*steps);
+                       return session.pixel_steps(question.request, question.pixel).and_then([&](auto& steps) {
+                           return history_of(steps);
+                       });
                    });
         draw_filter(widgets);
         draw_state_of(widgets, asked_);

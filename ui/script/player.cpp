@@ -213,9 +213,9 @@ Result<void> Player::expect(const std::string& path, const std::string& text) co
 }
 
 Result<void> Player::shot(const std::filesystem::path& path) {
-    const auto picture = this->picture();
-    if (!picture) return picture.error();
-    return write_png(path, Extent{picture->width, picture->height, 1}, picture->rgb);
+    return this->picture().and_then([&](auto& picture) {
+        return write_png(path, Extent{picture.width, picture.height, 1}, picture.rgb);
+    });
 }
 
 Result<void> Player::tree(const std::filesystem::path& path) const { return write_whole_file(path, widget_tree(*inspector_)); }

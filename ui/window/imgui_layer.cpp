@@ -336,9 +336,9 @@ Result<std::unique_ptr<ImguiLayer>> ImguiLayer::on(std::unique_ptr<LayerDevice> 
 }
 
 Result<std::unique_ptr<ImguiLayer>> ImguiLayer::headless(const DeviceChoice& choice) {
-    auto device = LayerDevice::open(choice.validation ? Validation::on : Validation::off);
-    if (!device) return device.error();
-    return on(*std::move(device));
+    return LayerDevice::open(choice.validation ? Validation::on : Validation::off).and_then([&](auto& device) {
+        return on(std::move(device));
+    });
 }
 
 }  // namespace strata::ui
