@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "passes/choice_names.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/scene/map_places.h"
 #include "passes/scene/scene_facts.h"
@@ -14,7 +15,7 @@ namespace strata {
 namespace {
 
 constexpr std::string_view kernels[] = {"2x2", "4x4", "8x8"};
-constexpr std::string_view allocations[] = {"own", "need"};
+constexpr auto allocations = choice_names({{std::uint32_t(Allocation::own), "own"}, {std::uint32_t(Allocation::need), "need"}});
 
 Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
 

@@ -2,6 +2,7 @@
 // drawn after it, and what the depth of both does not hide is what the frame draws.
 #include <algorithm>
 
+#include "passes/choice_names.h"
 #include "passes/culling/draw_command.shared.h"
 #include "passes/culling/hiz_two_phase/hiz_two_phase.shared.h"
 #include "passes/culling/hiz_two_phase/views.h"
@@ -13,7 +14,7 @@ ImageSet hiz_two_phase_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-constexpr std::string_view phases[] = {"one", "two"};
+constexpr auto phases = choice_names({{phases_one, "one"}, {phases_two, "two"}});
 
 /// What the steps hand each other.
 struct Culling {

@@ -1,5 +1,6 @@
 // Tiled lighting: per tile only the lights that reach it, less those that blockers hide, shaded by the cheapest shader that does
 // what they and the tile's surfaces need.
+#include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
@@ -16,13 +17,13 @@ ImageSet tiled_model(const StageInput&, const Settings&);
 
 namespace {
 
-// In the order of the constants in tiled.shared.h.
 constexpr std::string_view switches[] = {"off", "on"};
-constexpr std::string_view blocker_uses[] = {"per_pixel", "tile_only", "off"};
-constexpr std::string_view overflows[] = {"batch", "drop"};
-constexpr std::string_view prefilters[] = {"auto", "off", "on"};
-constexpr std::string_view shadow_sources[] = {"image", "inline"};
-constexpr std::string_view branch_kinds[] = {"specialized", "uniform"};
+constexpr auto blocker_uses =
+    choice_names({{blockers_per_pixel, "per_pixel"}, {blockers_tile_only, "tile_only"}, {blockers_off, "off"}});
+constexpr auto overflows = choice_names({{overflow_batch, "batch"}, {overflow_drop, "drop"}});
+constexpr auto prefilters = choice_names({{prefilter_automatic, "auto"}, {prefilter_off, "off"}, {prefilter_on, "on"}});
+constexpr auto shadow_sources = choice_names({{shadows_image, "image"}, {shadows_inline, "inline"}});
+constexpr auto branch_kinds = choice_names({{branches_specialized, "specialized"}, {branches_uniform, "uniform"}});
 
 void shade(Graph& graph, FrameImages& frame, const TiledParams& params, const CulledTiles& culled, std::uint32_t mode) {
     const bool is_inline = params.shadows == shadows_inline;

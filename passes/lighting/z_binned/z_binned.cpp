@@ -1,4 +1,5 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
+#include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
@@ -12,10 +13,10 @@ ImageSet z_binned_model(const StageInput&, const Settings&);
 
 namespace {
 
-constexpr std::string_view spacings[] = {"uniform", "logarithmic"};
+constexpr auto spacings = choice_names({{spacing_uniform, "uniform"}, {spacing_logarithmic, "logarithmic"}});
 constexpr std::string_view tiles[] = {"8", "16", "32"};
-constexpr std::string_view bounds[] = {"frustum", "depth"};
-constexpr std::string_view merges[] = {"lanes", "subgroup"};
+constexpr auto bounds = choice_names({{bounds_frustum, "frustum"}, {bounds_depth, "depth"}});
+constexpr auto merges = choice_names({{merge_lanes, "lanes"}, {merge_subgroup, "subgroup"}});
 
 /// To a step that walks a sample's lights.
 ComputePass bind_lists(ComputePass pass, const FrameImages& frame, const ZBins& lists) {

@@ -1,4 +1,5 @@
 // The first fragments of a sample to arrive, stored in small formats and sorted; later ones become one layer behind them.
+#include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
@@ -13,8 +14,7 @@ Image a_buffer_overflow_view(Graph&, FrameImages&, const Settings&);  // views.c
 
 namespace {
 
-// In the order of the constants in a_buffer.shared.h.
-constexpr std::string_view layouts[] = {"automatic", "mono", "rgb"};
+constexpr auto layouts = choice_names({{layout_automatic, "automatic"}, {layout_mono, "mono"}, {layout_rgb, "rgb"}});
 
 struct Layers {
     Image colors, transmittances, depths;

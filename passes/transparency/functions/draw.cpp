@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "passes/choice_names.h"
 #include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/lists/lists.h"
@@ -10,8 +11,9 @@
 namespace strata::transparency {
 namespace {
 
-constexpr std::string_view accumulations[] = {"half", "packed", "single"};
-constexpr std::string_view tints[] = {"total", "skew", "corrected"};
+constexpr auto accumulations =
+    choice_names({{accumulation_half, "half"}, {accumulation_packed, "packed"}, {accumulation_single, "single"}});
+constexpr auto tints = choice_names({{tint_total, "total"}, {tint_skew, "skew"}, {tint_corrected, "corrected"}});
 
 struct SumFormats {
     Format color, scalar, pair, four;

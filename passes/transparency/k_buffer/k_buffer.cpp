@@ -1,4 +1,5 @@
 // The K nearest fragments of a sample, kept in order by 64-bit atomics; what is behind them becomes a tail.
+#include "passes/choice_names.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
@@ -12,8 +13,7 @@ Image k_buffer_beyond_view(Graph&, FrameImages&, const Settings&);  // views.cpp
 
 namespace {
 
-// In the order of the constants in k_buffer.shared.h.
-constexpr std::string_view tails[] = {"drop", "blend", "hybrid"};
+constexpr auto tails = choice_names({{tail_drop, "drop"}, {tail_blend, "blend"}, {tail_hybrid, "hybrid"}});
 constexpr const char* keeping_shaders[] = {"transparency/k_buffer/keep_and_drop", "transparency/k_buffer/keep_and_blend",
                                            "transparency/k_buffer/keep_and_average"};
 

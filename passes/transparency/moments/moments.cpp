@@ -1,6 +1,7 @@
 // Moment-based transparency: T(z) of a texel from a few sums of powers of depth, or of its multiples as phases.
 #include <cmath>
 
+#include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
@@ -16,10 +17,14 @@ ImageSet moments_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-// In the order of the constants in moments.shared.h.
-constexpr std::string_view kinds[] = {"power4", "power6", "power8", "trig2", "trig3", "trig4"};
-constexpr std::string_view storages[] = {"single", "half", "normalized"};
-constexpr std::string_view compensations[] = {"none", "own"};
+constexpr auto kinds = choice_names({{moments_power4, "power4"},
+                                     {moments_power6, "power6"},
+                                     {moments_power8, "power8"},
+                                     {moments_trig2, "trig2"},
+                                     {moments_trig3, "trig3"},
+                                     {moments_trig4, "trig4"}});
+constexpr auto storages = choice_names({{storage_single, "single"}, {storage_half, "half"}, {storage_normalized, "normalized"}});
+constexpr auto compensations = choice_names({{compensation_none, "none"}, {compensation_own, "own"}});
 
 /// What a texel keeps; layer = channel.
 struct Moments {

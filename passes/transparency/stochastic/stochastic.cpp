@@ -1,6 +1,7 @@
 // Stochastic transparency: every fragment covers a random subset of subsamples, and an ordinary depth test does the rest.
 #include <algorithm>
 
+#include "passes/choice_names.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
@@ -12,11 +13,11 @@ ImageSet stochastic_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-// In the order of the constants in stochastic.shared.h; subsamples are 4 << choice.
+// Subsamples are 4 << choice.
 constexpr std::string_view sample_counts[] = {"4", "8", "16", "32", "64"};
-constexpr std::string_view subsets[] = {"bernoulli", "stratified"};
-constexpr std::string_view corrections[] = {"none", "alpha"};
-constexpr std::string_view modes[] = {"layered", "depth_based", "hashed"};
+constexpr auto subsets = choice_names({{subset_bernoulli, "bernoulli"}, {subset_stratified, "stratified"}});
+constexpr auto corrections = choice_names({{correction_none, "none"}, {correction_alpha, "alpha"}});
+constexpr auto modes = choice_names({{mode_layered, "layered"}, {mode_depth_based, "depth_based"}, {mode_hashed, "hashed"}});
 
 /// Sums of the whole frame, and the depths of a band's subsamples.
 struct Targets {

@@ -1,6 +1,7 @@
 // Voxel transparency: optical depth added up in slices of a low-resolution volume along the view, by integer atomics.
 #include <cmath>
 
+#include "passes/choice_names.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/functions/draw.h"
@@ -19,21 +20,25 @@ ImageSet voxel_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-// In the order of the constants in voxel.shared.h.
-constexpr std::string_view splats[] = {"words", "wrapping", "saturating", "overflow_minimum", "multiply"};
-constexpr std::string_view bits_choices[] = {"8", "10", "16", "32"};
-constexpr std::string_view packings[] = {"planes", "rgb10"};
-constexpr std::string_view splattings[] = {"point", "linear"};
-constexpr std::string_view samplings[] = {"point", "linear", "bicubic"};
-constexpr std::string_view roundings[] = {"nearest", "stochastic"};
-constexpr std::string_view thicknesses[] = {"point", "segment"};
-constexpr std::string_view curves[] = {"slices", "thickness", "linear"};
-constexpr std::string_view volumes[] = {"dense", "adaptive", "sparse"};
+constexpr auto splats = choice_names({{splat_words, "words"},
+                                      {splat_wrapping, "wrapping"},
+                                      {splat_saturating, "saturating"},
+                                      {splat_overflow_minimum, "overflow_minimum"},
+                                      {splat_multiply, "multiply"}});
+constexpr auto bits_choices = choice_names({{bits_8, "8"}, {bits_10, "10"}, {bits_16, "16"}, {bits_32, "32"}});
+constexpr auto packings = choice_names({{packing_planes, "planes"}, {packing_rgb10, "rgb10"}});
+constexpr auto splattings = choice_names({{splatting_point, "point"}, {splatting_linear, "linear"}});
+constexpr auto samplings = choice_names({{sampling_point, "point"}, {sampling_linear, "linear"}, {sampling_bicubic, "bicubic"}});
+constexpr auto roundings = choice_names({{rounding_nearest, "nearest"}, {rounding_stochastic, "stochastic"}});
+constexpr auto thicknesses = choice_names({{thickness_point, "point"}, {thickness_segment, "segment"}});
+constexpr auto curves = choice_names({{curve_slices, "slices"}, {curve_thickness, "thickness"}, {curve_linear, "linear"}});
+constexpr auto volumes = choice_names({{volume_dense, "dense"}, {volume_adaptive, "adaptive"}, {volume_sparse, "sparse"}});
 constexpr std::string_view skippings[] = {"off", "on"};
-constexpr std::string_view ranges[] = {"frame", "fixed"};
+constexpr auto ranges = choice_names({{range_frame, "frame"}, {range_fixed, "fixed"}});
 constexpr std::string_view resolutions[] = {"full", "half", "quarter", "eighth", "sixteenth"};
-constexpr std::string_view preparations[] = {"after_opaque", "before_opaque"};
-constexpr std::string_view cullings[] = {"off", "quads_16", "quads_32", "full_screen"};
+constexpr auto preparations = choice_names({{prepared_after_opaque, "after_opaque"}, {prepared_before_opaque, "before_opaque"}});
+constexpr auto cullings = choice_names(
+    {{culling_off, "off"}, {culling_quads_16, "quads_16"}, {culling_quads_32, "quads_32"}, {culling_full_screen, "full_screen"}});
 
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = voxel_params(settings, *images.facts);

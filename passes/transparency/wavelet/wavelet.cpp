@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/event_draw.h"
@@ -18,9 +19,9 @@ ImageSet wavelet_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-constexpr std::string_view storages[] = {"half", "single"};
-constexpr std::string_view corrections[] = {"none", "own"};
-constexpr std::string_view bounds_choices[] = {"frame", "pixel"};
+constexpr auto storages = choice_names({{storage_half_float, "half"}, {storage_float, "single"}});
+constexpr auto corrections = choice_names({{correction_none, "none"}, {correction_own, "own"}});
+constexpr auto bounds_choices = choice_names({{bounds_frame, "frame"}, {bounds_pixel, "pixel"}});
 
 /// Four coefficients each; layer = channel. As many as the rank asks for.
 using Coefficients = std::vector<Image>;

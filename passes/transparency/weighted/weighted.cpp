@@ -1,4 +1,5 @@
 // Weighted blended order-independent transparency: one additive pass, no order at all.
+#include "passes/choice_names.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
@@ -11,9 +12,15 @@ ImageSet weighted_model(const StageInput&, const Settings&);  // model.cpp
 
 namespace {
 
-// In the order of the constants in weighted.shared.h.
-constexpr std::string_view weights[] = {"w7", "w8", "w9", "w10", "blog", "w2015", "w2015_plain", "constant"};
-constexpr std::string_view forms[] = {"normalized", "average", "sum"};
+constexpr auto weights = choice_names({{weight_w7, "w7"},
+                                       {weight_w8, "w8"},
+                                       {weight_w9, "w9"},
+                                       {weight_w10, "w10"},
+                                       {weight_blog, "blog"},
+                                       {weight_2015, "w2015"},
+                                       {weight_2015_plain, "w2015_plain"},
+                                       {weight_constant, "constant"}});
+constexpr auto forms = choice_names({{form_normalized, "normalized"}, {form_average, "average"}, {form_sum, "sum"}});
 
 /// What fragments of one resolution are added and multiplied in.
 struct Targets {

@@ -1,6 +1,7 @@
 // Weighted blending that knows how additive a pixel is: one buffer set for alpha and for light, at full and half resolution.
 #include <cassert>
 
+#include "passes/choice_names.h"
 #include "passes/technique.h"
 #include "passes/transparency/distortion/distortion.h"
 #include "passes/transparency/event_draw.h"
@@ -13,10 +14,9 @@ ImageSet weighted_additive_model(const StageInput&, const Settings&);  // model.
 
 namespace {
 
-// In the order of the constants in weighted_additive.shared.h.
-constexpr std::string_view reveals[] = {"r8", "r16f"};
-constexpr std::string_view normalizations[] = {"published", "corrected"};
-constexpr std::string_view tiles[] = {"written", "all"};
+constexpr auto reveals = choice_names({{reveal_r8, "r8"}, {reveal_r16f, "r16f"}});
+constexpr auto normalizations = choice_names({{normalization_published, "published"}, {normalization_corrected, "corrected"}});
+constexpr auto tiles = choice_names({{tiles_written, "written"}, {tiles_all, "all"}});
 
 /// What fragments of one resolution are summed in. `emitted` exists where the normalization keeps it apart.
 struct Targets {
