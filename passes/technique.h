@@ -140,9 +140,29 @@ struct DebugTable {
 
 /// Variants of a technique's shader, of which every tile is shaded by one: its shading modes.
 struct ShaderVariants {
-    std::string_view constant;  ///< specialization constant that holds a variant's number; empty: there are none
+    std::string_view constant;  ///< specialization constant that holds a variant's number
     std::string_view view;      ///< of the technique: the number of each pixel's variant, below 0 where nothing is shaded
     std::string_view table;     ///< of the technique: a column named as the constant, one "tiles", and whatever tells them apart
+};
+
+/// Shading modes that serve tiles by the features these need of lights and surfaces.
+struct FeatureModes {
+    std::string_view table;                   ///< of the technique: spectra; columns spectrum, tiles, mode, superfluous
+    std::string_view constant;                ///< specialization constant that holds the features of a pipeline's mode
+    std::string_view count;                   ///< parameter: how many modes there are
+    std::span<const std::string_view> modes;  ///< parameters: the features of each
+};
+
+/// What some techniques can do and others cannot. A verb that needs one finds those that have it.
+struct Abilities {
+    std::optional<ShaderVariants> variants = {};
+    std::optional<FeatureModes> feature_modes = {};
+    /// Of the table that says where its slices of depth lie, in metres: from the first column to the second; empty: it has none.
+    std::string_view slices_table = {};
+    /// Exact up to rounding: may stand in for the stage's truth where that is too slow, once its own error is known.
+    bool stands_in_for_truth = false;
+    /// The common way to do the stage: reports give the others' times as multiples of its time.
+    bool is_time_unit = false;
 };
 
 /// The method on whole images: returns the stage's outputs.
@@ -193,6 +213,12 @@ struct TimeRatio {
     std::vector<Stage> stages = {};
 };
 
+/// What is stated of a technique, and measured.
+struct Claims {
+    std::vector<KnownFailure> failures = {};
+    std::vector<TimeRatio> ratios = {};
+};
+
 struct Technique {
     Stage stage;
     std::string_view name;  ///< "transparency/weighted": its folder below passes/
@@ -206,16 +232,11 @@ struct Technique {
     std::size_t counter_bytes = 0;  ///< sizeof its counter struct
     std::vector<DebugView> views = {};
     std::vector<DebugTable> tables = {};
-    ShaderVariants variants = {};
+    Abilities abilities = {};
     Capabilities needs = {};  ///< of the device, beyond the baseline
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
-    std::vector<KnownFailure> known_failures = {};
-    std::vector<TimeRatio> ratios = {};
-    /// Exact up to rounding: may stand in for the stage's truth where that is too slow, once its own error is known.
-    bool stands_in_for_truth = false;
-    /// The common way to do the stage: reports give the others' times as multiples of its time.
-    bool is_time_unit = false;
+    Claims claims = {};
     DeclareFunction declare = nullptr;
     std::vector<StageWork> at_other_stages = {};
     Model model = nullptr;

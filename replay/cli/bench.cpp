@@ -37,10 +37,10 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
     bool found = false;
     for (const Technique& technique : techniques()) {
         known.insert(known.end(), {technique.name, short_name(technique)});
-        if (!technique.ratios.empty()) stating.push_back(technique.name);
+        if (!technique.claims.ratios.empty()) stating.push_back(technique.name);
         if (technique.name != word && short_name(technique) != word) continue;
         found = true;
-        for (const TimeRatio& ratio : technique.ratios) {
+        for (const TimeRatio& ratio : technique.claims.ratios) {
             names.push_back(ratio.name);
             if (ratio.name.find(only) != ratio.name.npos) claims.push_back({.technique = &technique, .ratio = &ratio});
         }

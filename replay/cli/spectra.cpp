@@ -103,7 +103,7 @@ Result<void> spectra(const SpectraArguments& options) {
     wish.aim = options.aim == "worst" ? lighting::Aim::worst : lighting::Aim::sum;
     auto report = find_modes(**source, std::move(question), wish);
     if (!report) return report.error();
-    report->technique = (*technique)->name;
+    report->technique = *technique;
     report->cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
     fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
     return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*report));

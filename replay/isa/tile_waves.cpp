@@ -4,12 +4,12 @@
 #include <cassert>
 
 #include "replay/isa/isa_report.h"
-#include "replay/session/offering.h"
+#include "replay/session/ability.h"
 
 namespace strata {
 namespace {
 
-bool has_variants(const Technique& technique) { return !technique.variants.constant.empty(); }
+bool has_variants(const Technique& technique) { return technique.abilities.variants.has_value(); }
 
 std::string name_of(const Technique& technique, std::string_view inside) { return fmt::format("{}:{}", technique.name, inside); }
 
@@ -23,7 +23,7 @@ std::uint64_t at(const NumberTable& table, const std::vector<double>& row, std::
 /// What the compiler made of a variant; null where its pipeline is none of the technique's.
 const IsaProgram* program_of(const TilesAndCode& joined, std::uint32_t number) {
     const auto holds_number = [&](const Fixed& fixed) {
-        return fixed.name == joined.technique.variants.constant && fixed.value == SpecValue(number);
+        return fixed.name == joined.technique.abilities.variants->constant && fixed.value == SpecValue(number);
     };
     for (const IsaPass& pass : joined.gpu.passes) {
         const std::vector<Fixed>& fixed = joined.requests.pipelines[pass.pipeline].step.step.fixed;
@@ -51,33 +51,34 @@ HostImage waves_of_pixels(const HostImage& numbers, std::span<const VariantWaves
 }  // namespace
 
 Result<const Technique*> technique_of_variants(const ChoiceChanges& choices) {
-    return technique_offering({has_variants, "has no shading modes"}, choices);
+    return technique_with({has_variants, "has no shading modes"}, choices);
 }
 
 std::vector<std::string> outputs_of_variants(const Technique& technique) {
-    return {name_of(technique, technique.variants.view), name_of(technique, technique.variants.table)};
+    return {name_of(technique, technique.abilities.variants->view), name_of(technique, technique.abilities.variants->table)};
 }
 
 Result<TileWaves> waves_of_tiles(const TilesAndCode& joined) {
     const Technique& technique = joined.technique;
     const auto skipped = std::ranges::find(joined.run.skipped, technique.stage, &SkippedStage::stage);
     if (skipped != joined.run.skipped.end()) return fail(Fault::usage, "{} shades no tile: {}", technique.name, skipped->reason);
-    const NumberTable& table = joined.run.tables.at(name_of(technique, technique.variants.table));
-    TileWaves made{
-        .technique = std::string(technique.name), .constant = std::string(technique.variants.constant), .columns = table.columns};
+    const NumberTable& table = joined.run.tables.at(name_of(technique, technique.abilities.variants->table));
+    TileWaves made{.technique = std::string(technique.name),
+                   .constant = std::string(technique.abilities.variants->constant),
+                   .columns = table.columns};
     for (const std::vector<double>& row : table.rows) {
-        const auto number = static_cast<std::uint32_t>(at(table, row, technique.variants.constant));
+        const auto number = static_cast<std::uint32_t>(at(table, row, technique.abilities.variants->constant));
         const IsaProgram* program = program_of(joined, number);
         if (!program || !program->occupancy)
             return fail(Fault::device_lacks, "{} does not tell how many waves of {} {} fit a SIMD", joined.gpu.name,
-                        technique.variants.constant, number);
+                        technique.abilities.variants->constant, number);
         made.variants.push_back({row, number, at(table, row, "tiles"), program->registers, *program->occupancy});
         made.tiles += made.variants.back().tiles;
         made.mean += double(made.variants.back().tiles) * program->occupancy->waves_per_simd;
     }
     if (made.tiles == 0) return fail(Fault::usage, "{} shades no tile: nothing opaque is in view", technique.name);
     made.mean /= double(made.tiles);
-    made.picture = waves_of_pixels(joined.run.images.at(name_of(technique, technique.variants.view)), made.variants);
+    made.picture = waves_of_pixels(joined.run.images.at(name_of(technique, technique.abilities.variants->view)), made.variants);
     return made;
 }
 

@@ -36,7 +36,7 @@ struct TileWaves {
     HostImage picture;                   ///< r32f: waves per SIMD of each pixel's variant; 0 where nothing is shaded
 };
 
-/// The technique that tells which variant shades what, see technique_offering().
+/// The technique that tells which variant shades what, see technique_with().
 Result<const Technique*> technique_of_variants(const ChoiceChanges&);
 /// What a run must bring back for it: its view and its table.
 std::vector<std::string> outputs_of_variants(const Technique&);

@@ -25,9 +25,6 @@ constexpr double disturbance_noted = 2e-3;
 // Off the steps: farther from every one than this share of the axis.
 constexpr double off_steps = .01;
 
-/// Technique::tables, of methods that cut depth into slices: the first two columns are where each begins and ends.
-constexpr std::string_view slices_table = "slices";
-
 struct Method {
     std::string name;
     const Technique* technique = nullptr;
@@ -46,7 +43,7 @@ Result<Method> parse_method(const std::string& text) {
         return fail(Fault::usage, "{} is of the stage {}; a probe measures methods of {}", technique, name((*found)->stage),
                     name(Stage::transparency));
     Method method{technique, *found, {.choices = {}, .outputs = {"color"}}};
-    if (std::ranges::find((*found)->tables, slices_table, &DebugTable::name) != (*found)->tables.end())
+    if (const std::string_view slices_table = (*found)->abilities.slices_table; !slices_table.empty())
         method.request.outputs.push_back(fmt::format("{}:{}", technique, slices_table));
     method.request.choices.use(**found);
     for (std::string set; words >> set;) {

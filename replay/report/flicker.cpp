@@ -37,7 +37,7 @@ Result<Request> stand_in(Session& session, Stage stage, Request base) {
     if (!frame) return frame.error();
     const Features features = frame_features(*frame);
     for (const Technique* technique : techniques_of(stage)) {
-        if (!technique->stands_in_for_truth || unsupported(*technique, features)) continue;
+        if (!technique->abilities.stands_in_for_truth || unsupported(*technique, features)) continue;
         base.choices.use(*technique);
         return base;
     }

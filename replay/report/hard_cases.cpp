@@ -84,7 +84,7 @@ HardOutcome judged(const Variant& variant, const HardCase& hard_case, double err
         outcome.verdict = holds ? Verdict::holds : Verdict::fails;
         return outcome;
     }
-    const std::vector<KnownFailure>& failures = variant.technique->known_failures;
+    const std::vector<KnownFailure>& failures = variant.technique->claims.failures;
     const auto known = std::ranges::find(failures, id(hard_case), &KnownFailure::hard_case);
     if (known == failures.end()) {
         outcome.verdict = holds ? Verdict::holds : Verdict::undocumented;

@@ -39,7 +39,7 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
         return yardstick;
     }
     for (const Technique* technique : techniques_of(wanted.stage)) {
-        if (!technique->stands_in_for_truth) continue;
+        if (!technique->abilities.stands_in_for_truth) continue;
         Request request = wanted.base;
         request.choices.use(*technique);
         Request reduced = request;
@@ -100,7 +100,7 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
     const auto runs = session.time(timed, report.repeats, tell);
     if (!runs) return runs.error();
     const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
-    const auto unit = std::ranges::find_if(places, [&](std::size_t i) { return all[i].technique->is_time_unit; });
+    const auto unit = std::ranges::find_if(places, [&](std::size_t i) { return all[i].technique->abilities.is_time_unit; });
     std::vector<double> unit_times;
     if (unit != places.end()) unit_times = times((*runs)[std::size_t(unit - places.begin())]);
     const bool measurable = !unit_times.empty() && std::ranges::min(unit_times) > 0;  // 0: a clock too coarse for the frame

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
-#include "replay/gpu/measured_rounding.h"
+#include "replay/measure/measured_rounding.h"
 #include "replay/measure/host_memory.h"
 #include "replay/measure/host_timer.h"
 #include "replay/plural.h"

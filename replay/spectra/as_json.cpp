@@ -47,7 +47,7 @@ std::string as_json(const SpectraReport& report) {
     ordered_json json{
         {"schema", "strata.spectra"},
         {"schema_version", 1},
-        {"technique", report.technique},
+        {"technique", report.technique->name},
         {"cost", report.cost_source},
         {"unit", report.costs.unit},
         {"aim", report.wish.aim == lighting::Aim::sum ? "sum" : "worst"},
@@ -68,7 +68,7 @@ std::string as_json(const SpectraReport& report) {
         json["compiled"].push_back({{"bits", bits}, {"cycles", mode.cycles}, {"waves_per_simd", mode.waves}});
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
-    for (const ModeSetting& setting : settings_of(modes)) json["settings"].push_back(setting.text());
+    for (const ModeSetting& setting : settings_of(*report.technique, modes)) json["settings"].push_back(setting.text());
     return json.dump(2) + "\n";
 }
 

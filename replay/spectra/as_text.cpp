@@ -75,16 +75,16 @@ std::string as_text(const SpectraReport& report) {
     std::set<std::string> captures;
     for (const FrameSpectra& frame : report.frames) captures.insert(frame.capture);
     std::string text = fmt::format(
-        "{}: {} of {}, {} with something to light, {}; costs: {}\n\n", report.technique, plural(report.frames.size(), "frame"),
-        plural(captures.size(), "capture"), plural(all_tiles(report), "tile"),
+        "{}: {} of {}, {} with something to light, {}; costs: {}\n\n", report.technique->name,
+        plural(report.frames.size(), "frame"), plural(captures.size(), "capture"), plural(all_tiles(report), "tile"),
         report.rows.size() == 1 ? std::string("1 spectrum") : fmt::format("{} spectra", report.rows.size()), report.cost_source);
     text += modes_text(report) + "\n" + prediction_text(report) + waves_text(report) +
             "\nThe most frequent spectra by these modes:\n";
     text += lighting::readout(report.rows);
-    text += fmt::format("\nTo replay with them: --use {}", report.technique);
+    text += fmt::format("\nTo replay with them: --use {}", report.technique->name);
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
-    for (const ModeSetting& setting : settings_of(modes)) text += " --set " + setting.text();
+    for (const ModeSetting& setting : settings_of(*report.technique, modes)) text += " --set " + setting.text();
     return text + "\n";
 }
 

@@ -12,10 +12,8 @@ namespace strata {
 namespace {
 
 constexpr double pixels_of_a_tile = 256, invocations_per_throughput = 64;
-// The constant by which the technique tells the variants of its shader.
-constexpr std::string_view mode_constant = "mode_features";
-
-std::optional<std::uint32_t> mode_of(const PipelineRequest& request) {
+std::optional<std::uint32_t> mode_of(const Technique& technique, const PipelineRequest& request) {
+    const std::string_view mode_constant = technique.abilities.feature_modes->constant;
     for (const Fixed& fixed : request.step.step.fixed)
         if (const auto* bits = std::get_if<std::uint32_t>(&fixed.value); bits && fixed.name == mode_constant) return *bits;
     return {};
@@ -31,7 +29,7 @@ Result<std::vector<PipelineRequest>> pipelines_of_modes(const CostQuestion& ques
     const auto planned = session.plan(request);
     if (!planned) return planned.error();
     std::vector<PipelineRequest> pipelines = pipelines_of(planned->plan).pipelines;
-    std::erase_if(pipelines, [](const PipelineRequest& pipeline) { return !mode_of(pipeline); });
+    std::erase_if(pipelines, [&](const PipelineRequest& pipeline) { return !mode_of(question.technique, pipeline); });
     return pipelines;
 }
 
@@ -43,7 +41,7 @@ Result<void> add_modes(const CostQuestion& question, std::vector<PipelineRequest
     const IsaOfGpu gpu = isa_of_gpu(question.gpu, *made, requests, {});
     for (const IsaProgram& program : gpu.programs) {
         if (!program.inverse_throughput || !program.occupancy) continue;
-        modes[*mode_of(requests.pipelines[program.pipeline])] = {
+        modes[*mode_of(question.technique, requests.pipelines[program.pipeline])] = {
             .cycles = *program.inverse_throughput * pixels_of_a_tile / invocations_per_throughput,
             .waves = static_cast<std::uint32_t>(std::floor(program.occupancy->waves_per_simd))};
     }

@@ -4,16 +4,12 @@
 #include <cassert>
 #include <set>
 
-#include "replay/session/offering.h"
+#include "replay/session/ability.h"
 
 namespace strata {
 namespace {
 
-constexpr std::string_view table_name = "spectra";
-
-bool offers_spectra(const Technique& technique) {
-    return std::ranges::count(technique.tables, table_name, &DebugTable::name) > 0;
-}
+bool has_feature_modes(const Technique& technique) { return technique.abilities.feature_modes.has_value(); }
 
 /// The column's number of a row.
 std::uint32_t at(const NumberTable& table, const std::vector<double>& row, std::string_view column) {
@@ -96,19 +92,20 @@ std::vector<std::uint32_t> guessed_modes(const SpectraReport& report, std::span<
 }  // namespace
 
 Result<const Technique*> technique_of_spectra(const ChoiceChanges& choices) {
-    return technique_offering({offers_spectra, "makes no feature spectra"}, choices);
+    return technique_with({has_feature_modes, "makes no feature spectra"}, choices);
 }
 
-std::vector<ModeSetting> settings_of(std::span<const std::uint32_t> modes) {
-    assert(!modes.empty() && modes.size() <= most_settable_modes);
-    std::vector<ModeSetting> settings{{"modes", static_cast<std::uint32_t>(modes.size())}};
-    for (std::size_t i = 0; i < modes.size(); ++i) settings.push_back({fmt::format("mode_{}", i), modes[i]});
+std::vector<ModeSetting> settings_of(const Technique& technique, std::span<const std::uint32_t> modes) {
+    const FeatureModes& names = *technique.abilities.feature_modes;
+    assert(!modes.empty() && modes.size() <= names.modes.size());
+    std::vector<ModeSetting> settings{{std::string(names.count), static_cast<std::uint32_t>(modes.size())}};
+    for (std::size_t i = 0; i < modes.size(); ++i) settings.push_back({std::string(names.modes[i]), modes[i]});
     return settings;
 }
 
 void use_modes(ChoiceChanges& choices, const Technique& technique, std::span<const std::uint32_t> modes) {
     choices.use(technique);
-    for (ModeSetting& setting : settings_of(modes))
+    for (ModeSetting& setting : settings_of(technique, modes))
         choices.settings.push_back({&technique, std::move(setting.key), double(setting.value)});
 }
 
@@ -117,7 +114,7 @@ Result<GatheredFrames> gather_spectra(Session& session, const Technique& techniq
     GatheredFrames gathered;
     Request request = base;
     request.choices.use(technique);
-    request.outputs = {fmt::format("{}:{}", technique.name, table_name)};
+    request.outputs = {fmt::format("{}:{}", technique.name, technique.abilities.feature_modes->table)};
     request.once = true;
     for (const std::size_t frame : frames) {
         request.frame = frame;

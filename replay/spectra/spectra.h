@@ -19,8 +19,7 @@
 
 namespace strata {
 
-/// The technique that offers a table "spectra" (columns spectrum, tiles, mode, superfluous) and has the settings force, modes and
-/// mode_0 to mode_15: the one of its stage that is chosen, which must be such a one, else the first on the list.
+/// The technique with FeatureModes: the one chosen for the stage, which must have them, else the first on the list that has.
 Result<const Technique*> technique_of_spectra(const ChoiceChanges&);
 
 /// A parameter of such a technique.
@@ -30,7 +29,7 @@ struct ModeSetting {
     std::string text() const { return fmt::format("{}={}", key, value); }
 };
 /// The parameters that make the technique shade with these modes.
-std::vector<ModeSetting> settings_of(std::span<const std::uint32_t> modes);
+std::vector<ModeSetting> settings_of(const Technique&, std::span<const std::uint32_t> modes);
 /// Chooses the technique, with these modes.
 void use_modes(ChoiceChanges&, const Technique&, std::span<const std::uint32_t> modes);
 inline constexpr std::size_t most_settable_modes = 16;
@@ -97,7 +96,8 @@ struct SpectraWish {
     double dispatch = 0;  ///< in the unit of costs
 };
 struct SpectraReport {
-    std::string technique = {}, cost_source = {};
+    const Technique* technique = nullptr;
+    std::string cost_source = {};
     SpectraWish wish = {};
     ModeCosts costs = {};
     std::vector<FrameSpectra> frames = {};

@@ -159,7 +159,7 @@ TEST(Probe, OfAnExactMethodIsTheExactStepFunction) {
         const Request request = on_scenario(scenario);
         const PixelAt at = deep_pixel(*must(session_of_scenarios().transparent_fragments(request)));
         for (const Technique* technique : techniques_of(Stage::transparency)) {
-            if (!technique->stands_in_for_truth) continue;
+            if (!technique->abilities.stands_in_for_truth) continue;
             ++exact_methods;
             const Probe made = must(probe(session_of_scenarios(), request, at, {.methods = {std::string(technique->name)}}));
             for (std::size_t i = 0; i < made.depths.size(); ++i)

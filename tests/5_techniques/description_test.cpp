@@ -46,13 +46,35 @@ TEST_P(Description, IsNamedForItsStage) {
 
 TEST_P(Description, WithShaderVariantsHasAViewAndATableOfThem) {
     const Technique& technique = GetParam();
-    const ShaderVariants& variants = technique.variants;
-    if (variants.constant.empty()) return;
+    if (!technique.abilities.variants) return;
+    const ShaderVariants& variants = *technique.abilities.variants;
     EXPECT_EQ(std::ranges::count(technique.views, variants.view, &DebugView::name), 1);
     const auto table = std::ranges::find(technique.tables, variants.table, &DebugTable::name);
     ASSERT_NE(table, technique.tables.end());
     for (const std::string_view column : {variants.constant, std::string_view("tiles")})
         EXPECT_EQ(std::ranges::count(table->columns, column, &TableColumn::name), 1) << column;
+}
+
+TEST_P(Description, WithFeatureModesHasTheirTableAndTheirParameters) {
+    const Technique& technique = GetParam();
+    if (!technique.abilities.feature_modes) return;
+    const FeatureModes& modes = *technique.abilities.feature_modes;
+    const auto table = std::ranges::find(technique.tables, modes.table, &DebugTable::name);
+    ASSERT_NE(table, technique.tables.end());
+    for (const std::string_view column : {"spectrum", "tiles", "mode", "superfluous"})
+        EXPECT_EQ(std::ranges::count(table->columns, column, &TableColumn::name), 1) << column;
+    EXPECT_EQ(std::ranges::count(technique.params, modes.count, &Param::name), 1);
+    for (const std::string_view mode : modes.modes)
+        EXPECT_EQ(std::ranges::count(technique.params, mode, &Param::name), 1) << mode;
+}
+
+TEST_P(Description, WithSlicesOfDepthHasTheirTableInMetres) {
+    const Technique& technique = GetParam();
+    if (technique.abilities.slices_table.empty()) return;
+    const auto table = std::ranges::find(technique.tables, technique.abilities.slices_table, &DebugTable::name);
+    ASSERT_NE(table, technique.tables.end());
+    ASSERT_GE(table->columns.size(), 2u);
+    for (const std::size_t column : {0, 1}) EXPECT_EQ(table->columns[column].unit, "m");
 }
 
 TEST_P(Description, HasParametersWithDefaultsInTheirRange) {
@@ -235,7 +257,9 @@ TEST(Registry, NamesAreUniqueAndEachKnowsItsPlaceInItsStage) {
 
 TEST(Registry, AStageHasOneUnitOfTimeAtTheMost) {
     for (const StageInfo& stage : stages())
-        EXPECT_LE(std::ranges::count(techniques_of(stage.stage), true, &Technique::is_time_unit), 1) << stage.name;
+        EXPECT_LE(std::ranges::count_if(techniques_of(stage.stage), [](const Technique* t) { return t->abilities.is_time_unit; }),
+                  1)
+            << stage.name;
 }
 
 }  // namespace

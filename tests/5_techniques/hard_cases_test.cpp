@@ -217,7 +217,7 @@ TEST(HardCaseRecord, AsksForWorseAndBetterAndForWhatHeldNoMore) {
 
 TEST(HardCaseRecords, NameCasesThatExist) {
     for (const Technique& technique : techniques())
-        for (const KnownFailure& known : technique.known_failures) {
+        for (const KnownFailure& known : technique.claims.failures) {
             const auto is_it = [&](const HardCase& hard_case) { return id(hard_case) == known.hard_case; };
             EXPECT_TRUE(std::ranges::any_of(hard_cases(), is_it)) << technique.name << " says of " << known.hard_case;
             EXPECT_FALSE(known.because.empty()) << technique.name << " " << known.hard_case;

@@ -23,10 +23,15 @@ constexpr std::uint32_t blockers_portals = feature_blockers | feature_portals;
 constexpr std::uint32_t soft_spot = feature_blockers | feature_shadows | feature_soft_shadows | feature_square_spot;
 const lighting::Histogram example = {{0, 1716}, {blockers_portals, 2917}, {soft_spot, 2154}};
 
-Technique some_technique() {
-    return {.stage = Stage::lighting,
-            .name = "lighting/some",
-            .tables = {{.name = "spectra", .columns = {{"spectrum", ""}, {"tiles", ""}, {"mode", ""}, {"superfluous", ""}}}}};
+const Technique& some_technique() {
+    static constexpr std::array<std::string_view, 16> modes = {"mode_0", "mode_1", "mode_2", "mode_3"};
+    static const Technique technique{
+        .stage = Stage::lighting,
+        .name = "lighting/some",
+        .tables = {{.name = "spectra", .columns = {{"spectrum", ""}, {"tiles", ""}, {"mode", ""}, {"superfluous", ""}}}},
+        .abilities = {.feature_modes =
+                          FeatureModes{.table = "spectra", .constant = "mode_features", .count = "modes", .modes = modes}}};
+    return technique;
 }
 
 std::uint32_t value_of(const Request& request, const std::string& setting) {
@@ -133,7 +138,7 @@ TEST(ModesThatMatter, AreTheFullOneThoseGreedyTakesAndFrequentSpectra) {
 }
 
 TEST(MeasuredCosts, AreTheSavingsOfTheTilesThatAModeServesHoweverHeavyOthersAre) {
-    const Technique technique = some_technique();
+    const Technique& technique = some_technique();
     const std::vector<FrameSpectra> frames = gathered();
     const auto costs = measured_costs(question(technique, frames));
     ASSERT_TRUE(costs);
@@ -159,7 +164,7 @@ TEST(MeasuredCosts, AreTheSavingsOfTheTilesThatAModeServesHoweverHeavyOthersAre)
 }
 
 TEST(MeasuredCosts, OfACaptureThatDoesNotOpenAreItsError) {
-    const Technique technique = some_technique();
+    const Technique& technique = some_technique();
     const std::vector<FrameSpectra> frames = gathered();
     CostQuestion asked = question(technique, frames);
     asked.open = [](const std::string&) -> Result<std::unique_ptr<Session>> { return fail(Fault::bad_input, "it is gone"); };
@@ -177,7 +182,7 @@ Result<ModeCosts> asked_of_a_compiler(const CostQuestion& asked) {
 }
 
 TEST(CompiledCosts, AreThoseOfTheModesThatAreFoundHoweverFewWereKnownAtFirst) {
-    const Technique technique = some_technique();
+    const Technique& technique = some_technique();
     const std::vector<FrameSpectra> frames = gathered();
     CostQuestion asked = question(technique, frames);
     asked.modes = {every_light_feature, 0};
@@ -211,7 +216,7 @@ TEST(Predictions, AreOfTheModesThatTilesChooseByTheirWeightsWhateverCostsFoundTh
 
 TEST(SpectraText, ListsModesPredictionsTheReadoutAndALineToPaste) {
     SpectraReport report = find_modes(gathered(), {.cost = lighting::weighted_cost, .unit = "tiles"}, {.modes = 3});
-    report.technique = "lighting/some";
+    report.technique = &some_technique();
     report.cost_source = "weights";
     const std::string text = as_text(report);
     EXPECT_THAT(text, AllOf(HasSubstr("lighting/some: 1 frame of 1 capture, 6787 tiles with something to light, 3 spectra"),
@@ -225,12 +230,14 @@ TEST(SpectraText, ListsModesPredictionsTheReadoutAndALineToPaste) {
         if (!line.starts_with("(")) {
             EXPECT_LE(line.size(), 120u) << line;
         }
-    EXPECT_THAT(as_text(find_modes(gathered(), report.costs, {.modes = 1})), Not(HasSubstr("1 modes")));
+    SpectraReport of_one = find_modes(gathered(), report.costs, {.modes = 1});
+    of_one.technique = &some_technique();
+    EXPECT_THAT(as_text(of_one), Not(HasSubstr("1 modes")));
 }
 
 TEST(SpectraJson, HoldsTheSameAndTheFramesOneByOne) {
     SpectraReport report = find_modes(gathered(), {.cost = lighting::weighted_cost, .unit = "tiles"}, {.modes = 3});
-    report.technique = "lighting/some";
+    report.technique = &some_technique();
     const json made = json::parse(as_json(report));
     EXPECT_EQ(made["schema"], "strata.spectra");
     EXPECT_EQ(made["schema_version"], 1);
@@ -244,9 +251,11 @@ TEST(SpectraJson, HoldsTheSameAndTheFramesOneByOne) {
     EXPECT_EQ(made["frames"][0]["spectra"].size(), 3u);
     EXPECT_EQ(made["spectra"][2]["superfluous"], json({"Blockers", "Portals"}));
     EXPECT_FALSE(made.contains("timed"));
-    const Technique technique = some_technique();
+    const Technique& technique = some_technique();
     const std::vector<FrameSpectra> frames = gathered();
-    const json timed = json::parse(as_json(find_modes(frames, *measured_costs(question(technique, frames)), {.modes = 3})));
+    SpectraReport by_time = find_modes(frames, *measured_costs(question(technique, frames)), {.modes = 3});
+    by_time.technique = &technique;
+    const json timed = json::parse(as_json(by_time));
     EXPECT_GE(timed["timed"].size(), 3u);
     EXPECT_GT(timed["timed"][0]["saved_ms"], 0);
 }

@@ -12,8 +12,9 @@ namespace strata {
 namespace {
 
 Technique technique_with_variants() {
-    return {
-        .stage = Stage::lighting, .name = "lighting/some", .variants = {.constant = "mode", .view = "numbers", .table = "modes"}};
+    return {.stage = Stage::lighting,
+            .name = "lighting/some",
+            .abilities = {.variants = ShaderVariants{.constant = "mode", .view = "numbers", .table = "modes"}}};
 }
 
 const GpuModel& bonaire() { return **find_gpu_model("bonaire"); }

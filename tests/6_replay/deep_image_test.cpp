@@ -192,7 +192,7 @@ TEST(DeepImportReplayed, IsResolvedByEveryTechniqueWithinItsTolerance) {
         EXPECT_GT(accuracy.compared, 300u) << technique->name;
         expect_within_tolerance(accuracy, *technique, request);
         // Exact but for float: sums of a dozen numbers below 1.
-        if (technique->stands_in_for_truth) {
+        if (technique->abilities.stands_in_for_truth) {
             EXPECT_LT(accuracy.method.front().value, 1e-6) << technique->name;
         }
     }

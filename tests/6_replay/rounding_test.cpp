@@ -6,7 +6,7 @@
 
 #include "captures/cards.h"
 #include "passes/registry.h"
-#include "replay/gpu/measured_rounding.h"
+#include "replay/measure/measured_rounding.h"
 #include "replay/session/judgement.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"

@@ -294,7 +294,7 @@ TEST(FramePanel, WhatStepsMakeIsWhatTheirStageAllocatesAndWhatIsAliveIsThePlans)
     std::map<std::string, std::uint64_t> made;
     for (std::size_t i = 0; i < replay->steps.size(); ++i) {
         EXPECT_EQ(replay->steps[i].alive_bytes, memory.alive[i]);
-        made[std::string(name(replay->steps[i].stage))] += replay->steps[i].made_bytes;
+        made[std::string(name(replay->steps[i].scope.stage))] += replay->steps[i].made_bytes;
     }
     for (const auto& [stage, bytes] : made) EXPECT_EQ(bytes, memory.stages.at(stage).allocated) << stage;
 }

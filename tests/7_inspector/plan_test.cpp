@@ -153,7 +153,7 @@ TEST(PlanPanel, SaysWhyStagesWereLeftOutAndHowMuchEachHolds) {
         EXPECT_EQ(desk.said(fmt::format("Plan/left out/{}", name(skipped.stage))), skipped.reason);
     must(desk.player->choose("Plan/show", "Memory"));
     must(desk.player->wait());
-    EXPECT_THAT(desk.said(fmt::format("Plan/{}/peak", name(desk.replay()->steps.front().stage))), HasSubstr("B"));
+    EXPECT_THAT(desk.said(fmt::format("Plan/{}/peak", name(desk.replay()->steps.front().scope.stage))), HasSubstr("B"));
     desk.expect_no_conflicts();
     must(desk.player->choose("Plan/show", "Steps and images"));
 }

@@ -24,8 +24,8 @@ std::string short_name(const Technique& technique) { return below_stage(techniqu
 /// A ratio of a technique that states some, to type: `bench NAME --only 'NAME OF RATIO'`.
 std::string command_of_one() {
     for (const Technique& technique : techniques())
-        if (!technique.ratios.empty())
-            return fmt::format("bench {} --only '{}' --repeats 2", short_name(technique), technique.ratios.front().name);
+        if (!technique.claims.ratios.empty())
+            return fmt::format("bench {} --only '{}' --repeats 2", short_name(technique), technique.claims.ratios.front().name);
     return "";
 }
 
@@ -37,10 +37,10 @@ void expect_every_ratio_measured(const Technique& technique) {
     EXPECT_EQ(bench["schema_version"], 1);
     EXPECT_EQ(bench["repeats"], 2);
     EXPECT_FALSE(bench["device"]["name"].get<std::string>().empty());
-    ASSERT_EQ(bench["rows"].size(), technique.ratios.size());
-    for (std::size_t i = 0; i < technique.ratios.size(); ++i) {
+    ASSERT_EQ(bench["rows"].size(), technique.claims.ratios.size());
+    for (std::size_t i = 0; i < technique.claims.ratios.size(); ++i) {
         const json& row = bench["rows"][i];
-        const TimeRatio& stated = technique.ratios[i];
+        const TimeRatio& stated = technique.claims.ratios[i];
         ASSERT_FALSE(row.contains("not_measured")) << row;
         EXPECT_EQ(row["technique"], technique.name);
         EXPECT_EQ(row["name"], stated.name);
@@ -57,19 +57,20 @@ void expect_every_ratio_measured(const Technique& technique) {
 TEST(BenchVerb, MeasuresEveryRatioOfTheTechniqueThatStatesTheFewest) {
     const Technique* fewest = nullptr;
     for (const Technique& technique : techniques())
-        if (!technique.ratios.empty() && (!fewest || technique.ratios.size() < fewest->ratios.size())) fewest = &technique;
+        if (!technique.claims.ratios.empty() && (!fewest || technique.claims.ratios.size() < fewest->claims.ratios.size()))
+            fewest = &technique;
     ASSERT_TRUE(fewest);
     expect_every_ratio_measured(*fewest);
 }
 
 TEST(ExhaustiveBenchVerb, MeasuresEveryRatioThatATechniqueStates) {
     for (const Technique& technique : techniques())
-        if (!technique.ratios.empty()) expect_every_ratio_measured(technique);
+        if (!technique.claims.ratios.empty()) expect_every_ratio_measured(technique);
 }
 
 TEST(BenchVerb, EveryPublishedRatioHasASourceAndEveryCounterIsOneOfEitherWays) {
     for (const Technique& technique : techniques())
-        for (const TimeRatio& ratio : technique.ratios) {
+        for (const TimeRatio& ratio : technique.claims.ratios) {
             EXPECT_TRUE(!ratio.published || !ratio.source.empty()) << ratio.name;
             EXPECT_TRUE(find_scenario(ratio.scenario)) << ratio.name;
             const auto of = variant_of(technique, ratio.of, {}), against = variant_of(technique, ratio.against, {});
@@ -100,7 +101,7 @@ TEST(BenchVerb, TakesACaptureAndWritesTheJsonBesideTheTable) {
 TEST(BenchVerb, WrongRequestsEndWithASentence) {
     ASSERT_EQ(strata("record opaque_only -o opaque.strata").code, 0);
     std::string stating, silent;
-    for (const Technique& technique : techniques()) (technique.ratios.empty() ? silent : stating) = short_name(technique);
+    for (const Technique& technique : techniques()) (technique.claims.ratios.empty() ? silent : stating) = short_name(technique);
     const std::string misspelled = stating.substr(0, stating.size() - 1);
     const Refusal wrongs[] = {
         {misspelled, 2, "did you mean " + stating},

@@ -20,7 +20,7 @@ PipelineRequests variants_of(const Plan& plan, const Technique& technique) {
         kept.of_step.push_back(no_index);
         const Step& step = plan.steps[i].step;
         if (pipeline == no_index || !is_act_of(plan.scopes[step.scope], technique.name)) continue;
-        if (std::ranges::find(step.fixed, technique.variants.constant, &Fixed::name) == step.fixed.end()) continue;
+        if (std::ranges::find(step.fixed, technique.abilities.variants->constant, &Fixed::name) == step.fixed.end()) continue;
         if (places[pipeline] == no_index) {
             places[pipeline] = static_cast<std::uint32_t>(kept.pipelines.size());
             kept.pipelines.push_back(std::move(all.pipelines[pipeline]));

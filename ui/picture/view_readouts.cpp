@@ -117,7 +117,7 @@ void ViewReadouts::draw(Model& model, Services& services, const ViewChoice& choi
     if (!choice.view->unit.empty()) draw_slice(model, services, choice);
     if (choice.found) draw_pixel(model, widgets, *choice.found);
     if (const auto replay = services.replayer.shown("A")) draw_overflow(widgets, *replay, *choice.technique);
-    if (!choice.technique->variants.constant.empty()) draw_waves(model, services, choice);
+    if (choice.technique->abilities.variants) draw_waves(model, services, choice);
     if (choice.found) draw_tables(widgets, *choice.found);
 }
 

@@ -101,7 +101,8 @@ std::vector<std::pair<std::string_view, std::string_view>> numbering_views(const
     std::vector<std::pair<std::string_view, std::string_view>> found;
     for (const DebugView& view : technique.views)
         if (has_column(technique, view.name)) found.emplace_back(view.name, view.name);
-    if (!technique.variants.constant.empty()) found.emplace_back(technique.variants.view, technique.variants.constant);
+    if (technique.abilities.variants)
+        found.emplace_back(technique.abilities.variants->view, technique.abilities.variants->constant);
     return found;
 }
 

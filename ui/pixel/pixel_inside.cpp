@@ -121,8 +121,9 @@ std::uint32_t tile_at(glm::uvec2 pixel, std::uint32_t width, std::uint32_t tile_
 }
 
 std::optional<std::size_t> key_column(const Technique& technique, const DebugTable& table, const DebugView& view) {
-    if (view.name == technique.variants.view && table.name == technique.variants.table)
-        return column_of(table, technique.variants.constant);
+    if (technique.abilities.variants && view.name == technique.abilities.variants->view &&
+        table.name == technique.abilities.variants->table)
+        return column_of(table, technique.abilities.variants->constant);
     if (!table.columns.empty() && table.columns.front().name == view.name) return 0;
     return {};
 }

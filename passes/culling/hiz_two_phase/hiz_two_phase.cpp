@@ -210,7 +210,7 @@ Technique hiz_two_phase() {
             .counters = counters(),
             .counter_bytes = sizeof(HizCounters),
             .views = hiz_two_phase_views(),
-            .ratios = ratios(),
+            .claims = {.ratios = ratios()},
             .declare = declare,
             .model = hiz_two_phase_model,
             .tolerance = {.rmse = 0,

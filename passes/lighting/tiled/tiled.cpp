@@ -1,5 +1,7 @@
 // Tiled lighting: per tile only the lights that reach it, less those that blockers hide, shaded by the cheapest shader that does
 // what they and the tile's surfaces need.
+#include <array>
+
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
@@ -55,6 +57,10 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     for (std::uint32_t i = 0; i < culled.order.count; ++i) shade(graph, frame, params, culled, culled.order.modes[i]);
 }
 
+constexpr std::array<std::string_view, 16> mode_names = {"mode_0",  "mode_1",  "mode_2",  "mode_3", "mode_4",  "mode_5",
+                                                         "mode_6",  "mode_7",  "mode_8",  "mode_9", "mode_10", "mode_11",
+                                                         "mode_12", "mode_13", "mode_14", "mode_15"};
+
 template <auto Member>
 Param mode_row(std::string_view name, double features) {
     return param<Member>({.name = name,
@@ -69,22 +75,22 @@ Param mode_row(std::string_view name, double features) {
 // many waves as a mode for every spectrum would.
 std::vector<Param> mode_rows() {
     return {
-        mode_row<&TiledParams::mode_0>("mode_0", 0xffff),    // all
-        mode_row<&TiledParams::mode_1>("mode_1", 0x1f77),    // no soft shadows, tubes, skin, hair
-        mode_row<&TiledParams::mode_2>("mode_2", 0x0463),    // blockers, portals, round spots, omni lights, darks
-        mode_row<&TiledParams::mode_3>("mode_3", 0x7777),    // no soft shadows, tubes, clip planes
-        mode_row<&TiledParams::mode_4>("mode_4", 0x0df7),    // tubes and areas, clip planes
-        mode_row<&TiledParams::mode_5>("mode_5", 0x0d67),    // areas, clip planes, no square spots
-        mode_row<&TiledParams::mode_6>("mode_6", 0x0ff7),    // every kind of light, clip planes
-        mode_row<&TiledParams::mode_7>("mode_7", 0x0677),    // spots and their textures
-        mode_row<&TiledParams::mode_8>("mode_8", 0x0de7),    // tubes and areas, no square spots
-        mode_row<&TiledParams::mode_9>("mode_9", 0x0464),    // shadows
-        mode_row<&TiledParams::mode_10>("mode_10", 0x0f77),  // every kind of light but tubes
-        mode_row<&TiledParams::mode_11>("mode_11", 0x1ff7),  // every kind of light, clip planes, cloth
-        mode_row<&TiledParams::mode_12>("mode_12", 0x01e4),  // shadows, tubes, areas
-        mode_row<&TiledParams::mode_13>("mode_13", 0x0565),  // blockers, shadows, areas
-        mode_row<&TiledParams::mode_14>("mode_14", 0x0577),  // areas, square spots, no clip planes
-        mode_row<&TiledParams::mode_15>("mode_15", 0x1d77),  // areas, clip planes, cloth
+        mode_row<&TiledParams::mode_0>(mode_names[0], 0xffff),    // all
+        mode_row<&TiledParams::mode_1>(mode_names[1], 0x1f77),    // no soft shadows, tubes, skin, hair
+        mode_row<&TiledParams::mode_2>(mode_names[2], 0x0463),    // blockers, portals, round spots, omni lights, darks
+        mode_row<&TiledParams::mode_3>(mode_names[3], 0x7777),    // no soft shadows, tubes, clip planes
+        mode_row<&TiledParams::mode_4>(mode_names[4], 0x0df7),    // tubes and areas, clip planes
+        mode_row<&TiledParams::mode_5>(mode_names[5], 0x0d67),    // areas, clip planes, no square spots
+        mode_row<&TiledParams::mode_6>(mode_names[6], 0x0ff7),    // every kind of light, clip planes
+        mode_row<&TiledParams::mode_7>(mode_names[7], 0x0677),    // spots and their textures
+        mode_row<&TiledParams::mode_8>(mode_names[8], 0x0de7),    // tubes and areas, no square spots
+        mode_row<&TiledParams::mode_9>(mode_names[9], 0x0464),    // shadows
+        mode_row<&TiledParams::mode_10>(mode_names[10], 0x0f77),  // every kind of light but tubes
+        mode_row<&TiledParams::mode_11>(mode_names[11], 0x1ff7),  // every kind of light, clip planes, cloth
+        mode_row<&TiledParams::mode_12>(mode_names[12], 0x01e4),  // shadows, tubes, areas
+        mode_row<&TiledParams::mode_13>(mode_names[13], 0x0565),  // blockers, shadows, areas
+        mode_row<&TiledParams::mode_14>(mode_names[14], 0x0577),  // areas, square spots, no clip planes
+        mode_row<&TiledParams::mode_15>(mode_names[15], 0x1d77),  // areas, clip planes, cloth
     };
 }
 
@@ -199,8 +205,10 @@ Technique tiled() {
         .counter_bytes = sizeof(TiledCounters),
         .views = tiled_views(),
         .tables = tiled_tables(),
-        .variants = {.constant = "mode", .view = "mode numbers", .table = "modes"},
-        .ratios = tiled_ratios(),
+        .abilities = {.variants = ShaderVariants{.constant = "mode", .view = "mode numbers", .table = "modes"},
+                      .feature_modes =
+                          FeatureModes{.table = "spectra", .constant = "mode_features", .count = "modes", .modes = mode_names}},
+        .claims = {.ratios = tiled_ratios()},
         .declare = declare,
         .model = tiled_model,
         .model_is = ModelKind::mirror,

@@ -168,7 +168,7 @@ Technique z_binned() {
                     .help = "where each bin lies, and its lights in the order of depth",
                     .columns = {{"begins", "m"}, {"ends", "m"}, {"first light", ""}, {"lights", ""}},
                     .declare = bins_table}},
-        .ratios = ratios(),
+        .claims = {.ratios = ratios()},
         .declare = declare,
         .model = z_binned_model,
         .tolerance = shaded_light_tolerance};

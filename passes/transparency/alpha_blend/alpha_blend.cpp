@@ -30,7 +30,7 @@ Technique alpha_blend() {
         .counters = {counter<&AlphaBlendCounters::fragments>(
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),
-        .is_time_unit = true,
+        .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = alpha_blend_model,
         .tolerance =

@@ -38,7 +38,7 @@ Technique sorted_lists() {
         .counters = list_counters(),
         .counter_bytes = sizeof(ListCounters),
         .views = {layers_view_row},
-        .stands_in_for_truth = true,
+        .abilities = {.stands_in_for_truth = true},
         .declare = declare,
         .model = sorted_lists_model,
         .tolerance =

@@ -1,4 +1,4 @@
-#include "replay/gpu/measured_rounding.h"
+#include "replay/measure/measured_rounding.h"
 
 #include <cassert>
 
