@@ -77,7 +77,8 @@ Result<std::string> first_step(const std::vector<StepImages>& a, const std::vect
 }
 
 /// Looks into the stage of the act that differs first.
-Result<void> find_step(FrameComparison& frame, const RunToCompare& a, const RunToCompare& b, const ErrorLimits& limits) {
+Result<void> find_step(FrameComparison& frame, std::span<const ActImages> acts_a, const RunToCompare& a, const RunToCompare& b,
+                       const ErrorLimits& limits) {
     const std::string& label = frame.divergence.act;
     if (label.empty()) return {};
     const auto act = std::ranges::find(frame.acts, label, &ActComparison::label);
@@ -87,10 +88,10 @@ Result<void> find_step(FrameComparison& frame, const RunToCompare& a, const RunT
                         act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
         return {};
     }
-    const auto stage = find_stage(label.substr(0, label.find(' ')));
-    const auto steps_a = a.session.step_images(a.request, *stage);
+    const Stage stage = std::ranges::find(acts_a, label, &ActImages::label)->stage;  // both chose it alike, so both have it
+    const auto steps_a = a.session.step_images(a.request, stage);
     if (!steps_a) return steps_a.error();
-    const auto steps_b = b.session.step_images(b.request, *stage);
+    const auto steps_b = b.session.step_images(b.request, stage);
     if (!steps_b) return steps_b.error();
     auto step = first_step(*steps_a, *steps_b, limits);
     if (!step) return step.error();
@@ -122,7 +123,7 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
         add(frame, *std::move(act));
     }
     for (; next != acts_b->end(); ++next) add(frame, {next->label, "", next->choice, {in_one_alone("every output", "B")}});
-    if (const auto found = find_step(frame, a, b, limits); !found) return found.error();
+    if (const auto found = find_step(frame, *acts_a, a, b, limits); !found) return found.error();
     return frame;
 }
 

@@ -43,15 +43,15 @@ public:
         : device_(&device), pipelines_(device), samplers_(device), placeholders_(device), imports_(device) {}
 
     void upload(ImportId id, std::span<const std::byte> bytes) override {
-        guarded("upload", [&] { imports_.upload(id, bytes); });
+        as_device_failure("upload", [&] { imports_.upload(id, bytes); });
     }
     void create_image(ImportId id, const Shape& shape) override {
-        guarded("create an imported image", [&] { imports_.create_image(id, shape); });
+        as_device_failure("create an imported image", [&] { imports_.create_image(id, shape); });
     }
     void forget(ImportId id) override { imports_.forget(id); }
     Execution run(const Plan& plan, const RunOptions& options) override {
         Execution execution;
-        guarded("prepare the frame", [&] { execution = execute(plan, options); });
+        as_device_failure("prepare the frame", [&] { execution = record_and_submit(plan, options); });
         return execution;
     }
     std::size_t pipelines_created() const override { return pipelines_.created(); }
@@ -80,14 +80,14 @@ private:
         std::vector<HostCopies::Copy> peeked;  // in the order they were asked for
     };
 
-    Execution execute(const Plan&, const RunOptions&);
+    Execution record_and_submit(const Plan&, const RunOptions&);
     void record(const vk::raii::CommandBuffer&, Frame&);
     HostCopies::Copy copy_out(const vk::raii::CommandBuffer&, DeviceImage&, HostCopies&, std::optional<glm::uvec2> texel = {});
     void record_peeks(const vk::raii::CommandBuffer&, Frame&, std::size_t step);
     void read_kept(Frame&, Execution&);
     void fail_on_messages();
     template <typename Action>
-    void guarded(std::string place, Action action);
+    void as_device_failure(std::string place, Action action);
 
     OpenedDevice* device_;
     PipelineStore pipelines_;
@@ -100,7 +100,7 @@ private:
 
 /// Runs the action; whatever goes wrong becomes a DeviceFailure that says where, and the plan's memory starts anew.
 template <typename Action>
-void VulkanExecutor::guarded(std::string place, Action action) {
+void VulkanExecutor::as_device_failure(std::string place, Action action) {
     place_ = std::move(place);
     try {
         try {
@@ -125,7 +125,7 @@ void VulkanExecutor::fail_on_messages() {
     throw DeviceFailure(fmt::format("{}: the validation layer says ({} in all): {}", place_, messages.size(), messages.front()));
 }
 
-Execution VulkanExecutor::execute(const Plan& plan, const RunOptions& options) {
+Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& options) {
     Execution execution;
     HostTimer timer;
     if (!memory_ || !memory_->serves(plan)) {

@@ -103,9 +103,8 @@ private:
     void make_remembered(const Plan&);
     /// The one place where a device's collapse becomes an Error.
     template <typename Action>
-    std::invoke_result_t<Action> guarded(Action);
-    Result<Execution> execute(const Declaration&, const RunOptions&);
-    Result<Execution> try_execute(const Declaration&, RunOptions);
+    std::invoke_result_t<Action> failures_as_errors(Action);
+    Result<Execution> execute(const Declaration&, RunOptions);
     /// What is known of a run after it.
     Run finished(const Declaration&, const Execution&);
     void remember(const Declaration&, const Execution&);

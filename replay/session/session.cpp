@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
-#include "replay/measure/measured_rounding.h"
 #include "replay/measure/host_memory.h"
 #include "replay/measure/host_timer.h"
+#include "replay/measure/measured_rounding.h"
 #include "replay/plural.h"
 #include "replay/scene/shrink_textures.h"
 #include "replay/session/describe_run.h"
@@ -112,7 +112,7 @@ Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, K
         if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
         times_.load = timer();
     }
-    auto declared = guarded([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
+    auto declared = failures_as_errors([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
     if (!declared) memo_.drop_unfilled();
     times_.declare = timer();
     return declared;
@@ -139,7 +139,7 @@ Result<void> DeviceSession::check_buffers(const Plan& plan) const {
 }
 
 template <typename Action>
-std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
+std::invoke_result_t<Action> DeviceSession::failures_as_errors(Action action) {
     try {
         return action();
     } catch (const DeviceLost& failure) {
@@ -153,7 +153,7 @@ std::invoke_result_t<Action> DeviceSession::guarded(Action action) {
 Result<BlendRounding> DeviceSession::rounding() {
     if (rounding_) return *rounding_;
     executor_->forget_plan();  // a memory budget need not have room for another
-    return guarded([&]() -> Result<BlendRounding> { return rounding_.emplace(measured_rounding(*device_)); });
+    return failures_as_errors([&]() -> Result<BlendRounding> { return rounding_.emplace(measured_rounding(*device_)); });
 }
 
 void DeviceSession::upload_scene() {
@@ -181,8 +181,19 @@ void DeviceSession::forget_memo() {
     remembered_.clear();
 }
 
-Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions& options) {
-    auto execution = try_execute(d, options);
+Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions options) {
+    options.stop = stop_;
+    const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
+    auto execution = check_going()
+                         .and_then([&] { return check_buffers(d.plan); })
+                         .and_then([&] { return uses_memo ? Result<void>() : make_room(d.plan, options); })
+                         .and_then([&] {
+                             return failures_as_errors([&]() -> Result<Execution> {
+                                 upload_scene();
+                                 make_remembered(d.plan);
+                                 return executor_->run(d.plan, options);
+                             });
+                         });
     if (execution) {
         times_.device = execution->host_ms;
         return execution;
@@ -191,20 +202,6 @@ Result<Execution> DeviceSession::execute(const Declaration& d, const RunOptions&
     if (stop_.stop_requested()) return check_going().error();
     if (execution.error().fault == Fault::device_failed) remembered_.clear();  // the frame may have got halfway
     return execution;
-}
-
-Result<Execution> DeviceSession::try_execute(const Declaration& d, RunOptions options) {
-    if (const auto on = check_going(); !on) return on.error();
-    options.stop = stop_;
-    if (const auto fits = check_buffers(d.plan); !fits) return fits.error();
-    const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
-    if (!uses_memo)
-        if (const auto fits = make_room(d.plan, options); !fits) return fits.error();
-    return guarded([&]() -> Result<Execution> {
-        upload_scene();
-        make_remembered(d.plan);
-        return executor_->run(d.plan, options);
-    });
 }
 
 Run DeviceSession::finished(const Declaration& d, const Execution& execution) {

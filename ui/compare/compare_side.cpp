@@ -15,18 +15,13 @@ bool is_replay(Source source) {
     return source == Source::replay || source == Source::recorded || source == Source::kept || source == Source::variant;
 }
 
-/// "combine at film" is an act of combine.
-bool is_of(std::string_view label, const std::optional<Stage>& stage) {
-    return !stage || label == name(*stage) || label.starts_with(fmt::format("{} at ", name(*stage)));
-}
-
 Result<SidePicture> picture_after(Session& session, const Request& request, const Subject& subject) {
     auto acts = session.act_images(request);
     if (!acts) return acts.error();
     for (std::size_t i = acts->size(); i-- > 0;) {
         ActImages& act = (*acts)[i];
         const auto image = act.images.find(subject.image);
-        if (image == act.images.end() || !is_of(act.label, subject.after)) continue;
+        if (image == act.images.end() || (subject.after && act.stage != *subject.after)) continue;
         return SidePicture{.image = std::make_shared<HostImage>(std::move(image->second)), .about = act.choice};
     }
     return fail(Fault::usage, "{} writes no '{}' in this frame", name(*subject.after), subject.image);
@@ -105,7 +100,7 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
     for (std::size_t i = expected->acts.size(); i-- > 0;) {
         const ExpectedAct& act = expected->acts[i];
         const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);
-        if (image == act.images.end() || !is_of(act.label, subject.after)) continue;
+        if (image == act.images.end() || (subject.after && run->acts[i].stage != *subject.after)) continue;
         if (!image->texels.empty()) return kept_picture(*session.capture(), *image, *expected);
         const auto now = run->acts[i].images.find(subject.image);
         const bool same = now != run->acts[i].images.end() && hash_of(now->second) == image->hash;

@@ -1,4 +1,5 @@
 // Weighted blending that knows how additive a pixel is: one buffer set for alpha and for light, at full and half resolution.
+#include <array>
 #include <cassert>
 
 #include "passes/choice_names.h"
@@ -133,6 +134,11 @@ std::vector<Param> params() {
     };
 }
 
+constexpr std::string_view bytes_stall = "bytes of what shows through stall under 200 layers of .01";
+constexpr std::array exceptions = {ToleranceException{"", "two_hundred_layers", 6e-2, .2, bytes_stall},
+                                   ToleranceException{"", "H5 thin layers", 6e-2, .3, bytes_stall},
+                                   ToleranceException{"normalization=corrected", "H5 thin layers", 6e-2, .3, bytes_stall}};
+
 }  // namespace
 
 Technique weighted_additive() {
@@ -168,13 +174,10 @@ Technique weighted_additive() {
                                 {"H15", 0.25, "premultiplied colors are averaged: stacks of alpha are too dark"}}},
         .declare = declare,
         .model = weighted_additive_model,
-        .tolerance =
-            {.rmse = 4e-2,
-             .worst = 2e-1,
-             .because =
-                 "llvmpipe rounds what it multiplies bytes with to a byte, too: after 200 layers of .01 what shows is .12 off "
-                 "(2.9e-2 over the image; 60 layers of .1: 4e-3; r16f: 6e-3 and less); sums are rounded to half floats at every "
-                 "blend"},
+        .tolerance = {.rmse = 8e-3,
+                      .worst = 6.5e-2,
+                      .because = "llvmpipe rounds what it multiplies bytes with to a byte, too: 4e-3 and .03 measured",
+                      .exceptions = exceptions},
     };
 }
 
