@@ -263,7 +263,7 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
-    const auto rounding = this->rounding();
+    const auto rounding = against == Against::truth ? Result(BlendRounding()) : this->rounding();
     if (!rounding) return rounding.error();
     Accuracy accuracy = judge_stage({.frame = loaded_->frame,
                                      .features = loaded_->features,

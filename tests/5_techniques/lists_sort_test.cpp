@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/plan.h"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 #include "tests/support/device.h"
 #include "tests/support/session.h"
 

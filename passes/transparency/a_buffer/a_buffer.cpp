@@ -3,7 +3,7 @@
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 #include "passes/transparency/a_buffer/a_buffer.shared.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {

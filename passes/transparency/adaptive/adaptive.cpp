@@ -3,7 +3,7 @@
 #include "passes/transparency/adaptive/adaptive.shared.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/lists/event_lists.h"
 
 namespace strata::transparency {
 

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"

@@ -1,7 +1,7 @@
 // Objects from back to front, each blended over what is there: what most renderers do.
 #include "passes/technique.h"
 #include "passes/transparency/alpha_blend/alpha_blend.shared.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {

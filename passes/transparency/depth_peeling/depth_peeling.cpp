@@ -1,7 +1,7 @@
 // Depth peeling: each pass draws everything and keeps the layer behind the one before.
 #include "passes/technique.h"
 #include "passes/transparency/depth_peeling/depth_peeling.shared.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {

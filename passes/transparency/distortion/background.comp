@@ -1,7 +1,7 @@
 // The background as the offsets bend it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/distortion/distortion.glsl"
+#include "passes/transparency/distortion/bent_background.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;

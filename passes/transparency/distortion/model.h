@@ -1,4 +1,4 @@
-// Distortion of the background in double: see distortion.h.
+// Distortion of the background in double: see bent_background.h.
 #pragma once
 
 #include "passes/stages.h"

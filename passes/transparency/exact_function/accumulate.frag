@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
 #include "passes/transparency/functions/outputs.glsl"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "passes/choice_names.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/lists/event_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 
 namespace strata::transparency {

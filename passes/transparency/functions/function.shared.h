@@ -1,7 +1,7 @@
 // What methods that are a transmittance function T(z) share: their sums' formats and their counters.
 #ifndef PASSES_TRANSPARENCY_FUNCTION_SHARED_H
 #define PASSES_TRANSPARENCY_FUNCTION_SHARED_H
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif

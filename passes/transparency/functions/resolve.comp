@@ -2,7 +2,7 @@
 // what is not L_behind skewed (6.12).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/transparency/distortion/distortion.glsl"
+#include "passes/transparency/distortion/bent_background.glsl"
 #include "passes/transparency/functions/sums.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

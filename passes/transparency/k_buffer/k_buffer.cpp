@@ -1,7 +1,7 @@
 // The K nearest fragments of a sample, kept in order by 64-bit atomics; what is behind them becomes a tail.
 #include "passes/choice_names.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/k_buffer/k_buffer.shared.h"
 

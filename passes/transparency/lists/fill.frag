@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/lists.glsl"
+#include "passes/transparency/lists/event_lists.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 1, scalar) buffer Counts { uint counts[]; };

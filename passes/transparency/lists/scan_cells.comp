@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/lists/scan.glsl"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { Band band; };

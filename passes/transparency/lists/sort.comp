@@ -5,10 +5,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
-#include "passes/transparency/lists/lists.glsl"
+#include "passes/transparency/lists/event_lists.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };

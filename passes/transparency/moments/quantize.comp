@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 #include "passes/transparency/moments/moments.shared.h"
 
 layout(push_constant, scalar) uniform Push {

@@ -3,8 +3,8 @@
 
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/distortion/bent_background.h"
+#include "passes/transparency/lists/event_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/multi_layer/multi_layer.shared.h"
 

@@ -1,7 +1,7 @@
 // What multi-layer alpha blending's C++ and shaders share.
 #ifndef PASSES_TRANSPARENCY_MULTI_LAYER_SHARED_H
 #define PASSES_TRANSPARENCY_MULTI_LAYER_SHARED_H
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 #endif

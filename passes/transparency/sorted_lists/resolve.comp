@@ -3,8 +3,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/distortion/distortion.glsl"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/distortion/bent_background.glsl"
+#include "passes/transparency/lists/event_lists.shared.h"
 #include "passes/transparency/luminance.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };

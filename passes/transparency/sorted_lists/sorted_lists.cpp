@@ -1,7 +1,7 @@
 // Every fragment in a list of its sample, sorted, composited: the reference on the device. Exact but for float.
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/distortion/bent_background.h"
+#include "passes/transparency/lists/event_lists.h"
 #include "passes/transparency/sorted_lists/sorted_lists.shared.h"
 
 namespace strata::transparency {

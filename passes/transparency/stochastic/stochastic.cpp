@@ -3,7 +3,7 @@
 
 #include "passes/choice_names.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/stochastic/stochastic.shared.h"
 

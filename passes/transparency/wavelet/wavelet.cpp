@@ -9,7 +9,7 @@
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/functions/draw.h"
 #include "passes/transparency/functions/motion.h"
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/lists/event_lists.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/wavelet/wavelet.shared.h"
 

@@ -1,7 +1,7 @@
 // Weighted blended order-independent transparency: one additive pass, no order at all.
 #include "passes/choice_names.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted/weighted.shared.h"

@@ -4,7 +4,7 @@
 
 #include "passes/choice_names.h"
 #include "passes/technique.h"
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"

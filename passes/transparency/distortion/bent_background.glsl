@@ -1,7 +1,7 @@
 // What is behind transparent layers as they bend it (docs/algorithms/transparency.md 6.13): seen sum d T(z) away, of T the
 // luminance.
-#ifndef PASSES_TRANSPARENCY_DISTORTION_GLSL
-#define PASSES_TRANSPARENCY_DISTORTION_GLSL
+#ifndef PASSES_TRANSPARENCY_BENT_BACKGROUND_GLSL
+#define PASSES_TRANSPARENCY_BENT_BACKGROUND_GLSL
 #include "passes/transparency/low_resolution/bilinear.glsl"
 
 // offset: in uv of the image.

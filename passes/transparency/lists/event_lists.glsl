@@ -1,7 +1,7 @@
 // Where a cell's list lies. A shader that includes this declares `Band band` in its push constants first.
-#ifndef PASSES_TRANSPARENCY_LISTS_GLSL
-#define PASSES_TRANSPARENCY_LISTS_GLSL
-#include "passes/transparency/lists/lists.shared.h"
+#ifndef PASSES_TRANSPARENCY_EVENT_LISTS_GLSL
+#define PASSES_TRANSPARENCY_EVENT_LISTS_GLSL
+#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(set = 0, binding = 2, scalar) readonly buffer Starts { uint starts[]; };           // within the group of cells
 layout(set = 0, binding = 3, scalar) readonly buffer GroupStarts { uint group_starts[]; };  // of the group's first cell

@@ -1,4 +1,4 @@
-#include "passes/transparency/distortion/distortion.h"
+#include "passes/transparency/distortion/bent_background.h"
 
 #include "passes/transparency/event_draw.h"
 

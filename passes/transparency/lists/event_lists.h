@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "passes/technique.h"
-#include "passes/transparency/lists/lists.shared.h"
+#include "passes/transparency/lists/event_lists.shared.h"
 
 namespace strata::transparency {
 
@@ -19,10 +19,10 @@ struct EventLists {
 /// Memory for the largest band. pool: million fragments kept at a time (52 bytes each).
 EventLists create_lists(Graph&, const FrameImages&, float pool);
 
-/// Declares what makes the lists of a band, sorted by `order` (lists.shared.h). Counts into ListCounters.
+/// Declares what makes the lists of a band, sorted by `order` (event_lists.shared.h). Counts into ListCounters.
 void make_lists(Graph&, const FrameImages&, EventLists&, const Band&, std::uint32_t order);
 
-/// Binds what passes/transparency/lists/lists.glsl and events.glsl declare, and pushes the band.
+/// Binds what passes/transparency/lists/event_lists.glsl and events.glsl declare, and pushes the band.
 template <typename Pass>
 Pass& read_lists(Pass&& pass, const EventLists& lists, const Band& band) {
     return pass.loads("Counts", lists.counts)

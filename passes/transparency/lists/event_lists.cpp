@@ -1,4 +1,4 @@
-#include "passes/transparency/lists/lists.h"
+#include "passes/transparency/lists/event_lists.h"
 
 #include <algorithm>
 #include <cassert>
