@@ -20,7 +20,7 @@ struct Options {
 Result<void> inspect(const Options& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     ui::InspectOptions inspected{.capture = options.open.capture,
                                  .device = options.open.device,
                                  .partial = options.open.allow_partial ? Partial::allowed : Partial::refused,

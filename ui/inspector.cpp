@@ -84,7 +84,7 @@ void Inspector::take_results() {
     model_.know(replay->frame);
     for (const std::string& note : replay->run.notes) say(LogLine::Kind::warned, note);
     say(LogLine::Kind::said,
-        fmt::format("replayed frame {} in {:.1f} ms: {} executed, {} kept from before", replay->request.frame, replay->ms,
+        fmt::format("replayed frame {} in {:.1f} ms: {} executed, {} kept from before", replay->request.variant.frame, replay->ms,
                     plural(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
 }
 
@@ -120,7 +120,7 @@ bool Inspector::is_settled() const {
 
 std::string Inspector::title() const {
     const CaptureFacts* facts = replayer_->facts();
-    return fmt::format("{}, frame {} \xe2\x80\x93 Strata on {}", model_.capture.filename().string(), model_.edits().frame,
+    return fmt::format("{}, frame {} \xe2\x80\x93 Strata on {}", model_.capture.filename().string(), model_.edits().variant.frame,
                        facts ? facts->device.name : "...");
 }
 
@@ -129,7 +129,7 @@ void Inspector::press_keys() {
     if (keys_are_shown_ && is_down("escape")) keys_are_shown_ = false;
     if (is_down("ctrl+z")) model_.undo();
     if (is_down("ctrl+y")) model_.redo();
-    const std::size_t frame = model_.edits().frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
+    const std::size_t frame = model_.edits().variant.frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
     if (is_down("pageup") && frame > 0) model_.select_frame(frame - 1);
     if (is_down("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
     if (is_down("ctrl+g")) go_to_pixel_.open();
@@ -208,12 +208,12 @@ void Inspector::draw_top_bar() {
 
 void Inspector::draw_frame_choice() {
     const std::size_t count = replayer_->facts() ? replayer_->facts()->frames : 1;
-    widgets_.text("frame text", fmt::format("frame {} of {}", model_.edits().frame, count), &palette().dim);
+    widgets_.text("frame text", fmt::format("frame {} of {}", model_.edits().variant.frame, count), &palette().dim);
     if (count < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(140);
     const SliderRange range{.high = static_cast<double>(count - 1), .whole = true};
-    if (const auto frame = widgets_.slider("frame", static_cast<double>(model_.edits().frame), range))
+    if (const auto frame = widgets_.slider("frame", static_cast<double>(model_.edits().variant.frame), range))
         model_.select_frame(static_cast<std::size_t>(*frame));
 }
 

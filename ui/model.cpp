@@ -15,9 +15,7 @@ Settings base_of(const Choice& choice, const Choice& recorded) {
 }  // namespace
 
 Model::Model(std::filesystem::path path, DeviceChoice choice, const Request& first)
-    : capture(std::move(path)),
-      device(std::move(choice)),
-      edits_{first.frame, first.choices, first.force, first.samples, first.eye} {}
+    : capture(std::move(path)), device(std::move(choice)), edits_{first.variant, first.choices} {}
 
 void Model::know(const FrameFacts& facts) {
     if (facts_ && facts_->index == facts.index) return;
@@ -28,7 +26,7 @@ void Model::know(const FrameFacts& facts) {
 
 /// Edits may name what this frame's choices do not have: a key of a technique that another frame was recorded with. Those go.
 void Model::apply_edits() {
-    if (!facts_ || facts_->index != edits_.frame) return;  // another frame's facts are on their way
+    if (!facts_ || facts_->index != edits_.variant.frame) return;  // another frame's facts are on their way
     ChoiceChanges kept{edits_.choices.techniques, {}};
     choices_ = *choose(facts_->bare, kept);
     for (const SettingChange& change : edits_.choices.settings) {
@@ -97,29 +95,29 @@ void Model::reset(Stage stage, std::string_view param) {
     settle();
 }
 
-void Model::reset_all() { change({.frame = edits_.frame}, {}); }
+void Model::reset_all() { change({.variant = {.frame = edits_.variant.frame}}, {}); }
 
 void Model::force(std::vector<Feature> features) {
     Edits edits = edits_;
-    edits.force = std::move(features);
+    edits.variant.force = std::move(features);
     change(std::move(edits), {});
 }
 
 void Model::select_frame(std::size_t frame) {
     Edits edits = edits_;
-    edits.frame = frame;
+    edits.variant.frame = frame;
     change(std::move(edits), "frame");
 }
 
 void Model::set_samples(std::uint32_t samples) {
     Edits edits = edits_;
-    edits.samples = samples;
+    edits.variant.samples = samples;
     change(std::move(edits), {});
 }
 
 void Model::look_from(const EyeMove& eye) {
     Edits edits = edits_;
-    edits.eye = eye;
+    edits.variant.eye = eye;
     change(std::move(edits), "eye");
 }
 
@@ -149,21 +147,16 @@ void Model::redo() {
 }
 
 Request Model::request() const {
-    return {.frame = edits_.frame,
-            .choices = edits_.choices,
-            .force = edits_.force,
-            .outputs = {wanted_.begin(), wanted_.end()},
-            .samples = edits_.samples,
-            .eye = edits_.eye};
+    return {.variant = edits_.variant, .choices = edits_.choices, .outputs = {wanted_.begin(), wanted_.end()}};
 }
 
 std::string Model::command_line() const {
-    std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture.string()), edits_.frame);
+    std::string line = fmt::format("strata replay {} --frames {}", as_shell_word(capture.string()), edits_.variant.frame);
     for (const std::string& use : use_texts(edits_.choices)) line += fmt::format(" --use {}", as_shell_word(use));
     for (const std::string& set : set_texts(edits_.choices)) line += fmt::format(" --set {}", as_shell_word(set));
-    for (const Feature feature : edits_.force) line += fmt::format(" --force {}", name(feature));
-    if (edits_.samples != 0) line += fmt::format(" --samples {}", edits_.samples);
-    if (const std::string eye = text(edits_.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));
+    for (const Feature feature : edits_.variant.force) line += fmt::format(" --force {}", name(feature));
+    if (edits_.variant.samples != 0) line += fmt::format(" --samples {}", edits_.variant.samples);
+    if (const std::string eye = text(edits_.variant.eye); !eye.empty()) line += fmt::format(" --eye {}", as_shell_word(eye));
     if (uses_shaders) line += fmt::format(" --shaders {}", as_shell_word(shaders.string()));
     if (!device.gpu.empty()) line += fmt::format(" --gpu {}", as_shell_word(device.gpu));
     if (!image.step && !image.made && image.name != "display")

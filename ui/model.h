@@ -19,11 +19,8 @@ struct Outline;
 
 /// How a frame is made, as differences to how it was recorded. What undo brings back.
 struct Edits {
-    std::size_t frame = 0;
-    ChoiceChanges choices;
-    std::vector<Feature> force;
-    std::uint32_t samples = 0;
-    EyeMove eye = {};
+    FrameVariant variant = {};
+    ChoiceChanges choices = {};
     friend bool operator==(const Edits&, const Edits&) = default;
 };
 

@@ -21,7 +21,7 @@ ordered_json json_of(const MeasuredRatio& row) {
     ordered_json json{{"technique", row.claim.technique->name},
                       {"name", stated.name},
                       {"scene", row.claim.scene},
-                      {"frame", row.claim.base.frame},
+                      {"frame", row.claim.base.variant.frame},
                       {"steps", counted_steps(stated)}};
     if (stated.published) json["published"] = {{"ratio", *stated.published}, {"source", stated.source}};
     if (!row.not_measured.empty()) {

@@ -15,16 +15,14 @@ using TimedPairs = std::map<std::string, std::vector<Run>>;
 
 /// Whether a way can be timed on the frame at all.
 Result<void> check(Session& session, const Variant& way) {
-    const auto frame = session.frame(way.request.frame);
-    if (!frame) return frame.error();
     const auto planned = session.plan(way.request);
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped)
         if (skipped.stage == way.technique->stage)
             return fail(Fault::usage, "the frame does not need {}: {}", name(skipped.stage), skipped.reason);
-    const Features features = frame_features(*frame);
-    if (const auto feature = unsupported(*way.technique, features))
-        return fail(Fault::usage, "{} cannot do {} ({})", way.technique->name, name(*feature), features.reason(*feature));
+    if (const auto feature = unsupported(*way.technique, planned->features))
+        return fail(Fault::usage, "{} cannot do {} ({})", way.technique->name, name(*feature),
+                    planned->features.reason(*feature));
     return {};
 }
 
@@ -69,7 +67,7 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
     if (!ways) return ways.error();
     const auto& [of, against] = *ways;
     const std::string pair = fmt::format("{} against {} in frame {}", label(of.technique->name, of.settings),
-                                         label(against.technique->name, against.settings), claim.base.frame);
+                                         label(against.technique->name, against.settings), claim.base.variant.frame);
     if (!timed.contains(pair)) {
         auto runs = session.time(std::array{of.request, against.request}, repeats);
         if (!runs) return runs.error();

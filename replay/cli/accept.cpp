@@ -86,7 +86,7 @@ Result<void> accept(const AcceptArguments& options) {
     std::optional<ExpectationWriter> writer;
     std::size_t news = 0;
     for (const std::size_t frame : *frames) {
-        request->frame = frame;
+        request->variant.frame = frame;
         auto candidate = replay_candidate(**session, *request, options, *known);
         if (!candidate) return candidate.error();
         show(*candidate);

@@ -58,7 +58,7 @@ Result<std::vector<Frame>> frames_of(std::span<Claim> claims, std::pair<std::uin
     for (Claim& claim : claims) {
         const auto place = std::ranges::find(built, claim.ratio->scenario);
         claim.scene = claim.ratio->scenario;
-        claim.base.frame = static_cast<std::size_t>(place - built.begin());
+        claim.base.variant.frame = static_cast<std::size_t>(place - built.begin());
         if (place != built.end()) continue;
         const auto scenario = find_scenario(claim.ratio->scenario);
         if (!scenario) return scenario.error();
@@ -82,7 +82,7 @@ Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, s
 Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std::span<Claim> claims) {
     for (Claim& claim : claims) {
         claim.scene = options.open.capture.filename().string();
-        claim.base.frame = options.frame;
+        claim.base.variant.frame = options.frame;
     }
     return open(options.open);
 }

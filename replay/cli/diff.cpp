@@ -130,7 +130,7 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
     for (const std::size_t frame : *frames) {
-        request_a->frame = request_b->frame = frame;
+        request_a->variant.frame = request_b->variant.frame = frame;
         auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
         if (!made) return fail(made.error().fault, "frame {}: {}", frame, made.error().sentence);
         comparison.frames.push_back(*std::move(made));
@@ -154,16 +154,16 @@ Result<void> compare_with_images(const DiffArguments& options, Pictures& picture
     if (frames->size() != 1)
         return fail(Fault::usage, "{} is of one frame and the capture has {}; choose with --frames", options.b.file.string(),
                     frames->size());
-    request->frame = frames->front();
+    request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
     const auto run = (*session)->run(*request);
     if (!run) return run.error();
     comparison.a = describe(options.a, **session);
     comparison.b = {.name = options.b.file.filename().string()};
-    auto made = compare_image_sets(run->images, *images, options.limits, seeing(pictures, request->frame));
+    auto made = compare_image_sets(run->images, *images, options.limits, seeing(pictures, request->variant.frame));
     if (!made) return made.error();
-    made->frame = request->frame;
+    made->frame = request->variant.frame;
     comparison.frames.push_back(*std::move(made));
     return {};
 }

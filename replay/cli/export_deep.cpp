@@ -52,13 +52,13 @@ Result<double> worst_difference(std::string_view exr, const FragmentLists& lists
 Result<void> export_deep(const ExportOptions& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     request->outputs = {"depth_layers"};
     auto session = open(options.open);
     if (!session) return session.error();
     auto recorded = (*session)->frame(options.frame);
     if (!recorded) return recorded.error();
-    auto loaded = load_frame(*std::move(recorded), variant_of(*request));
+    auto loaded = load_frame(*std::move(recorded), request->variant);
     if (!loaded) return loaded.error();
     Frame& frame = (*loaded)->frame;
     shrink_textures(frame, (*session)->device().max_buffer_bytes);

@@ -54,7 +54,7 @@ Result<void> export_images(const ExportOptions& options) {
         return fail(Fault::usage, "images are written as .exr or .png, not as '{}'", options.output.filename().string());
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     request->outputs = options.images;
     auto session = open(options.open);
     if (!session) return session.error();

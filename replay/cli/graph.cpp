@@ -21,7 +21,7 @@ Result<void> graph(const GraphArguments& options) {
     if (!session) return session.error();
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
     if (options.dot) {

@@ -116,12 +116,12 @@ bool needs_a_run(const Plan& plan) {
 }
 
 Result<IsaReport> describe_frame(Session& session, const Request& request, const IsaArguments& options) {
-    return session.frame(request.frame).and_then([&](auto& frame) {
+    return session.frame(request.variant.frame).and_then([&](auto& frame) {
         return IsaReport{.capture = options.open.capture.filename().string(),
-                         .frame = request.frame,
+                         .frame = request.variant.frame,
                          .width = frame.view.width,
                          .height = frame.view.height,
-                         .samples = request.samples ? request.samples : frame.view.samples};
+                         .samples = request.variant.samples ? request.variant.samples : frame.view.samples};
     });
 }
 
@@ -153,7 +153,7 @@ Result<const Technique*> shader_of_tiles(const IsaArguments& options, Request& r
 Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel* const> models) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     const auto shader = shader_of_tiles(options, *request);
     if (!shader) return shader.error();
     auto session = open(options.open);

@@ -57,7 +57,7 @@ Result<void> run_probe(const ProbeArguments& options) {
     if (!at) return at.error();
     auto request = request_of(options.choices);
     if (!request) return request.error();
-    request->frame = options.frame;
+    request->variant.frame = options.frame;
     auto session = open(options.open);
     if (!session) return session.error();
     ProbeOptions wanted = options.probe;

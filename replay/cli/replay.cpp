@@ -43,7 +43,7 @@ struct Replayed {
 Result<void> write_frame(const Request& request, const Replayed& replayed, const ReplayArguments& options) {
     const Run& run = replayed.run;
     const std::string base =
-        (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.frame)).string();
+        (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.variant.frame)).string();
     if (const auto display = run.images.find("display"); display != run.images.end()) {
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         fmt::print(stderr, "wrote {}.png\n", base);
@@ -92,7 +92,7 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
     for (const std::string& note : replayed.run.notes) fmt::print(stderr, "strata: {}\n", note);
     if (const auto done = check_repeats(session, request, replayed.run, options.repeat); !done) return done.error();
     if (options.repeat > 1)
-        fmt::print(stderr, "frame {}: {} repeats, every image of every act bit for bit the same\n", request.frame,
+        fmt::print(stderr, "frame {}: {} repeats, every image of every act bit for bit the same\n", request.variant.frame,
                    options.repeat);
     if (known) {
         replayed.got = expectation_of(session, request, replayed.run);
@@ -123,21 +123,21 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
     const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
     switch (verdict.agreement) {
         case Agreement::exact:
-            fmt::print(stderr, "frame {}: every image of every act is bit for bit as expected{}\n", request.frame, where);
+            fmt::print(stderr, "frame {}: every image of every act is bit for bit as expected{}\n", request.variant.frame, where);
             return {};
         case Agreement::within_tolerance:
             for (const ImageVerdict& image : verdict.images)
                 if (image.agreement == Agreement::within_tolerance)
-                    fmt::print(stderr, "frame {}: within tolerance of what is expected{}: {}\n", request.frame, where,
+                    fmt::print(stderr, "frame {}: within tolerance of what is expected{}: {}\n", request.variant.frame, where,
                                sentence(image));
             return {};
         case Agreement::diverges:
-            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first act that diverges is {}", request.frame,
-                        where, sentence(*verdict.first_divergence()));
+            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first act that diverges is {}",
+                        request.variant.frame, where, sentence(*verdict.first_divergence()));
         case Agreement::no_expectation:
             return fail(Fault::expectation_missing,
                         "frame {} has no expectation for this device and these choices; it gives\n  {}\naccept it with: {}",
-                        request.frame, short_json(*replayed.got), command_to_accept(options, request.frame));
+                        request.variant.frame, short_json(*replayed.got), command_to_accept(options, request.variant.frame));
     }
     return {};
 }
@@ -153,8 +153,8 @@ std::string counters_of(const Run& run, std::string_view choice) {
 
 /// A line per stage, in the order of a frame, and what its technique counted below it.
 void print_summary(const Request& request, const Run& run) {
-    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.frame, plural(run.steps.size(), "step"),
-               double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
+    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.variant.frame,
+               plural(run.steps.size(), "step"), double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
     for (const StageInfo& stage : stages()) {
         for (const SkippedStage& skipped : run.skipped)
             if (skipped.stage == stage.stage) fmt::print("  {:<14} left out: {}\n", stage.name, skipped.reason);
@@ -173,7 +173,7 @@ Result<void> replay(const ReplayArguments& options) {
     request->outputs = options.outputs;
     const auto eye = eye_move_of(options.eye);
     if (!eye) return eye.error();
-    request->eye = *eye;
+    request->variant.eye = *eye;
     auto session = open(options.open);
     if (!session) return session.error();
     if (!options.shaders.empty())
@@ -194,7 +194,7 @@ Result<void> replay(const ReplayArguments& options) {
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
     for (const std::size_t frame : *frames) {
-        request->frame = frame;
+        request->variant.frame = frame;
         auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
         if (!replayed) return replayed.error();
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;

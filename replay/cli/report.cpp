@@ -61,7 +61,7 @@ std::string written(const ReportArguments& options, std::span<const Report> made
 Result<ReportRequest> request_of(const ReportArguments& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
-    base->frame = options.frame;
+    base->variant.frame = options.frame;
     ReportRequest wanted{.base = *base, .repeats = options.repeats};
     const auto stage = find_stage(options.stage);
     std::vector<std::string_view> known;

@@ -95,17 +95,19 @@ void add_options(CLI::App& app, ChoiceOptions& options) {
 Result<Request> request_of(const ChoiceOptions& options) {
     auto choices = parse_choices(options.uses, options.sets);
     if (!choices) return choices.error();
-    Request request{.choices = *std::move(choices), .samples = options.samples};
+    Request request;
+    request.choices = *std::move(choices);
+    request.variant.samples = options.samples;
     for (const std::string& text : options.force) {
         if (text == "all") {
-            request.force.assign(all_features().begin(), all_features().end());
+            request.variant.force.assign(all_features().begin(), all_features().end());
             continue;
         }
         const auto feature = find_feature(text);
         std::vector<std::string_view> known;
         for (const Feature candidate : all_features()) known.push_back(name(candidate));
         if (!feature) return fail(Fault::usage, "there is no feature '{}'{}", text, did_you_mean(text, known));
-        request.force.push_back(*feature);
+        request.variant.force.push_back(*feature);
     }
     return request;
 }
@@ -168,7 +170,7 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
 Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceChoice& device) {
     // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
     auto session = Session::open(std::vector<Frame>{small(frame)}, device);
-    const auto run = session ? (*session)->run({.samples = 1}) : Result<Run>(session.error());
+    const auto run = session ? (*session)->run({.variant = {.samples = 1}}) : Result<Run>(session.error());
     if (!run) {
         fmt::print(stderr, "strata: no thumbnail: {}\n", run.error().sentence);
         return {};

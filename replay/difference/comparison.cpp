@@ -107,7 +107,7 @@ Result<FrameComparison> compare_runs(const RunToCompare& a, const RunToCompare& 
     if (!acts_a) return acts_a.error();
     const auto acts_b = b.session.act_images(b.request);
     if (!acts_b) return acts_b.error();
-    FrameComparison frame{.frame = a.request.frame};
+    FrameComparison frame{.frame = a.request.variant.frame};
     // Acts stand in the order of the frame; a stage that only one frame needs is an act without a partner.
     auto next = acts_b->begin();
     for (const ActImages& of_a : *acts_a) {

@@ -81,8 +81,8 @@ std::string text(const ExpectedOn& on) {
 }
 
 Expectation expectation_of(const Session& session, const Request& request, const Run& run) {
-    Expectation e{.frame = request.frame, .samples = run.samples, .on = expected_on(session.device())};
-    for (const Feature feature : request.force) e.forced.emplace_back(name(feature));
+    Expectation e{.frame = request.variant.frame, .samples = run.samples, .on = expected_on(session.device())};
+    for (const Feature feature : request.variant.force) e.forced.emplace_back(name(feature));
     for (const ActImages& act : run.acts) {
         e.acts.push_back({act.label, act.choice, {}});
         for (const auto& [name, image] : act.images) e.acts.back().images.push_back({name, hash_of(image), image.shape, ""});

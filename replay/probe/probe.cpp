@@ -313,7 +313,7 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
 
 Result<Probe> probe(Session& session, const Request& request, PixelAt at, const ProbeOptions& options) {
     if (const auto methods = parse_methods(options.methods); !methods) return methods.error();  // before seconds of work
-    const auto frame = session.frame(request.frame);
+    const auto frame = session.frame(request.variant.frame);
     if (!frame) return frame.error();
     const auto lists = session.transparent_fragments(request);
     if (!lists) return lists.error();
@@ -328,7 +328,7 @@ Result<Probe> probe(Session& session, const Request& request, PixelAt at, const 
                        .seed = frame->seed},
                       options);
     if (!made) return made;
-    made->frame = request.frame;
+    made->frame = request.variant.frame;
     made->at = at;
     made->undecided = undecided;
     return made;

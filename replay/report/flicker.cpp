@@ -33,11 +33,10 @@ std::optional<glm::dvec2> depth_range(const Frame& frame, std::span<const std::u
 
 /// The first technique that stands in for the stage's truth and can do the frame.
 Result<Request> stand_in(Session& session, Stage stage, Request base) {
-    const auto frame = session.frame(base.frame);
-    if (!frame) return frame.error();
-    const Features features = frame_features(*frame);
+    const auto planned = session.plan(base);
+    if (!planned) return planned.error();
     for (const Technique* technique : techniques_of(stage)) {
-        if (!technique->abilities.stands_in_for_truth || unsupported(*technique, features)) continue;
+        if (!technique->abilities.stands_in_for_truth || unsupported(*technique, planned->features)) continue;
         base.choices.use(*technique);
         return base;
     }
@@ -85,7 +84,7 @@ Result<std::vector<double>> measure_flicker(Session& session, const ReportReques
         if (tell) tell(fmt::format("flicker, frame {} of {}", i + 1, walk.frames), double(i) / walk.frames);
         const auto placed = [&](Request request) {
             const double way = double(i) / std::max(1u, walk.frames - 1);
-            request.eye = {.dolly = *walk.dolly * way, .pan = glm::radians(walk.pan) * way};
+            request.variant.eye = {.dolly = *walk.dolly * way, .pan = glm::radians(walk.pan) * way};
             return request;
         };
         const auto truth = picture(session, placed(*exact), wanted.stage);

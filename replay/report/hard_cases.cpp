@@ -121,12 +121,12 @@ Result<void> add_frame(Session& session, const Request& request, const ImageSet&
 Result<std::vector<Tried>> tried(Session& session, std::span<const Variant> rows, const Placed& placed) {
     std::vector<Tried> all(rows.size());
     for (std::size_t frame = placed.first; frame < placed.first + placed.count; ++frame) {
-        const auto truth = session.truth({.frame = frame}, Stage::transparency);
+        const auto truth = session.truth({.variant = {.frame = frame}}, Stage::transparency);
         if (!truth) return truth.error();
         for (std::size_t i = 0; i < rows.size(); ++i) {
             if (!all[i].not_supported.empty()) continue;
             Request request = rows[i].request;
-            request.frame = frame;
+            request.variant.frame = frame;
             request.outputs = {"color"};
             if (const auto added = add_frame(session, request, *truth, all[i]); !added) return added.error();
         }

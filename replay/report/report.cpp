@@ -43,7 +43,7 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
         Request request = wanted.base;
         request.choices.use(*technique);
         Request reduced = request;
-        reduced.extent_divisor = yardstick.model_divisor;
+        reduced.variant.extent_divisor = yardstick.model_divisor;
         const auto accuracy = session.judge(reduced, wanted.stage, Against::model);
         if (!accuracy) return accuracy.error();
         if (!accuracy->not_supported.empty() || accuracy->model_rmse > stand_in_tolerance) continue;
@@ -66,7 +66,7 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     auto accuracy = session.judge(variant.request, stage, Against::truth, &yardstick.truth);
     if (!accuracy || !accuracy->not_supported.empty()) return accuracy;
     Request reduced = variant.request;
-    reduced.extent_divisor = yardstick.model_divisor;
+    reduced.variant.extent_divisor = yardstick.model_divisor;
     const auto model = session.judge(reduced, stage, Against::model);
     if (!model) return model.error();
     accuracy->model_rmse = model->model_rmse;
@@ -117,7 +117,7 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
 Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const Variant> all, Report& report,
                          const Progress& tell) {
     if (!wanted.flicker->dolly) {
-        const auto frame = session.frame(wanted.base.frame);
+        const auto frame = session.frame(wanted.base.variant.frame);
         if (!frame) return frame.error();
         wanted.flicker->dolly = default_dolly(*frame);
         if (!wanted.flicker->dolly) return fail(Fault::usage, "nothing lies before the eye to move towards; give --dolly metres");
@@ -169,14 +169,14 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     if (techniques_of(wanted.stage).empty()) return fail(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
     const auto all = variants(wanted);
     if (!all) return all.error();
-    const auto frame = session.frame(wanted.base.frame);
+    const auto frame = session.frame(wanted.base.variant.frame);
     if (!frame) return frame.error();
     View view = frame->view;
-    if (wanted.base.samples) view.samples = wanted.base.samples;
+    if (wanted.base.variant.samples) view.samples = wanted.base.variant.samples;
 
     Report report{.stage = wanted.stage,
                   .capture_id = session.capture_id(),
-                  .frame = wanted.base.frame,
+                  .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
                   .width = view.width,
                   .height = view.height,

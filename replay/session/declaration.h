@@ -7,6 +7,7 @@
 #include "replay/scene/device_scene.h"
 #include "replay/session/loaded_frame.h"
 #include "replay/session/memo.h"
+#include "replay/session/session.h"
 
 namespace strata {
 

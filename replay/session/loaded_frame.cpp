@@ -5,10 +5,6 @@
 
 namespace strata {
 
-FrameVariant variant_of(const Request& request) {
-    return {request.frame, request.extent_divisor, request.samples, request.eye, request.force};
-}
-
 Result<std::unique_ptr<LoadedFrame>> load_frame(Frame recorded, const FrameVariant& variant) {
     View& view = recorded.view;
     if (variant.samples != 0 && variant.samples != 1 && variant.samples != 4)

@@ -76,8 +76,7 @@ Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request>
     loaded_.reset();
     for (Request request : requests) {
         request.once = true;  // what the memo keeps belongs to the capture's frames
-        const FrameVariant variant = variant_of(request);
-        auto loaded = !loaded_ || loaded_->variant != variant ? load(made, variant) : Result<void>();
+        auto loaded = !loaded_ || loaded_->variant != request.variant ? load(made, request.variant) : Result<void>();
         auto run = loaded ? this->run(request) : Result<Run>(loaded.error());
         if (!run) {
             loaded_.reset();
@@ -91,7 +90,7 @@ Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request>
 
 Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
     return prepare(request, nullptr, Keep::outputs).and_then([&](auto& declared) {
-        return PlannedFrame{std::move(declared.plan), std::move(declared.frame.skipped)};
+        return PlannedFrame{std::move(declared.plan), std::move(declared.frame.skipped), loaded_->features};
     });
 }
 
@@ -103,13 +102,12 @@ Result<void> DeviceSession::check_going() const {
 
 Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
     if (const auto on = check_going(); !on) return on.error();
-    const FrameVariant variant = variant_of(request);
     times_ = {};
     HostTimer timer;
-    if (!loaded_ || loaded_->variant != variant) {
-        auto recorded = frame(request.frame);
+    if (!loaded_ || loaded_->variant != request.variant) {
+        auto recorded = frame(request.variant.frame);
         if (!recorded) return recorded.error();
-        if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded.error();
+        if (auto loaded = load(*std::move(recorded), request.variant); !loaded) return loaded.error();
         times_.load = timer();
     }
     auto declared = failures_as_errors([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });

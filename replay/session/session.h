@@ -17,8 +17,8 @@
 #include "replay/images/draw_cover.h"
 #include "replay/images/host_image.h"
 #include "replay/measure/timing.h"
-#include "replay/session/eye_move.h"
 #include "replay/session/frame_plan.h"
+#include "replay/session/frame_variant.h"
 #include "replay/session/memo.h"
 #include "replay/session/memory_need.h"
 
@@ -29,17 +29,13 @@ enum class Acts { left, brought_back };
 
 /// What to replay and what to bring back.
 struct Request {
-    std::size_t frame = 0;       ///< index in the capture
+    FrameVariant variant;
     ChoiceChanges choices = {};  ///< against the recorded ones
-    std::vector<Feature> force;  ///< features switched on though the frame lacks them
     std::vector<std::string> outputs = {
-        "display"};                    ///< names of frame_images.h, or "stage/technique:view" debug views and tables
-    std::string until;                 ///< last step to run: part of its name; empty: all
-    std::uint32_t extent_divisor = 1;  ///< replays at extent / divisor, for quick truths
-    std::uint32_t samples = 0;         ///< overrides the recorded samples when not 0
-    EyeMove eye = {};                  ///< against the recorded one
-    Acts acts = Acts::left;            ///< not with `until`
-    bool once = false;                 ///< nothing is kept for later runs that share stages with this one
+        "display"};          ///< names of frame_images.h, or "stage/technique:view" debug views and tables
+    std::string until;       ///< last step to run: part of its name; empty: all
+    Acts acts = Acts::left;  ///< not with `until`
+    bool once = false;       ///< nothing is kept for later runs that share stages with this one
     friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -164,6 +160,7 @@ public:
     struct PlannedFrame {
         Plan plan;
         std::vector<SkippedStage> skipped;
+        Features features;  ///< of the frame as the request has it
     };
     virtual Result<PlannedFrame> plan(const Request&) = 0;
     /// Any image after any step: step by index in the plan, image by its name in the graph.

@@ -21,7 +21,7 @@ struct Times {
 
 Request request_with(const CostQuestion& question, std::size_t frame, std::span<const std::uint32_t> modes) {
     Request request = question.base;
-    request.frame = frame;
+    request.variant.frame = frame;
     request.outputs = {std::string(info(question.technique.stage).outputs.front())};
     use_modes(request.choices, question.technique, modes);
     return request;

@@ -117,7 +117,7 @@ Result<GatheredFrames> gather_spectra(Session& session, const Technique& techniq
     request.outputs = {fmt::format("{}:{}", technique.name, technique.abilities.feature_modes->table)};
     request.once = true;
     for (const std::size_t frame : frames) {
-        request.frame = frame;
+        request.variant.frame = frame;
         const auto run = session.run(request);
         if (!run) return run.error();
         const auto skipped = std::ranges::find(run->skipped, technique.stage, &SkippedStage::stage);

@@ -48,7 +48,8 @@ const std::vector<Row>& rows() {
 }
 
 HostImage color_of(Session& session, std::size_t frame, const std::vector<std::string>& sets = {}) {
-    return must(session.run({.frame = frame, .choices = chosen({std::string(additive)}, sets), .outputs = {"color"}}))
+    return must(
+               session.run({.variant = {.frame = frame}, .choices = chosen({std::string(additive)}, sets), .outputs = {"color"}}))
         .images.at("color");
 }
 

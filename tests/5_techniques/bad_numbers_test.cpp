@@ -61,7 +61,8 @@ TEST(BadNumbers, LeaveEveryPictureAsItIsWithoutThem) {
     for (const Technique& technique : techniques()) {
         const std::vector<std::string> uses{std::string(technique.name)};
         const auto pictures = [&](std::size_t frame) {
-            return must(session->run({.frame = frame, .choices = chosen(uses), .outputs = {"color", "display"}})).images;
+            return must(session->run({.variant = {.frame = frame}, .choices = chosen(uses), .outputs = {"color", "display"}}))
+                .images;
         };
         const auto bad = pictures(0), clean = pictures(1), good = pictures(2);
         for (const auto& [name, image] : bad) {

@@ -42,7 +42,8 @@ Card bending_glass(double z, double columns) {
 /// Radiance along the middle row.
 std::vector<double> row_of(Session& session, std::size_t frame, std::string_view technique) {
     const HostImage color =
-        must(session.run({.frame = frame, .choices = chosen({std::string(technique)}), .outputs = {"color"}})).images.at("color");
+        must(session.run({.variant = {.frame = frame}, .choices = chosen({std::string(technique)}), .outputs = {"color"}}))
+            .images.at("color");
     const ReferenceImage image = in_double(color);
     std::vector<double> row;
     for (std::uint32_t x = 0; x < extent; ++x) row.push_back(image.at(x, extent / 2).x);

@@ -18,8 +18,8 @@ TEST(FrameSpectrum, T3_4_HoldsEveryBitThatATileOfAnyLightingScenarioNeeds) {
     for (const std::string_view scenario : info(technique.stage).scenarios) {
         Session& session = session_of_scenarios();
         const Request request = on_scenario(scenario);
-        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.frame}));
-        const std::uint32_t expected = frame_spectrum(must(session.frame(request.frame)));
+        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.variant.frame}));
+        const std::uint32_t expected = frame_spectrum(must(session.frame(request.variant.frame)));
         std::uint32_t needed = 0;
         for (const FrameSpectra& frame : gathered.frames)
             for (const auto& [spectrum, tiles] : frame.tiles) needed |= spectrum;
@@ -34,8 +34,8 @@ TEST(FrameSpectrum, KnowsEverySpectrumThatATileOfAnyLightingScenarioHas) {
     for (const std::string_view scenario : info(technique.stage).scenarios) {
         Session& session = session_of_scenarios();
         const Request request = on_scenario(scenario);
-        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.frame}));
-        const auto possible = possible_spectra(must(session.frame(request.frame)), every_light_feature);
+        const auto gathered = must(gather_spectra(session, technique, request, std::array{request.variant.frame}));
+        const auto possible = possible_spectra(must(session.frame(request.variant.frame)), every_light_feature);
         for (const FrameSpectra& frame : gathered.frames)
             for (const auto& [spectrum, tiles] : frame.tiles)
                 EXPECT_EQ(std::ranges::count(possible, spectrum), 1) << scenario << ' ' << lighting::spectrum_text(spectrum);

@@ -64,7 +64,7 @@ TEST_P(ShuffledLayers, AreWhatTheModelSaysAtEveryNumberOfThem) {
     for (std::size_t frame = 0; frame < layer_counts.size(); ++frame)  // outside: a session has one frame loaded
         for (const std::string_view point : points) {
             SCOPED_TRACE(fmt::format("{} layers, {}", layer_counts[frame], point));
-            const Request request{.frame = frame, .choices = chosen({std::string(technique.name)}, lines_of(point))};
+            const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(technique.name)}, lines_of(point))};
             const Accuracy accuracy = must(session_->judge(request, Stage::transparency, Against::model));
             if (!accuracy.not_supported.empty()) continue;
             expect_within_tolerance(accuracy, technique, request);

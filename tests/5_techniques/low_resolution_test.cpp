@@ -54,7 +54,7 @@ TEST_P(LowResolution, IsMergedAsTheModelSays) {
     const Technique& technique = *must(find_technique(method.technique));
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)
         for (const std::string& set : method.settings) {
-            const Request request{.frame = frame, .choices = chosen({std::string(method.technique)}, {set})};
+            const Request request{.variant = {.frame = frame}, .choices = chosen({std::string(method.technique)}, {set})};
             const Accuracy accuracy = must(smoke().judge(request, technique.stage, Against::model));
             expect_within_tolerance(accuracy, technique, request);
             EXPECT_LT(double(accuracy.undecided), .4 * double(accuracy.compared + accuracy.undecided));
@@ -98,8 +98,9 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
 
 TEST(WrittenTiles, AreAllThatBilinearEdgesReach) {
     const auto color_of = [](std::size_t frame, std::vector<std::string> sets) {
-        return must(smoke().run(
-                        {.frame = frame, .choices = chosen({std::string(additive)}, std::move(sets)), .outputs = {"color"}}))
+        return must(smoke().run({.variant = {.frame = frame},
+                                 .choices = chosen({std::string(additive)}, std::move(sets)),
+                                 .outputs = {"color"}}))
             .images.at("color");
     };
     for (std::size_t frame = 0; frame < smoke().frame_count(); ++frame)

@@ -20,7 +20,7 @@ const std::string pyramid = hiz + ":pyramid";
 constexpr const char* settings[] = {"phases=two", "phases=one"};
 
 Request culled(std::size_t frame, std::vector<std::string> sets = {}) {
-    return {.frame = frame, .choices = chosen({hiz}, std::move(sets)), .outputs = {"visible"}};
+    return {.variant = {.frame = frame}, .choices = chosen({hiz}, std::move(sets)), .outputs = {"visible"}};
 }
 
 std::uint64_t count_of(const Run& run, std::string_view name) {
@@ -148,7 +148,7 @@ TEST(OcclusionCulling, BuildsEveryLevelOfThePyramidFromTheDepthTheGBufferHas) {
 TEST(OcclusionCulling, DrawsNothingThatIsBehindTheEye) {
     const auto session = scenario_session("materials");
     Request away = culled(0);
-    away.eye.pan = std::numbers::pi;
+    away.variant.eye.pan = std::numbers::pi;
     const auto run = must(session->run(away));
     EXPECT_EQ(count_of(run, "in view"), drawn(run));
     Request at_it = culled(0);

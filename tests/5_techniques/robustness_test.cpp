@@ -84,12 +84,13 @@ protected:
 
     /// Every stage runs, needed or not: the technique meets the frame even where the frame does not call for it.
     Request forced(const Technique& technique) const {
-        Request request{.frame = hard_, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
+        Request request{
+            .variant = {.frame = hard_}, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
         for (const std::string_view output : info(technique.stage).outputs)
             if (output != "depth") request.outputs.emplace_back(output);  // multisampled; depth_layers is its copy
         for (const Feature feature : all_features())
             if (feature != Feature::multisampled || must(session_.frame(hard_)).view.samples > 1)
-                request.force.push_back(feature);
+                request.variant.force.push_back(feature);
         return request;
     }
 
@@ -113,7 +114,7 @@ TEST_P(TwinFrames, LookLikeTheirSimplerTwins) {
     for (const Technique& technique : techniques()) {
         const auto hard = must(session_.run(forced(technique)));
         const Request as_needed{
-            .frame = twin_, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
+            .variant = {.frame = twin_}, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
         const auto plain = must(session_.run(as_needed));
         for (const auto& [name, image] : plain.images)
             EXPECT_EQ(hash_of(image), hash_of(hard.images.at(name))) << technique.name << " " << name;
@@ -124,7 +125,7 @@ TEST_P(HardFrames, AreWhatTheModelsSay) {
     for (const Technique& technique : techniques()) {
         const Frame frame = must(session_.frame(hard_));
         if (info(technique.stage).unwanted(frame_features(frame))) continue;
-        const Request request{.frame = hard_, .choices = chosen({std::string(technique.name)})};
+        const Request request{.variant = {.frame = hard_}, .choices = chosen({std::string(technique.name)})};
         const auto judged = session_.judge(request, technique.stage, Against::model);
         ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
         expect_within_tolerance(*judged, technique, request, GetParam().name);  // some are scenarios

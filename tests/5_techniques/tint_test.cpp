@@ -29,7 +29,7 @@ Frame green_glass(float behind) {
 }
 
 glm::dvec3 seen(Session& session, std::size_t frame, const std::string& tint) {
-    const auto run = run_of(session, {.frame = frame}, {"channels=mono", "accumulation=single", tint});
+    const auto run = run_of(session, {.variant = {.frame = frame}}, {"channels=mono", "accumulation=single", tint});
     return glm::dvec3(in_double(run.images.at("color")).at(7, 7));
 }
 

@@ -15,7 +15,7 @@ class Views : public testing::TestWithParam<std::string_view> {};
 /// 80 pixels across: nothing here depends on how many there are.
 Request small_smoke(std::uint32_t samples) {
     Request request = on_scenario("smoke_grenade", samples);
-    request.extent_divisor *= 2;
+    request.variant.extent_divisor *= 2;
     return request;
 }
 

@@ -95,7 +95,7 @@ TEST(VoxelCulling, LeavesUnshadedWhatDenseSmokeHides) {
 /// 64 places of the eye. Culling acts at some of them only.
 std::vector<Request> camera_path() {
     std::vector<Request> places;
-    for (int i = 0; i < 64; ++i) places.push_back({.extent_divisor = 2, .eye = {.dolly = .02 * i, .pan = .004 * i}});
+    for (int i = 0; i < 64; ++i) places.push_back({.variant = {.extent_divisor = 2, .eye = {.dolly = .02 * i, .pan = .004 * i}}});
     return places;
 }
 
@@ -103,7 +103,7 @@ TEST(ExhaustiveVoxelCulling, ChangesNoPixelAlongACameraPath) {
     const auto session = dense_smoke(1);
     std::uint64_t unshaded = 0;
     for (const Request& request : camera_path()) {
-        SCOPED_TRACE(request.eye.dolly);
+        SCOPED_TRACE(request.variant.eye.dolly);
         unshaded += expect_equal(*session, request, {}, std::array{"culling=quads_16"});
     }
     EXPECT_GT(unshaded, 0u);
@@ -112,7 +112,7 @@ TEST(ExhaustiveVoxelCulling, ChangesNoPixelAlongACameraPath) {
 TEST(ExhaustiveVoxelSkipping, ChangesNoPixelAlongACameraPath) {
     const auto session = dense_smoke(1);
     for (const Request& request : camera_path()) {
-        SCOPED_TRACE(request.eye.dolly);
+        SCOPED_TRACE(request.variant.eye.dolly);
         const auto all = run_of(*session, request, {"skipping=off"}, "culling=quads_16");
         const auto used = run_of(*session, request, {"skipping=on"}, "culling=quads_16");
         EXPECT_EQ(differing_pixels(used.images.at("color"), all.images.at("color")), 0u);
@@ -199,8 +199,8 @@ std::size_t pixels_losing_something(const FragmentLists& lists, const Frame& fra
 TEST(VoxelCulling, FromTheFullSliceItselfWouldTakeAwayWhatIsSeen) {
     const Request request = on_scenario("smoke_grenade");
     const FragmentLists& lists = *must(session_of_scenarios().transparent_fragments(request));
-    Frame frame = must(session_of_scenarios().frame(request.frame));
-    frame.view.width /= request.extent_divisor, frame.view.height /= request.extent_divisor;
+    Frame frame = must(session_of_scenarios().frame(request.variant.frame));
+    frame.view.width /= request.variant.extent_divisor, frame.view.height /= request.variant.extent_divisor;
     const Settings settings(must(find_technique(voxel))->params);
     for (const std::uint32_t sampling : {sampling_point, sampling_linear, sampling_bicubic}) {
         VoxelParams params = settings.as<VoxelParams>();

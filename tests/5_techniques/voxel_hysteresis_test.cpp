@@ -36,7 +36,7 @@ struct Volume {
 Volume volume_of(Session& session, std::size_t frame, const std::string& hysteresis, std::vector<std::string> outputs = {}) {
     outputs.emplace_back("color");
     const strata::Run run =
-        must(session.run({.frame = frame,
+        must(session.run({.variant = {.frame = frame},
                           .choices = chosen({voxel}, {"slices=32", "thinnest=1e-5", "hysteresis=" + hysteresis}),
                           .outputs = std::move(outputs)}));
     return {counted(run, "halvings"), counted(run, "halvings held"), run.images.at("color").texels};

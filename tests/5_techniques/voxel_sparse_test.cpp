@@ -112,7 +112,7 @@ TEST(ExhaustiveVoxelSparse, NeverTakesMoreThanThePool) {
 TEST(VoxelSparse, TakesNothingOfThePoolWhereNothingIsSeen) {
     Request request = sparse_request("smoke_grenade", {});
     EXPECT_GT(counted(must(session_of_scenarios().run(request)), "blocks"), 0u);
-    request.eye.pan = 3.14159;
+    request.variant.eye.pan = 3.14159;
     const auto away = must(session_of_scenarios().run(request));
     EXPECT_EQ(counted(away, "blocks"), 0u);
     EXPECT_EQ(counted(away, "cleared"), 0u);
@@ -124,8 +124,8 @@ TEST(ExhaustiveVoxelSparse, HalvesAsOftenAsTheModel) {
     for (const std::string_view scenario : sparse_scenarios())
         for (const std::uint32_t pool : {1u, 4u, 16u}) {
             const Request request = sparse_request(scenario, {"thinnest=1e-5", fmt::format("pool={}", pool)});
-            Frame frame = must(session_of_scenarios().frame(request.frame));
-            frame.view.width /= request.extent_divisor, frame.view.height /= request.extent_divisor;
+            Frame frame = must(session_of_scenarios().frame(request.variant.frame));
+            frame.view.width /= request.variant.extent_divisor, frame.view.height /= request.variant.extent_divisor;
             VoxelParams params = settings.as<VoxelParams>();
             params.volume = volume_sparse, params.thinnest = 1e-5f, params.pool = pool;
             const Extent extent{frame.view.width, frame.view.height};

@@ -51,7 +51,7 @@ public:
     Result<Frame> frame(std::size_t) override { return Frame{}; }
     Result<strata::Run> run(const Request& request) override {
         strata::Run run;
-        if (request.frame == 1) {
+        if (request.variant.frame == 1) {
             run.skipped.push_back({Stage::lighting, "the frame has no lights"});
             return run;
         }

@@ -29,7 +29,7 @@ struct ReplayedFragments {
     explicit ReplayedFragments(std::string_view scenario, std::uint32_t samples = 1) {
         Request request = on_scenario(scenario, samples);
         Session& session = session_of_scenarios();
-        frame = must(load_frame(must(session.frame(request.frame)), variant_of(request)))->frame;
+        frame = must(load_frame(must(session.frame(request.variant.frame)), request.variant))->frame;
         truth = must(session.truth(request, Stage::transparency)).at("color");
         ReferenceImage depth(truth.width, truth.height, truth.layers);
         for (const ActImages& act : must(session.act_images(request))) {

@@ -59,7 +59,7 @@ TEST(DrawCover, FollowsTheEye) {
     const auto session = scenario_session("opaque_only");
     const std::uint32_t draw = opaque_draws(must(session->frame(0))).front();
     EXPECT_GT(std::ranges::count(must(session->draw_cover({}, draw)), Cover::shown), 0);
-    EXPECT_EQ(std::ranges::count(must(session->draw_cover({.eye = {.dolly = 1000}}, draw)), Cover::shown), 0);
+    EXPECT_EQ(std::ranges::count(must(session->draw_cover({.variant = {.eye = {.dolly = 1000}}}, draw)), Cover::shown), 0);
     EXPECT_THAT(session->draw_cover({}, 1000).error().sentence, testing::HasSubstr("there is no draw 1000"));
 }
 

@@ -79,7 +79,7 @@ Frame cards_around() {
 }
 
 glm::dvec4 middle(Session& session, const EyeMove& eye) {
-    const auto run = must(session.run({.outputs = {"color"}, .eye = eye}));
+    const auto run = must(session.run({.variant = {.eye = eye}, .outputs = {"color"}}));
     return glm::round(1e3 * texel(run.images.at("color"), 32, 18)) / 1e3;  // half floats may round towards 0
 }
 
@@ -98,11 +98,11 @@ TEST(Eye, SeesWhatIsWhereItLooks) {
 TEST(Eye, LeftWhereItWasKeepsEverythingThatIsKnown) {
     const auto session = scenario_session("glass_and_smoke");
     const auto first = must(session->run({}));
-    const auto second = must(session->run({.eye = {.dolly = 0, .roll = 0}}));
+    const auto second = must(session->run({.variant = {.eye = {.dolly = 0, .roll = 0}}}));
     EXPECT_GT(second.acts_from_memo, 0u);
     EXPECT_EQ(hash_of(first.images.at("display")), hash_of(second.images.at("display")));
     // Away and back, which is another frame in between.
-    must(session->run({.eye = {.roll = .2}}));
+    must(session->run({.variant = {.eye = {.roll = .2}}}));
     EXPECT_GT(must(session->run({})).acts_from_memo, 0u);
 }
 
@@ -112,7 +112,7 @@ TEST(Eye, SeesWhatAFrameRecordedFromThereShows) {
         Frame frame = scenario_frames(scenario).front();
         const auto session = must(Session::open({frame}, {.validation = true}));
         const auto recorded = must(session->run({}));  // so that the memo holds what must not be used
-        const auto from_there = must(session->run({.eye = eye}));
+        const auto from_there = must(session->run({.variant = {.eye = eye}}));
         frame.view = moved(frame.view, eye);
         const Request plain;
         const auto made = must(session->run(frame, std::span(&plain, 1))).front();
@@ -134,7 +134,7 @@ TEST(Eye, OrbitsAroundAPointThatStaysInTheMiddleAndComesBack) {
         if (i != 1) continue;
         EXPECT_NEAR(glm::distance(view.origin, glm::dvec3(2, 0, -2)), 0, 1e-12) << "to the right";
     }
-    const auto back = must(session->run({.eye = move_between(frame.view, view)})).images.at("display");
+    const auto back = must(session->run({.variant = {.eye = move_between(frame.view, view)}})).images.at("display");
     EXPECT_EQ(hash_of(back), hash_of(start));
     const View over = orbited(frame.view, {.distance = 2, .over = pi / 4});
     EXPECT_NEAR(glm::distance(over.origin, glm::dvec3(0, std::sqrt(2.0), std::sqrt(2.0) - 2)), 0, 1e-12);
@@ -142,7 +142,7 @@ TEST(Eye, OrbitsAroundAPointThatStaysInTheMiddleAndComesBack) {
 
 TEST(Eye, ThatIsNowhereIsASentence) {
     const auto session = scenario_session("three_panes");
-    const auto refused = session->run({.eye = {.tilt = std::nan("")}});
+    const auto refused = session->run({.variant = {.eye = {.tilt = std::nan("")}}});
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().sentence, HasSubstr("the eye's tilt is not a number"));
 }

@@ -40,11 +40,11 @@ TEST(MemoryBudget, HoldsOverFramesActsJudgementsAndTimings) {
     const std::uint64_t budget = peak_of(must(generous->run(everything))) + 2 * mib;  // small things are reckoned with 1 MiB
     const auto bounded = session_within(budget, 2);
     for (const std::size_t frame : {0, 1, 0}) {
-        everything.frame = frame;
-        must(bounded->run({.frame = frame}));
+        everything.variant.frame = frame;
+        must(bounded->run({.variant = {.frame = frame}}));
         must(bounded->run(everything));
     }
-    must(bounded->judge({.extent_divisor = 4, .samples = 1}, Stage::transparency, Against::truth));
+    must(bounded->judge({.variant = {.extent_divisor = 4, .samples = 1}}, Stage::transparency, Against::truth));
     const std::vector<Request> timed(2);
     EXPECT_LE(peak_of(must(bounded->time(timed, 2)).back()), budget);
 }
@@ -58,7 +58,7 @@ TEST(MemoryBudget, WhatDoesNotFitIsRefusedWithNumbersAndNothingIsAllocated) {
     EXPECT_THAT(refused.error().sentence, HasSubstr("the largest images are '"));
     EXPECT_FALSE(session->run({.acts = Acts::brought_back}));
     // What fits afterwards shows how much there ever was.
-    const auto small = must(session->run({.extent_divisor = 16, .samples = 1}));
+    const auto small = must(session->run({.variant = {.extent_divisor = 16, .samples = 1}}));
     EXPECT_LE(peak_of(small), 16 * mib);
 }
 

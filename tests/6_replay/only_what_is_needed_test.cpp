@@ -20,7 +20,7 @@ TEST_P(EveryScenario, ForcingEverythingChangesNoPixel) {
     const auto session = scenario_session(GetParam());
     const auto plain = must(session->run({.outputs = {"color", "display"}}));
     Request forced{.outputs = {"color", "display"}};
-    forced.force.assign(all_features().begin(), all_features().end());
+    forced.variant.force.assign(all_features().begin(), all_features().end());
     const auto all = must(session->run(forced));
     for (const auto& [name, image] : plain.images) EXPECT_EQ(hash_of(image), hash_of(all.images.at(name))) << name;
 }

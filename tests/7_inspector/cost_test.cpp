@@ -132,7 +132,8 @@ Desk& measured_desk() {
 const Report& measured_alone() {
     static const Report made = [] {
         const auto session = must(Session::open(small_scenarios(), {.validation = true}));
-        return must(make_report(*session, {.base = {.frame = frame_of("one_sphere")}, .stage = measured_stage, .repeats = 1}));
+        return must(make_report(*session,
+                                {.base = {.variant = {.frame = frame_of("one_sphere")}}, .stage = measured_stage, .repeats = 1}));
     }();
     return made;
 }

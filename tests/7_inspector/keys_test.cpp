@@ -176,13 +176,14 @@ TEST(Keys, WithTheRightButtonHeldWFliesAndHomeReturns) {
     must(desk.player->frames(30));
     io.KeysDown[chord_of("w")->key] = io.MouseDown[ImGuiMouseButton_Right] = false;
     must(desk.player->wait());
-    EXPECT_NEAR(std::hypot(desk.model().edits().eye.dolly, desk.model().edits().eye.truck), 1, .1) << "2 m/s for half a second";
-    EXPECT_GT(desk.model().edits().eye.pan, .1);
+    EXPECT_NEAR(std::hypot(desk.model().edits().variant.eye.dolly, desk.model().edits().variant.eye.truck), 1, .1)
+        << "2 m/s for half a second";
+    EXPECT_GT(desk.model().edits().variant.eye.pan, .1);
     EXPECT_THAT(desk.said("Image/eye"), HasSubstr("expects does not apply"));
     EXPECT_THAT(desk.model().command_line(), HasSubstr("--eye"));
     EXPECT_NE(shown_hash(desk), before);
     must(desk.player->key("ctrl+z"));
-    EXPECT_EQ(desk.model().edits().eye, EyeMove{}) << "a flight is one step of undo";
+    EXPECT_EQ(desk.model().edits().variant.eye, EyeMove{}) << "a flight is one step of undo";
     must(desk.player->key("ctrl+y"));
     must(desk.player->key("home"));
     must(desk.player->wait());
@@ -215,7 +216,7 @@ TEST(Camera, WhatTheMouseMovedBeforeThePressIsNoPull) {
     io.MousePos = {(picture.from.x + picture.to.x) / 2, (picture.from.y + picture.to.y) / 2};
     io.MouseDown[ImGuiMouseButton_Right] = true;
     must(desk.player->frames(3));
-    EXPECT_EQ(desk.model().edits().eye, EyeMove{});
+    EXPECT_EQ(desk.model().edits().variant.eye, EyeMove{});
     io.MouseDown[ImGuiMouseButton_Right] = false;
     must(desk.player->wait());
 }

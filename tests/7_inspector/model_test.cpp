@@ -33,7 +33,7 @@ Request parsed(const std::string& line) {
     std::ranges::reverse(words);
     app.parse(words);
     Request request = must(request_of(choices));
-    request.frame = must(frame_indices(frames, 1000)).front();
+    request.variant.frame = must(frame_indices(frames, 1000)).front();
     std::ranges::sort(outputs);
     request.outputs = outputs;
     return request;

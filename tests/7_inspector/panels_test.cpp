@@ -30,7 +30,7 @@ TEST(Panels, EveryPanelDrawsEveryScenarioWithoutTwoWidgetsOfOneName) {
         desk.model().select_frame(frame_of(scenario.name));
         must(desk.player->wait());
         ASSERT_EQ(desk.inspector->replayer().error("A"), nullptr) << desk.inspector->replayer().error("A")->sentence;
-        EXPECT_EQ(desk.replay()->request.frame, frame_of(scenario.name));
+        EXPECT_EQ(desk.replay()->request.variant.frame, frame_of(scenario.name));
         look_at_every_panel(desk);
     }
 }

@@ -128,7 +128,7 @@ TEST(PixelPanel, ListsTheFragmentsInTheOrderOfDepth) {
     const auto lists = must(other_session().transparent_fragments(request));
     const auto fragments = transparency::nearest_first(lists->at(48, 27));
     ASSERT_FALSE(fragments.empty());
-    const Frame frame = must(other_session().frame(request.frame));
+    const Frame frame = must(other_session().frame(request.variant.frame));
     for (std::size_t i = 0; i < fragments.size(); ++i) {
         const std::string row = fmt::format("Pixel/fragments/{}", i + 1);
         EXPECT_EQ(desk.said(row + "/depth"), fmt::format("{:.5g}", fragments[i].depth));

@@ -40,7 +40,7 @@ struct Opened {
     }
 };
 
-Request with_another_eye() { return {.eye = {.dolly = .5}}; }
+Request with_another_eye() { return {.variant = {.eye = {.dolly = .5}}}; }
 
 /// As a session's call that takes long: until somebody asks it to stop.
 Result<int> until_stopped(ui::Progress& progress) {

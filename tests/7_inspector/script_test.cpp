@@ -97,11 +97,11 @@ TEST(Script, TheProgramPlaysOneAndExitsByItsOutcome) {
 
 TEST(Replayer, OfManyWishesTheLatestIsAnswered) {
     Replayer replayer([] { return Session::open(small_scenarios(), {}); });
-    for (std::size_t frame = 0; frame < 5; ++frame) replayer.show("A", {.frame = frame});
+    for (std::size_t frame = 0; frame < 5; ++frame) replayer.show("A", {.variant = {.frame = frame}});
     while (!replayer.is_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     replayer.take_results();
     ASSERT_TRUE(replayer.shown("A"));
-    EXPECT_EQ(replayer.shown("A")->request.frame, 4u);
+    EXPECT_EQ(replayer.shown("A")->request.variant.frame, 4u);
     EXPECT_TRUE(replayer.is_current("A"));
 }
 
@@ -115,11 +115,11 @@ TEST(Replayer, APictureGoesBeforeTheNextStepOfALongJob) {
         progress.at(.5, "half");
         return 1;
     });
-    replayer.show("A", {.frame = 1});
+    replayer.show("A", {.variant = {.frame = 1}});
     asked = true;
     while (!job->result()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     replayer.take_results();
-    EXPECT_EQ(replayer.shown("A")->request.frame, 1u);
+    EXPECT_EQ(replayer.shown("A")->request.variant.frame, 1u);
     EXPECT_EQ(job->progress.doing(), "half");
 }
 

@@ -184,10 +184,10 @@ TEST(Eye, MovedIsTheSameAsAFrameRecordedFromThere) {
     const glm::dvec3 up = glm::transpose(view.to_view) * glm::dvec3(0, 1, 0);
     view.to_view = glm::transpose(glm::dmat3(glm::cross(to_the_right, up), up, to_the_right));
     const auto session = must(Session::open(frames, {.validation = true}));
-    const Request small{.extent_divisor = 4};
+    const Request small{.variant = {.extent_divisor = 4}};
     Request moved = small, recorded = small;
-    moved.eye = {.dolly = .5, .pan = turned};
-    recorded.frame = 1;
+    moved.variant.eye = {.dolly = .5, .pan = turned};
+    recorded.variant.frame = 1;
     const HostImage still = must(session->run(small)).images.at("display");
     const HostImage there = must(session->run(moved)).images.at("display");
     EXPECT_EQ(there.texels, must(session->run(recorded)).images.at("display").texels);

@@ -18,8 +18,9 @@ std::string sets_of(const Request& request) { return fmt::format("{}", fmt::join
 void expect_within_tolerance(const Accuracy& accuracy, const Technique& technique, const Request& request,
                              std::string_view scenario) {
     const std::string sets = sets_of(request);
-    const std::string judged = fmt::format("{} {} on {} at {}", technique.name, sets,
-                                           scenario.empty() ? fmt::format("frame {}", request.frame) : scenario, request.samples);
+    const std::string judged =
+        fmt::format("{} {} on {} at {}", technique.name, sets,
+                    scenario.empty() ? fmt::format("frame {}", request.variant.frame) : scenario, request.variant.samples);
     ASSERT_EQ(accuracy.incomparable, "") << judged;
     testing::Test::RecordProperty(judged, fmt::format("rmse {:.3g} worst {:.3g} of {} - {} texels", accuracy.model_rmse,
                                                       accuracy.model_worst, accuracy.compared, accuracy.trivial));
@@ -34,10 +35,11 @@ void expect_within_tolerance(const Accuracy& accuracy, const Technique& techniqu
 
 void expect_proven_within_tolerance(const Accuracy& accuracy, const Technique& technique, const Request& request,
                                     std::string_view scenario) {
-    const View view = must(session_of_scenarios().frame(request.frame)).view;
+    const View view = must(session_of_scenarios().frame(request.variant.frame)).view;
     SCOPED_TRACE(fmt::format("reproduce: strata record {} --size {}x{} --samples {} && strata report {}.strata --stage {} {}",
-                             scenario, view.width / request.extent_divisor, view.height / request.extent_divisor, request.samples,
-                             scenario, name(technique.stage), sets_of(request).empty() ? "" : "--set " + sets_of(request)));
+                             scenario, view.width / request.variant.extent_divisor, view.height / request.variant.extent_divisor,
+                             request.variant.samples, scenario, name(technique.stage),
+                             sets_of(request).empty() ? "" : "--set " + sets_of(request)));
     expect_within_tolerance(accuracy, technique, request, scenario);
     // Two black images agree about nothing; and a model that cannot decide much proves little.
     EXPECT_GE(accuracy.compared - accuracy.trivial, least_nontrivial(technique.stage));

@@ -37,7 +37,7 @@ Request on_scenario(std::string_view name, std::uint32_t samples) {
     const Scenario* scenario = must(find_scenario(name));
     const auto index = static_cast<std::size_t>(scenario - scenarios().data());
     const std::uint32_t divisor = (scenario->width + largest_width - 1) / largest_width;
-    return {.frame = index, .extent_divisor = divisor, .samples = samples};
+    return {.variant = {.frame = index, .extent_divisor = divisor, .samples = samples}};
 }
 
 ChoiceChanges chosen(const std::vector<std::string>& uses, const std::vector<std::string>& sets) {

@@ -96,7 +96,7 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
     const Expectation* expected = best_of(*all, got);
     if (!expected)
         return fail(Fault::expectation_missing,
-                    "the capture expects nothing of frame {}; 'strata accept' writes what is expected", request.frame);
+                    "the capture expects nothing of frame {}; 'strata accept' writes what is expected", request.variant.frame);
     for (std::size_t i = expected->acts.size(); i-- > 0;) {
         const ExpectedAct& act = expected->acts[i];
         const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);

@@ -195,7 +195,7 @@ Request CompareSides::request_of(const ChosenSide& side, const Model& model) con
     if (side.source == Source::kept && kept_) request = *kept_;
     if (side.source == Source::recorded || side.source == Source::expectation) request = Request();
     if (side.source == Source::variant && side.technique) request = variant_of(request, *side.technique, side.settings);
-    request.frame = model.edits().frame;
+    request.variant.frame = model.edits().variant.frame;
     request.outputs = {image_};
     return request;
 }

@@ -69,7 +69,7 @@ std::string change_text(const CounterRow& row) {
 }
 
 std::string otherwise(const CountedRun& before, const CountedRun& now) {
-    if (before.request.frame != now.request.frame) return fmt::format("frame {}", before.request.frame);
+    if (before.request.variant.frame != now.request.variant.frame) return fmt::format("frame {}", before.request.variant.frame);
     std::string text;
     const auto add = [&](const std::string& what) { text += fmt::format("{}{}", text.empty() ? "" : ", ", what); };
     for (const auto& [stage, choice] : now.choices) {
@@ -80,9 +80,9 @@ std::string otherwise(const CountedRun& before, const CountedRun& now) {
     for (const auto& [stage, choice] : before.choices)
         if (!now.choices.contains(stage)) add(choice);
     if (before.pixels != now.pixels) add(fmt::format("{} pixels", grouped(before.pixels)));
-    if (before.request.samples != now.request.samples) add("other samples");
-    if (before.request.eye != now.request.eye) add("another eye");
-    if (before.request.force != now.request.force) add("other forced features");
+    if (before.request.variant.samples != now.request.variant.samples) add("other samples");
+    if (before.request.variant.eye != now.request.variant.eye) add("another eye");
+    if (before.request.variant.force != now.request.variant.force) add("other forced features");
     return text;
 }
 

@@ -17,7 +17,7 @@ public:
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("Capture");
         const auto replay = services.replayer.shown("A");
-        if (replay) take_tables(model, services, replay->request.frame);
+        if (replay) take_tables(model, services, replay->request.variant.frame);
         if (tables_.empty()) {
             widgets.text("state", "the frame is being read", &palette().dim);
             return;

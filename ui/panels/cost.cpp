@@ -72,12 +72,12 @@ private:
     }
 
     void forget_other_frames(const Model& model) {
-        if (model.capture == capture_ && model.edits().frame == frame_) return;
+        if (model.capture == capture_ && model.edits().variant.frame == frame_) return;
         stop();
         studies_.clear();
         failure_.clear();
         capture_ = model.capture;
-        frame_ = model.edits().frame;
+        frame_ = model.edits().variant.frame;
     }
 
     void take_study(Services& services) {
@@ -177,7 +177,7 @@ private:
 
     std::string reason_left_out(const Services& services) const {
         const auto replay = services.replayer.shown("A");
-        if (!replay || replay->request.frame != frame_) return {};
+        if (!replay || replay->request.variant.frame != frame_) return {};
         const auto skipped = std::ranges::find(replay->skipped, stage_, &SkippedStage::stage);
         return skipped == replay->skipped.end() ? "" : skipped->reason;
     }

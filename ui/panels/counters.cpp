@@ -58,13 +58,13 @@ private:
         if (against_ == Against::last_change) return last_ ? &*last_ : nullptr;
         Request request = model.request();
         request.choices = {};
-        request.force.clear();
-        request.samples = 0;
-        request.eye = {};
+        request.variant.force.clear();
+        request.variant.samples = 0;
+        request.variant.eye = {};
         request.outputs = {"display"};
         services.replayer.show(place, request);
         const auto replay = services.replayer.shown(place);
-        if (!replay || replay->request.frame != request.frame) return nullptr;
+        if (!replay || replay->request.variant.frame != request.variant.frame) return nullptr;
         recorded_ = counted_run(replay->request, replay->run);
         return &*recorded_;
     }

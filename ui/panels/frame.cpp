@@ -29,7 +29,7 @@ public:
         draw_controls(model, services, replay.get());
         if (!replay) return;
         // Those of another frame of the capture say nothing here.
-        const FrameTimes* times = times_ && times_->request.frame == replay->request.frame ? &*times_ : nullptr;
+        const FrameTimes* times = times_ && times_->request.variant.frame == replay->request.variant.frame ? &*times_ : nullptr;
         const ShownFrame frame{*replay, times, is_stale(*replay), frame_rows(*replay, times)};
         draw_head(widgets, frame);
         if (times && timeline_.ms > 0) draw_measured(model, widgets, frame);

@@ -59,7 +59,8 @@ public:
         const CaptureFacts* facts = services.replayer.facts();
         if (saved_ || !replay || !facts || !shown_.picture()) return;
         const ShownImage shown{shown_name_, shown_.picture()->image, shown_.picture()->layer, look_of(model), {}};
-        const std::string stem = stem_of(model.capture, replay->request.frame, shown.name), command = model.command_line();
+        const std::string stem = stem_of(model.capture, replay->request.variant.frame, shown.name),
+                          command = model.command_line();
         saved_ = start<std::filesystem::path>(services.host, [=, of = *facts, image = model.image](ui::Progress&) {
             ShownImage traced = shown;
             traced.provenance = provenance({of.device, of.id}, replay->request, replay->run);
@@ -238,7 +239,7 @@ private:
     }
 
     static void draw_eye(Model& model, Widgets& widgets) {
-        const std::string eye = text(model.edits().eye);
+        const std::string eye = text(model.edits().variant.eye);
         if (eye.empty()) return;
         ImGui::AlignTextToFramePadding();
         widgets.text("eye", "\xe2\x97\x8e seen from elsewhere: what the capture expects does not apply", &palette().warning);

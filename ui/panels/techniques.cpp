@@ -42,7 +42,7 @@ private:
         }
         widgets.help(model.command_line());
         ImGui::SameLine();
-        ImGui::BeginDisabled(model.edits() == Edits{.frame = model.edits().frame});
+        ImGui::BeginDisabled(model.edits() == Edits{.variant = {.frame = model.edits().variant.frame}});
         if (widgets.button("reset all", "\xe2\x86\xba All as recorded")) model.reset_all();
         ImGui::EndDisabled();
         ImGui::Dummy({0, 1});
@@ -121,7 +121,7 @@ private:
     static void draw_forced(Model& model, Widgets& widgets) {
         const Widgets::TreeRow row = widgets.tree("features", false);
         if (!row.open) return;
-        const std::vector<Feature>& forced = model.edits().force;
+        const std::vector<Feature>& forced = model.edits().variant.force;
         for (const Feature feature : all_features()) {
             const bool has = model.facts().features.has(feature);
             const bool is_forced = std::ranges::find(forced, feature) != forced.end();

@@ -75,7 +75,7 @@ void Camera::move(Model& model, const Services& services, const Placement& place
     }
     const ImGuiIO& io = ImGui::GetIO();
     const View& recorded = model.facts().bare.view;
-    const View now = moved(recorded, model.edits().eye);
+    const View now = moved(recorded, model.edits().variant.eye);
     if (hold_ == Hold::orbit) {
         if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0) return;
         const Orbit orbit{.distance = distance_,

@@ -62,7 +62,7 @@ Outline outline_of(std::span<const Cover> cover, std::uint32_t width) {
 }
 
 void draw_outline(const Placement& placement, const Outline& outline, const Request& request) {
-    if (outline.request.frame != request.frame || outline.request.eye != request.eye) return;
+    if (outline.request.variant.frame != request.variant.frame || outline.request.variant.eye != request.variant.eye) return;
     // Maps, volumes and tables are no pictures of the view; at lower resolution these differ by a row of texels.
     const double shape =
         static_cast<double>(placement.width) * outline.height / std::max(1.0, double(placement.height) * outline.width);

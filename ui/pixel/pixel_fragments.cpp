@@ -24,7 +24,7 @@ Result<std::vector<SampleFragments>> fragments_of(Session& session, Progress& pr
         }
     }
     // The lists are the session's and go with its next call.
-    const auto frame = session.frame(question.request.frame);
+    const auto frame = session.frame(question.request.variant.frame);
     if (!frame) return frame.error();
     for (SampleFragments& sample : samples)
         for (PixelFragment& fragment : sample.fragments) fragment.drawn_by = drawn_by(*frame, fragment.fragment.submission);

@@ -87,7 +87,7 @@ Result<void> read_views(Session& session, Progress& progress, const InsideQuesti
 
 Result<void> read_tables(Session& session, Progress& progress, const InsideQuestion& question, PixelInside& inside) {
     const Technique& technique = *question.technique;
-    const auto frame = session.frame(question.request.frame);
+    const auto frame = session.frame(question.request.variant.frame);
     if (!frame) return frame.error();
     const auto count = static_cast<double>(technique.views.size() + technique.tables.size());
     for (std::size_t i = 0; i < technique.tables.size(); ++i) {

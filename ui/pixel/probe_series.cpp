@@ -74,7 +74,7 @@ Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuesti
             continue;
         }
         if (!seed) {
-            const auto frame = session.frame(question.request.frame);
+            const auto frame = session.frame(question.request.variant.frame);
             if (!frame) return frame.error();
             seed = frame->seed;
         }

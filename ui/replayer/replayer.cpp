@@ -170,8 +170,8 @@ void Replayer::serve_wish(const std::string& place) {
 }
 
 Result<std::shared_ptr<const Replay>> Replayer::answer(const Request& request) {
-    if (!frame_ || frame_->index != request.frame) {
-        auto facts = facts_of(*session_, request.frame);
+    if (!frame_ || frame_->index != request.variant.frame) {
+        auto facts = facts_of(*session_, request.variant.frame);
         if (!facts) return facts.error();
         frame_ = *std::move(facts);
     }

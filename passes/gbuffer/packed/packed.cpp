@@ -20,8 +20,8 @@ Technique packed() {
             .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
             .declare = declare,
             .model = packed_model,
-            .tolerance = {.rmse = 3e-3,
-                          .worst = 0.08,
+            .tolerance = {.rmse = 1.5e-3,
+                          .worst = 0.045,
                           .because =
                               "a float on a rounding boundary takes the neighbouring half: where z of the normal goes to 0 that "
                               "is up to 0.044 of it (sqrt(2 * 2^-10)); colors as in 8 bits sRGB, 0.0087 linear"}};

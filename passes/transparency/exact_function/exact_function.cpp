@@ -42,11 +42,11 @@ Technique exact_function() {
         .views = {layers_view_row, normalization_row<sums>(), motion_row<sums>()},
         .declare = add_function<sums>,
         .model = exact_function_model,
-        .tolerance = {.rmse = 2e-3,
+        .tolerance = {.rmse = 1e-3,
                       .worst = 2e-2,
                       .because =
                           "sums are rounded to half floats at every blend, in the model, too, but a last float bit of a term "
-                          "can turn the rounding of each"},
+                          "can turn the rounding of each: 5.7e-4 and 1.4e-2 measured, of packed colors"},
     };
 }
 

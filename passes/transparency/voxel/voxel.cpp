@@ -1,4 +1,5 @@
 // Voxel transparency: optical depth added up in slices of a low-resolution volume along the view, by integer atomics.
+#include <array>
 #include <cmath>
 
 #include "passes/choice_names.h"
@@ -307,6 +308,11 @@ std::vector<DebugView> views() {
     };
 }
 
+// A code of 8 bits where a texel lets a third through.
+constexpr std::array exceptions = {
+    ToleranceException{"splat=multiply bits=8", "explosion", 5e-4, 1.6e-2,
+                       "the device rounds 24 of the 65536 products of 8 bits to the code below: .013 measured on llvmpipe"}};
+
 }  // namespace
 
 Technique voxel() {
@@ -361,7 +367,8 @@ Technique voxel() {
         .tolerance = {.rmse = 5e-4,
                       .worst = 1e-2,
                       .because = "codes are the model's to the last bit on every scenario; what is left is a step of the formats "
-                                 "that the sums are rounded to: .008 of R11G11B10F, .001 of half floats"},
+                                 "that the sums are rounded to: .008 of R11G11B10F, .001 of half floats",
+                      .exceptions = exceptions},
     };
 }
 

@@ -124,8 +124,8 @@ Technique weighted() {
         .declare = declare,
         .model = weighted_model,
         .tolerance =
-            {.rmse = 5e-3,
-             .worst = 3e-2,
+            {.rmse = 5e-4,
+             .worst = 3e-3,
              .because =
                  "sums and products are rounded to half floats at every blend, in the model, too, but a last float bit of a "
                  "term can turn the rounding of each"},
