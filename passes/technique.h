@@ -64,6 +64,7 @@ Param param(Param row) {
 /// A number the shaders count, with the place of its uint32 in the technique's counter struct.
 struct Counter {
     std::string_view name, help;
+    bool is_fatal = false;   ///< above 0 the picture is wrong: the run fails
     std::size_t offset = 0;  ///< set by counter<>()
 };
 

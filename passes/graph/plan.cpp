@@ -115,6 +115,12 @@ std::vector<Use> uses(const PlannedStep& planned) {
     return all;
 }
 
+bool writes_counters(const Graph& graph, const PlannedStep& planned) {
+    return !planned.shaders.empty() && std::ranges::any_of(uses(planned), [&](const Use& use) {
+        return use.buffer && graph.record(use.buffer).weak && writes(use.access);
+    });
+}
+
 AccessSet accesses(const PlannedStep& planned, Image image, Part part) {
     const auto overlap = [](auto a, auto b) { return !a || !b || *a == *b; };
     AccessSet set;
@@ -141,6 +147,7 @@ void cull(const Graph& graph, Plan& plan) {
         const std::vector<Use> all = uses(planned);
         if (!feeds_something(graph, planned, all, needed)) {
             plan.culled.push_back({graph.scopes()[planned.step.scope], planned.step.name, why_culled(graph, planned, all)});
+            if (writes_counters(graph, planned)) plan.uncounted_scopes.insert(planned.step.scope);
             continue;
         }
         for (const Use& use : all)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,8 @@ struct Use {
 };
 std::vector<Use> uses(const Step&);         ///< as declared: bindings in their order, attachments, what is cleared or copied
 std::vector<Use> uses(const PlannedStep&);  ///< ... and the offers its shaders take
+/// Whether the step writes the counters of its scope.
+bool writes_counters(const Graph&, const PlannedStep&);
 /// Every image that the step writes, once.
 std::vector<Image> images_written(const Step&);
 /// What the step does to the part of the image at once: its layout during the step follows from it.
@@ -85,6 +88,7 @@ struct Plan {
     std::vector<Buffer> kept_buffers;
     std::vector<Barrier> final_barriers;  ///< kept images and buffers become readable by the host's copies
     std::vector<CulledStep> culled;
+    std::set<std::uint32_t> uncounted_scopes;         ///< of culled steps that would have counted
     std::uint64_t image_bytes = 0, buffer_bytes = 0;  ///< allocated for the frame, imports excluded
 };
 

@@ -27,7 +27,7 @@ struct ReplayArguments {
     std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder = ".", shaders;
     double tolerance = 0;
-    bool json = false, expect = false, no_expect = false;
+    bool json = false, expect = false, no_expect = false, strict = false;
 };
 
 /// A frame replayed, and held against what the capture expects where that was asked for.
@@ -142,12 +142,19 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
     return {};
 }
 
+Result<void> check_supported(const Request& request, const Run& run) {
+    if (run.not_supported.empty()) return {};
+    const UnsupportedChoice& first = run.not_supported.front();
+    return fail(Fault::over_tolerance, "frame {}: {} cannot do {}", request.variant.frame, first.technique, first.reason);
+}
+
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.
 std::string counters_of(const Run& run, std::string_view choice) {
+    const std::string technique(choice.substr(0, choice.find(' ')));
+    if (run.not_counted.contains(technique)) return "not counted: a step that counts was left out";
     std::string text;
     for (const CounterRecord& counter : run.counters)
-        if (choice.substr(0, choice.find(' ')) == counter.technique)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.value, counter.name);
+        if (technique == counter.technique) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counter.value, counter.name);
     return text;
 }
 
@@ -200,7 +207,8 @@ Result<void> replay(const ReplayArguments& options) {
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;
         if (!options.json) print_summary(*request, replayed->run);
         if (options.timed > 0 && !options.json) print_times(replayed->run);
-        const auto now = judge(*request, *replayed, options);
+        auto now = judge(*request, *replayed, options);
+        if (now && options.strict) now = check_supported(*request, replayed->run);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
     }
@@ -235,6 +243,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     auto* shaders = app.add_option("--shaders", options->shaders,
                                    "a folder whose passes/... hold shaders to use in place of those built in; needs "
                                    "glslangValidator");
+    app.add_flag("--strict", options->strict,
+                 "fail (1) when a technique cannot do what the frame has; without it that is a warning");
     auto* expect = app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame")
                        ->excludes(eye)
                        ->excludes(shaders);

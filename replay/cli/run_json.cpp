@@ -135,6 +135,8 @@ ordered_json json_of(const Metadata& provenance, const Run& run, const Expectati
     for (const SkippedStage& skipped : run.skipped)
         json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
     for (const CounterRecord& counter : run.counters) json["counters"][counter.technique][counter.name] = counter.value;
+    for (const std::string& technique : run.not_counted) json["not_counted"].push_back(technique);
+    for (const UnsupportedChoice& choice : run.not_supported) json["not_supported"][choice.technique] = choice.reason;
     for (const auto& [name, image] : run.images)
         if (const DebugView* view = find_view(name)) json["views"][name] = json_of(*view, image);
     for (const auto& [name, table] : run.tables) json["tables"][name] = json_of(table);

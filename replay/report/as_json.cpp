@@ -30,7 +30,9 @@ ordered_json json_of(const Measurement& row) {
                                       {"got", {worst.got.x, worst.got.y, worst.got.z}},
                                       {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z}}}},
                                     {"compared", row.accuracy.compared},
-                                    {"undecided", row.accuracy.undecided}};
+                                    {"undecided", row.accuracy.undecided},
+                                    {"tolerance", {{"rmse", row.tolerance}, {"worst", row.tolerated_worst}}}};
+    if (const std::string doubt = implementation_doubt(row); !doubt.empty()) json["implementation_error"]["doubt"] = doubt;
     if (!row.accuracy.incomparable.empty()) json["incomparable"] = row.accuracy.incomparable;
     json["stage_ms"] = json_of(row.stage_ms);
     if (row.time) json["time"] = json_of(*row.time);

@@ -8,18 +8,46 @@
 
 namespace strata {
 
+namespace {
+
+/// 0 where the run did not get as far.
+std::uint32_t count_of(const Execution& execution, const CounterSource& source, const Counter& counter) {
+    std::uint32_t value = 0;
+    if (const auto bytes = execution.buffers.find(source.buffer.id); bytes != execution.buffers.end())
+        std::memcpy(&value, bytes->second.data() + counter.offset, sizeof value);
+    return value;
+}
+
+}  // namespace
+
 std::vector<CounterRecord> read_counters(const Declaration& d, const Execution& execution, std::optional<std::uint32_t> scope) {
     std::vector<CounterRecord> records;
     for (const CounterSource& source : d.counters) {
         if (scope && source.scope != *scope) continue;
-        const auto bytes = execution.buffers.find(source.buffer.id);
-        for (const Counter& counter : source.technique->counters) {
-            std::uint32_t value = 0;
-            if (bytes != execution.buffers.end()) std::memcpy(&value, bytes->second.data() + counter.offset, sizeof value);
-            records.push_back({std::string(source.technique->name), std::string(counter.name), value});
-        }
+        for (const Counter& counter : source.technique->counters)
+            records.push_back(
+                {std::string(source.technique->name), std::string(counter.name), count_of(execution, source, counter)});
     }
     return records;
+}
+
+Result<Execution> without_fatal_counts(const Declaration& d, Execution execution) {
+    for (const CounterSource& source : d.counters)
+        for (const Counter& counter : source.technique->counters)
+            if (const std::uint32_t count = count_of(execution, source, counter); counter.is_fatal && count > 0)
+                return fail(Fault::device_lacks, "what {} shows would be wrong on this device: {} {} ({})",
+                            source.technique->name, count, counter.name, counter.help);
+    return execution;
+}
+
+std::set<std::string> not_counted(const Declaration& d, std::optional<std::size_t> until) {
+    std::set<std::uint32_t> scopes = d.plan.uncounted_scopes;
+    for (std::size_t i = until ? *until + 1 : d.plan.steps.size(); i < d.plan.steps.size(); ++i)
+        if (writes_counters(d.graph, d.plan.steps[i])) scopes.insert(d.plan.steps[i].step.scope);
+    std::set<std::string> techniques;
+    for (const CounterSource& source : d.counters)
+        if (scopes.contains(source.scope)) techniques.emplace(source.technique->name);
+    return techniques;
 }
 
 std::vector<CounterRecord> summed(std::vector<CounterRecord> records) {
@@ -57,6 +85,17 @@ std::map<std::string, NumberTable> tables_of(const Declaration& d, const Executi
         if (const auto found = execution.images.find(source.second.id); found != execution.images.end())
             tables.emplace(name, table_of(*source.first, found->second));
     return tables;
+}
+
+std::vector<UnsupportedChoice> not_supported(const Declaration& d, const Features& features) {
+    std::vector<UnsupportedChoice> choices;
+    for (const auto& [stage, choice] : d.choices) {
+        const Technique& technique = *choice.technique;
+        const auto feature = unsupported(technique, features);
+        if (feature && std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique))
+            choices.push_back({std::string(technique.name), fmt::format("{} ({})", name(*feature), features.reason(*feature))});
+    }
+    return choices;
 }
 
 std::string choice_line(const Choice& choice) {

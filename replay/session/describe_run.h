@@ -16,10 +16,16 @@ NumberTable table_of(const DebugTable&, const HostImage&);
 std::map<std::string, NumberTable> tables_of(const Declaration&, const Execution&);
 /// What the techniques counted in this execution, or in the steps of one scope.
 std::vector<CounterRecord> read_counters(const Declaration&, const Execution&, std::optional<std::uint32_t> scope = {});
+/// The execution, unless a technique counted what makes its picture wrong (Counter::is_fatal).
+Result<Execution> without_fatal_counts(const Declaration&, Execution);
+/// Techniques that counted too little: a step that counts was left out, or comes after the last one to run.
+std::set<std::string> not_counted(const Declaration&, std::optional<std::size_t> until);
 /// A technique that acts at several stages counts in each: equal counters are added up.
 std::vector<CounterRecord> summed(std::vector<CounterRecord>);
 /// Spreads over repeats of the milliseconds of each step; how often shaders ran, in the last one.
 void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats);
+/// The techniques of the frame's acts that cannot do one of its features.
+std::vector<UnsupportedChoice> not_supported(const Declaration&, const Features&);
 /// "technique key=value ..."
 std::string choice_line(const Choice&);
 

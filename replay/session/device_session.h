@@ -106,7 +106,7 @@ private:
     std::invoke_result_t<Action> failures_as_errors(Action);
     Result<Execution> execute(const Declaration&, RunOptions);
     /// What is known of a run after it.
-    Run finished(const Declaration&, const Execution&);
+    Run finished(const Declaration&, const Execution&, std::optional<std::size_t> until = {});
     void remember(const Declaration&, const Execution&);
     /// Of the device; measured when it is first asked for.
     Result<BlendRounding> rounding();

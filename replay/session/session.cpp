@@ -65,7 +65,7 @@ Result<Run> DeviceSession::run(const Request& request) {
     }
     const auto execution = execute(d, options);
     if (!execution) return execution.error();
-    Run run = finished(d, *execution);
+    Run run = finished(d, *execution, options.until);
     if (options.until) memo_.drop_unfilled();
     else remember(d, *execution);
     return run;
@@ -192,24 +192,28 @@ Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions option
                                  return executor_->run(d.plan, options);
                              });
                          });
-    if (execution) {
-        times_.device = execution->host_ms;
-        return execution;
-    }
+    if (execution) times_.device = execution->host_ms;
+    if (execution) execution = without_fatal_counts(d, *std::move(execution));
+    if (execution) return execution;
     memo_.drop_unfilled();
     if (stop_.stop_requested()) return check_going().error();
     if (execution.error().fault == Fault::device_failed) remembered_.clear();  // the frame may have got halfway
     return execution;
 }
 
-Run DeviceSession::finished(const Declaration& d, const Execution& execution) {
+Run DeviceSession::finished(const Declaration& d, const Execution& execution, std::optional<std::size_t> until) {
     Run run = describe_run(d);
     run.counters = read_counters(d, execution);
     run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
     run.counters = summed(std::move(run.counters));
+    run.not_counted = not_counted(d, until);
+    std::erase_if(run.counters, [&](const CounterRecord& counter) { return run.not_counted.contains(counter.technique); });
     run.images = images_of(d, execution);
     run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;
+    run.not_supported = not_supported(d, loaded_->features);
+    for (const UnsupportedChoice& choice : run.not_supported)
+        run.notes.push_back(fmt::format("{} cannot do {}: what it shows is wrong", choice.technique, choice.reason));
     if (const std::size_t replaced = shader_sets_.empty() ? 0 : shader_sets_.back()->compiled.size())
         run.notes.push_back(fmt::format("{} replaced at run time", plural(replaced, "shader")));
     run.pipelines_created = execution.pipelines_created;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -71,6 +72,12 @@ struct ActImages {
     std::map<std::string, HostImage> images;
 };
 
+/// A technique that ran on a frame which it says it cannot do.
+struct UnsupportedChoice {
+    std::string technique;
+    std::string reason;  ///< "chromatic (material 'ruby' lets ...)": the feature and why the frame has it
+};
+
 /// What a DebugTable held.
 struct NumberTable {
     std::vector<TableColumn> columns;
@@ -83,6 +90,8 @@ struct Run {
     std::vector<SkippedStage> skipped;
     std::vector<CulledStep> culled;
     std::vector<CounterRecord> counters;
+    std::set<std::string> not_counted;  ///< techniques: a step that counts was left out, because nothing asked for needs it
+    std::vector<UnsupportedChoice> not_supported;
     std::map<std::string, HostImage> images;     ///< by the names asked for; names the frame does not have are absent
     std::map<std::string, NumberTable> tables;   ///< the debug tables among the names asked for
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."

@@ -64,6 +64,8 @@ void add_results(Run& whole, Run executed) {
     executed.memory.over_time = std::move(whole.memory.over_time);
     whole.memory = std::move(executed.memory);
     whole.counters = std::move(executed.counters);
+    whole.not_counted = std::move(executed.not_counted);
+    whole.not_supported = std::move(executed.not_supported);
     whole.notes = std::move(executed.notes);
     whole.host_ms = executed.host_ms;
     whole.images = std::move(executed.images);

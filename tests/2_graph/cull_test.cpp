@@ -90,6 +90,7 @@ TEST(Culling, CountingKeepsNoStepAlive) {
     ASSERT_EQ(plan.culled.size(), 3u);
     EXPECT_EQ(plan.culled[1].reason, "no step counts");
     EXPECT_EQ(plan.culled[2].reason, "it writes nothing but counters");
+    EXPECT_THAT(plan.uncounted_scopes, ElementsAre(plan.scopes.size() - 1));
 }
 
 TEST(Culling, AnImportOutlivesTheFrameSoWritingItIsNeverUseless) {

@@ -116,6 +116,7 @@ TEST_P(TwinFrames, LookLikeTheirSimplerTwins) {
         const Request as_needed{
             .variant = {.frame = twin_}, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
         const auto plain = must(session_.run(as_needed));
+        EXPECT_TRUE(plain.not_counted.empty()) << technique.name;
         for (const auto& [name, image] : plain.images)
             EXPECT_EQ(hash_of(image), hash_of(hard.images.at(name))) << technique.name << " " << name;
     }

@@ -130,6 +130,37 @@ TEST(Replay, SaysWhatViewsShowInNumbers) {
     }
 }
 
+/// Views of lists draw what they show themselves: the steps that count fragments are left out, and 0 would be a lie.
+TEST(Replay, WhatWasLeftOutIsNotCountedInsteadOfZero) {
+    record_panes();
+    const std::string lists = "transparency/sorted_lists", use = "replay panes.strata --use " + lists;
+    const auto frame_of = [](const Finished& replayed) { return json::parse(replayed.out)["frames"][0]; };
+    const json whole = frame_of(strata(use + " --json"));
+    EXPECT_GT(whole["counters"][lists]["fragments"], 0);
+    EXPECT_FALSE(whole.contains("not_counted"));
+    const std::string view = " --outputs " + lists + ":layers", until = " --until transparency/lists/count";
+    for (const std::string& part : {view, until}) EXPECT_THAT(strata(use + part).out, HasSubstr("not counted: ")) << part;
+    const json partly = frame_of(strata(use + until + " --json"));
+    EXPECT_FALSE(partly["counters"].contains(lists));
+    EXPECT_EQ(partly["not_counted"], json{lists});
+    // With its acts a run has every image, so nothing is left out.
+    EXPECT_EQ(frame_of(strata(use + view + " --json"))["counters"][lists], whole["counters"][lists]);
+}
+
+TEST(Replay, WarnsOfWhatATechniqueCannotDoAndFailsWhereItIsStrict) {
+    ASSERT_EQ(strata("record additive_sparks -o sparks.strata --size 32x24").code, 0);
+    const std::string weighted = "transparency/weighted", use = "replay sparks.strata --use " + weighted;
+    const Finished warned = strata(use + " --json"), strict = strata(use + " --strict");
+    EXPECT_EQ(warned.code, 0) << warned.err;
+    EXPECT_THAT(warned.err, HasSubstr(weighted + " cannot do additive ("));
+    EXPECT_THAT(std::string(json::parse(warned.out)["frames"][0]["not_supported"][weighted]), HasSubstr("additive ("));
+    EXPECT_EQ(strict.code, 1);
+    EXPECT_THAT(strict.err, HasSubstr(weighted + " cannot do additive ("));
+    const Finished able = strata("replay sparks.strata --strict --json --use transparency/sorted_lists");
+    EXPECT_EQ(able.code, 0) << able.err;
+    EXPECT_FALSE(json::parse(able.out)["frames"][0].contains("not_supported"));
+}
+
 TEST(Replay, WrongRequestsAreUsageErrorsWithASentence) {
     record_panes();
     for (const char* wrong : {"--frames 9", "--frames a", "--use nothing/here", "--set colour=1", "--outputs pictures",

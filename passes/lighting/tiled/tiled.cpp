@@ -176,7 +176,7 @@ std::vector<Counter> counters() {
             {.name = "modes compiled", .help = "shading modes compiled for this frame: those that a tile may need"}),
         counter<&TiledCounters::modes_used>({.name = "modes used", .help = "by any tile"}),
         counter<&TiledCounters::tiles_unserved>(
-            {.name = "tiles unserved", .help = "tiles that need a feature no compiled mode has; above 0 the picture is wrong"}),
+            {.name = "tiles unserved", .help = "tiles that need a feature no compiled mode has", .is_fatal = true}),
         counter<&TiledCounters::samples_shaded>(
             {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
         counter<&TiledCounters::evaluations>({.name = "evaluations", .help = "listed lights, summed over samples shaded"}),

@@ -4,14 +4,17 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/adaptive/adaptive.shared.h"
+#include "passes/transparency/functions/function.shared.h"
 #include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"
+#include "passes/transparency/lists/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint curve_nodes = 8u;
 layout(set = 0, binding = 6, scalar) writeonly buffer Curves { CurveNode curves[]; };
+layout(set = 0, binding = 7, scalar) buffer Counters { FunctionCounters counters; };
 
 const float far_away = 3.402823466e38;
 
@@ -59,6 +62,7 @@ void main() {
         insert(key.z, events[key.event].t);
         if (used > curve_nodes) remove_least();
     }
+    if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
     const uint first = ((pixel.y * band.width + pixel.x) * band.samples + at.z) * curve_nodes;
     for (uint i = 0u; i < curve_nodes; ++i) curves[first + i] = i < used ? nodes[i] : CurveNode(far_away, vec3(0.0));
 }

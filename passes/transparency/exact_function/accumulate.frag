@@ -8,6 +8,7 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"
+#include "passes/transparency/lists/finished.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
@@ -28,5 +29,7 @@ void main() {
     if (!event.visible || !in_band(pixel.y)) discard;
     const uint cell = cell_of(pixel, gl_SampleID), start = list_start(cell);
     atomicAdd(counters.drawn, 1u);
-    write_event(event, transmittance(start, stored(start, counts[cell]), event.z));
+    const vec3 through = transmittance(start, stored(start, counts[cell]), event.z);
+    if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
+    write_event(event, through);
 }

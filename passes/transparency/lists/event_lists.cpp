@@ -89,7 +89,10 @@ std::vector<Counter> list_counters() {
     return {
         counter<&ListCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
         counter<&ListCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
-        counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room: always 0"}),
+        counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room", .is_fatal = true}),
+        counter<&ListCounters::unfinished>({.name = "unfinished",
+                                            .help = "threads whose loops the driver ended early: their lists are too long",
+                                            .is_fatal = true}),
         counter<&ListCounters::atomics>(atomics_row),
     };
 }

@@ -34,6 +34,7 @@ struct ListCounters {
     uint fragments;
     uint deepest;
     uint dropped;
+    uint unfinished;
     uint atomics;
 };
 

@@ -9,6 +9,7 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
@@ -56,6 +57,8 @@ void main() {
     const uint cell = cell_of(uvec2(at.x, at.y + band.first_row), at.z);
     const uint start = list_start(cell), count = stored(start, counts[cell]);
     sort_list(start, count);
+
+    if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);
 
     const uint together = subgroupAdd(count), longest = subgroupMax(count);
     if (subgroupElect()) {

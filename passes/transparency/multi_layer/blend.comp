@@ -10,6 +10,7 @@ layout(push_constant, scalar) uniform Push {
     float log_nearest, buckets_per_log;
 };
 #include "passes/transparency/lists/events.glsl"
+#include "passes/transparency/lists/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint layers = 4u;
@@ -75,5 +76,6 @@ void main() {
     }
     const vec4 behind = imageLoad(color, texel);
     imageStore(color, texel, vec4(sum + through * behind.rgb, behind.a));
+    if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
     if (merged > 0u) atomicAdd(counters.merged, merged);
 }

@@ -9,12 +9,14 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"
+#include "passes/transparency/lists/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint distorts = 0u;  // 1: there are offsets and the background to read
 layout(set = 0, binding = 0, rgba32f) uniform image2DArray color;
 layout(set = 0, binding = 6, scalar) readonly buffer Offsets { vec2 offsets[]; };
 layout(set = 0, binding = 7) uniform sampler2DArray behind;
+layout(set = 0, binding = 8, scalar) buffer Counters { ListCounters counters; };
 
 void main() {
     const uvec3 at = gl_GlobalInvocationID;
@@ -31,6 +33,7 @@ void main() {
         if (distorts != 0u) offset += luminance(through) * offsets[node];
         through *= events[node].t;
     }
+    if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);
     const vec4 here = imageLoad(color, texel);
     const vec3 seen = distorts != 0u ? seen_behind(behind, texel, offset) : here.rgb;
     imageStore(color, texel, vec4(sum + through * seen, here.a));

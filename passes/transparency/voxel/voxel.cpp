@@ -243,7 +243,7 @@ std::vector<Counter> counters() {
         counter<&VoxelCounters::border_atomics>(
             {.name = "border atomics", .help = "of these, second ones of a fragment whose two slices are in two words"}),
         counter<&VoxelCounters::uncovered>(
-            {.name = "uncovered", .help = "fragments in slices that coverage does not know of: always 0"}),
+            {.name = "uncovered", .help = "fragments in slices that coverage does not know of", .is_fatal = true}),
         counter<&VoxelCounters::overflowed>({.name = "overflowed", .help = "columns in which a slice overflowed"}),
         counter<&VoxelCounters::saturated>({.name = "saturated", .help = "columns behind which nothing is seen"}),
         counter<&VoxelCounters::voxels>({.name = "voxels", .help = "there is memory for"}),
