@@ -115,6 +115,7 @@ Result<void> accept(const AcceptArguments& options) {
 std::function<Result<void>()> declare_accept(CLI::App& app) {
     const auto options = std::make_shared<AcceptArguments>();
     add_options(app, options->open);
+    app.get_option("capture")->type_name("FILE");  // the one input that is extended
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
     app.add_flag("--with-images", options->with_images, "keep the images: a tolerance and worst texels need them");

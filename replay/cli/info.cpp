@@ -127,7 +127,7 @@ Result<void> validate(const InfoArguments& options) {
 
 std::function<Result<void>()> declare_info(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required();
+    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     app.add_option("--frame", options->frame, "which frame to describe, default 0");
     app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
     app.add_flag("--json", options->json, "one JSON object on stdout");
@@ -136,7 +136,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
 
 std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required();
+    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     return [options] { return validate(*options); };
 }
 
