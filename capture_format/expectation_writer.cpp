@@ -1,6 +1,8 @@
 // Texts are expect sections of version 1, their images expect sections of version 2 before them, in the grammar of blobs.
 #include "capture_format/expectation_writer.h"
 
+#include <optional>
+
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
 #include "capture_format/container/picture.h"
@@ -9,23 +11,38 @@
 
 namespace strata {
 
+/// The copy and its writer are there from the first add() on: whoever adds nothing copies nothing.
 struct ExpectationWriter::Extended {
-    WholeFile file;
-    ContainerWriter writer;
+    std::filesystem::path capture;
+    FileLock lock;
+    std::optional<WholeFile> file = {};
+    std::optional<ContainerWriter> writer = {};
     BlobCollector images = {};
+
+    Result<void> begin();
 };
 
-Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path& capture) {
-    // Before anything is copied: what is no capture is refused with its own sentence.
-    if (const auto old = Container::open(capture); !old) return old.error();
-    auto file = WholeFile::begin(capture);
-    if (!file) return file.error();
+Result<void> ExpectationWriter::Extended::begin() {
+    auto begun = WholeFile::begin(capture);
+    if (!begun) return begun.error();
     std::error_code problem;
-    std::filesystem::copy_file(capture, file->temporary(), std::filesystem::copy_options::overwrite_existing, problem);
+    std::filesystem::copy_file(capture, begun->temporary(), std::filesystem::copy_options::overwrite_existing, problem);
     if (problem) return fail(Fault::usage, "cannot copy {}: {}", capture.string(), problem.message());
-    return ContainerWriter::extend(file->temporary()).and_then([&](auto& writer) {
-        return ExpectationWriter(std::make_unique<Extended>(Extended{*std::move(file), std::move(writer)}));
-    });
+    auto extended = ContainerWriter::extend(begun->temporary());
+    if (!extended) return extended.error();
+    file = *std::move(begun);
+    writer = *std::move(extended);
+    return {};
+}
+
+Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path& capture) {
+    // Before anything is locked: what is no capture is refused with its own sentence.
+    const auto old = Container::open(capture);
+    if (!old) return old.error();
+    if (old->damage()) return *old->damage();
+    auto lock = FileLock::take(capture);
+    if (!lock) return lock.error();
+    return ExpectationWriter(std::make_unique<Extended>(Extended{capture, *std::move(lock)}));
 }
 
 ExpectationWriter::ExpectationWriter(std::unique_ptr<Extended> extended) : extended_(std::move(extended)) {}
@@ -39,18 +56,25 @@ Result<void> ExpectationWriter::add(std::string_view text) {
     if (text.size() > longest_expectation) {
         return fail(Fault::usage, "an expectation of {} bytes is too long; {} are the most", text.size(), longest_expectation);
     }
+    if (!extended_->writer)
+        if (const auto begun = extended_->begin(); !begun) return begun;
     const auto packed = extended_->images.pack();
     if (!packed) return packed.error();
     for (const PackedBlobs& images : *packed) {
         const Payload payload = {SectionType::expect, expect_images_version, images.stored, images.raw_bytes};
-        if (const auto added = extended_->writer.add(payload); !added) return added;
+        if (const auto added = extended_->writer->add(payload); !added) return added;
     }
-    return extended_->writer.add({SectionType::expect, expect_version, std::as_bytes(std::span(text)), text.size()});
+    return extended_->writer->add({SectionType::expect, expect_version, std::as_bytes(std::span(text)), text.size()});
 }
 
 Result<void> ExpectationWriter::finish() {
-    if (const auto finished = extended_->writer.finish(); !finished) return finished;
-    return extended_->file.commit();
+    if (!extended_->writer) return {};
+    if (const auto finished = extended_->writer->finish(); !finished) return finished;
+    if (!extended_->lock.is_current()) {
+        return fail(Fault::usage, "{} was replaced by another program meanwhile and stays as it is; run this again",
+                    extended_->capture.string());
+    }
+    return extended_->file->commit();
 }
 
 Result<void> append_expectation(const std::filesystem::path& path, std::string_view expectation) {

@@ -15,7 +15,8 @@ namespace strata {
 
 class ExpectationWriter {
 public:
-    /// Fails for what is no finished capture, and (usage) where it cannot be replaced.
+    /// Waits while another writer, of this or another process, extends the capture: read what it expects after this. Fails for
+    /// what is no finished capture.
     static Result<ExpectationWriter> extend(const std::filesystem::path& capture);
     ExpectationWriter(ExpectationWriter&&) noexcept;
     ExpectationWriter& operator=(ExpectationWriter&&) noexcept;
@@ -26,7 +27,7 @@ public:
     std::string add_image(std::span<const std::byte> texels);
     /// Text as the replayer writes it, up to 64 MiB.
     Result<void> add(std::string_view text);
-    /// Puts the extended capture in the old one's place.
+    /// Puts the extended capture in the old one's place. Fails (usage) where it cannot, or where the old one is no longer there.
     Result<void> finish();
 
 private:

@@ -23,6 +23,7 @@ struct Capture::Contents {
     std::mutex decoding;              ///< frame() fills and empties what follows and the blob store
     FrameChain chain;
     std::optional<std::size_t> unpacked;  ///< the frame the chain ends with
+    std::vector<std::byte> plain;         ///< the frame of version 1 that was asked for last
     std::vector<std::size_t> frames;      ///< section numbers
     std::string id;
     CaptureSummary summary;
@@ -85,7 +86,7 @@ bool Capture::Contents::is_known(const Section& section) {
         case SectionType::notes:
             return section.version == notes_version;
         case SectionType::expect:
-            return section.version == expect_version;
+            return section.version == expect_version || section.version == expect_images_version;
         case SectionType::directory:
         case SectionType::frame:
         case SectionType::blobs:
@@ -110,7 +111,7 @@ Result<void> Capture::Contents::take(std::size_t number) {
         if (!notes) return notes.error();
         summary.notes = *std::move(notes);
     }
-    if (section.type == SectionType::expect) {
+    if (section.type == SectionType::expect && section.version == expect_version) {
         Result<std::string> expectation = text(number, longest_expectation);
         if (!expectation) return expectation.error();
         expectations.push_back(*std::move(expectation));
@@ -135,8 +136,12 @@ Result<void> Capture::Contents::unpack(std::size_t frame) {
 /// The flatbuffer of a frame, and to that end those of the frames it builds on.
 Result<std::span<const std::byte>> Capture::Contents::flatbuffer(std::size_t frame) {
     const std::size_t number = frames[frame];
-    const auto stored = container.stored(number);
-    if (!stored || container.sections()[number].version == 1) return stored;
+    auto stored = container.stored(number);
+    if (!stored) return stored.error();
+    if (container.sections()[number].version == 1) {
+        plain = *std::move(stored);
+        return std::span<const std::byte>(plain);
+    }
     const Result<std::uint32_t> reach = FrameChain::reach(*stored);
     if (!reach) return at(container, number, reach.error());
     if (*reach > frame) {

@@ -43,7 +43,7 @@ std::function<Result<void>()> declare_inspect(CLI::App& app) {
     add_options(app, options->choices);
     app.add_option("--frame", options->frame, "the frame that is shown first");
     app.add_option("--size", options->size, "of the window or of a script's pictures, like 1280x800");
-    app.add_option("--script", options->script, "play these commands without a window; see ui/README.md");
+    app.add_option("--script", options->script, "play these commands without a window; see ui/README.md")->type_name(input_file);
     app.add_option("--shaders", options->shaders,
                    "a folder whose passes/... hold shaders to use in place of those built in; R compiles them anew (without: of "
                    "the current folder)");

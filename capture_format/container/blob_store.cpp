@@ -155,7 +155,8 @@ Result<void> BlobStore::read_index(std::size_t number) {
 Result<void> BlobStore::decompress(BlobsSection& blobs) {
     const auto stored = container_->stored(blobs.number);
     if (!stored) return stored.error();
-    const std::span<const std::byte> frame = stored->subspan(sizeof(std::uint64_t) + blobs.hashes.size() * sizeof(IndexEntry));
+    const std::span<const std::byte> frame =
+        std::span(*stored).subspan(sizeof(std::uint64_t) + blobs.hashes.size() * sizeof(IndexEntry));
     const std::uint64_t raw_bytes = container_->sections()[blobs.number].raw_bytes;
     // Only a frame that states the size the section states is worth allocating for.
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
@@ -191,6 +192,14 @@ Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
         if (const Result<void> read = decompress(section); !read) return read.error();
     }
     return std::span<const std::byte>(section.bytes).subspan(place->second.offset, blob.bytes);
+}
+
+Result<void> BlobStore::check_all() {
+    for (BlobsSection& section : sections_) {
+        if (const Result<void> read = decompress(section); !read) return read;
+        keep_only_used();
+    }
+    return {};
 }
 
 void BlobStore::keep_only_used() {

@@ -76,6 +76,8 @@ public:
 
     /// The bytes of a blob, valid until keep_only_used().
     Result<std::span<const std::byte>> find(const BlobName&);
+    /// Decompresses every section and compares every blob with its hash, those of no frame among them. Frees what find() gave.
+    Result<void> check_all();
     /// Frees the sections of which no blob was asked for since the last call.
     void keep_only_used();
 

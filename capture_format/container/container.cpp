@@ -1,6 +1,7 @@
 // Reads and writes the container; the grammar stands below.
 #include "capture_format/container/container.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -72,6 +73,24 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 std::uint64_t seal_of(const Prefix& prefix) { return xxh3(bytes_of(prefix).first(offsetof(Prefix, seal))); }
 
+Section section_of(const Prefix& prefix, std::uint64_t offset) {
+    return {offset, SectionType{prefix.type}, prefix.version, prefix.stored_bytes, prefix.raw_bytes, prefix.checksum};
+}
+
+/// The header that describes the section.
+Prefix prefix_of(const Section& section) {
+    Prefix prefix = {mark,
+                     static_cast<std::uint32_t>(section.type),
+                     section.version,
+                     0,
+                     section.stored_bytes,
+                     section.raw_bytes,
+                     section.checksum,
+                     0};
+    prefix.seal = seal_of(prefix);
+    return prefix;
+}
+
 /// True when `section` lies within `size` bytes. Written so that no sum can wrap.
 bool fits(const Section& section, std::uint64_t size) {
     return section.offset <= size && size - section.offset >= sizeof(Prefix) &&
@@ -88,95 +107,106 @@ std::string_view name(SectionType type) {
 }
 
 Result<Container> Container::open(const std::filesystem::path& path) {
-    Result<MappedFile> file = MappedFile::open(path);
+    Result<ReadableFile> file = ReadableFile::open(path);
     if (!file) return file.error();
-    const std::span<const std::byte> bytes = file->bytes();
+    const std::uint64_t size = file->size();
     std::string name = file->path();
-    return read(Container(*std::move(file), bytes, std::move(name)));
+    return read(Container(*std::move(file), size, std::move(name)));
 }
 
 Result<Container> Container::open(std::span<const std::byte> bytes, std::string name) {
-    std::vector<std::byte> copy(bytes.begin(), bytes.end());
-    const std::span<const std::byte> view = copy;
-    return read(Container(std::move(copy), view, std::move(name)));
+    return read(Container(std::vector<std::byte>(bytes.begin(), bytes.end()), bytes.size(), std::move(name)));
 }
 
-Container::Container(Source source, std::span<const std::byte> bytes, std::string name)
-    : source_(std::move(source)), bytes_(bytes), name_(std::move(name)) {}
+Container::Container(Source source, std::uint64_t file_bytes, std::string name)
+    : source_(std::move(source)), file_bytes_(file_bytes), name_(std::move(name)) {}
 
 Result<Container> Container::read(Container container) {
     if (const Result<void> header = container.read_header(); !header) return header.error();
-    if (!container.read_directory()) container.scan();
+    const Result<bool> listed = container.read_directory();
+    if (!listed) return listed.error();
+    if (!*listed)
+        if (const Result<void> scanned = container.scan(); !scanned) return scanned.error();
     return container;
 }
 
+/// The bytes must lie within file_bytes_.
+Result<std::vector<std::byte>> Container::bytes(std::uint64_t offset, std::uint64_t count) const {
+    if (const auto* file = std::get_if<ReadableFile>(&source_)) return file->read(offset, count);
+    const auto part = std::span(std::get<std::vector<std::byte>>(source_)).subspan(offset, count);
+    return std::vector<std::byte>(part.begin(), part.end());
+}
+
+template <typename T>
+Result<T> Container::value(std::uint64_t offset) const {
+    return bytes(offset, sizeof(T)).and_then([](const auto& read) { return read_at<T>(read, 0); });
+}
+
 Result<void> Container::read_header() {
-    const std::span<const std::byte> bytes = bytes_;
-    if (bytes.size() < sizeof(Header) || read_at<Header>(bytes, 0).magic != magic) {
-        return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
-    }
-    const auto header = read_at<Header>(bytes, 0);
-    if (header.version != container_version || header.flags != 0) {
+    const Result<Header> header = file_bytes_ < sizeof(Header) ? Result<Header>(Header{}) : value<Header>(0);
+    if (!header) return header.error();
+    if (header->magic != magic) return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
+    if (header->version != container_version || header->flags != 0) {
         return fail(Fault::bad_input, "{} has container version {} and flags {:#x}; this program reads version {} without flags",
-                    name_, header.version, header.flags, container_version);
+                    name_, header->version, header->flags, container_version);
     }
-    version_ = header.version;
+    version_ = header->version;
     return {};
 }
 
 /// False when there is no directory at the end, or none that can be trusted.
-bool Container::read_directory() {
-    const std::span<const std::byte> bytes = bytes_;
-    if (bytes.size() < sizeof(Header) + sizeof(Prefix) + sizeof(Trailer)) return false;
-    const auto trailer = read_at<Trailer>(bytes, bytes.size() - sizeof(Trailer));
-    if (trailer.end_magic != end_magic || trailer.offset > bytes.size() - sizeof(Prefix)) return false;
-    const auto prefix = read_at<Prefix>(bytes, trailer.offset);
-    const Section directory = {.offset = trailer.offset,
-                               .version = prefix.version,
-                               .stored_bytes = prefix.stored_bytes,
-                               .raw_bytes = prefix.raw_bytes,
-                               .checksum = prefix.checksum};
-    if (prefix.mark != mark || prefix.type != 0 || prefix.seal != seal_of(prefix) || !fits(directory, bytes.size()) ||
-        end_of(directory) != bytes.size() || prefix.stored_bytes < sizeof(Trailer) ||
-        (prefix.stored_bytes - sizeof(Trailer)) % sizeof(DirectoryEntry) != 0) {
+Result<bool> Container::read_directory() {
+    if (file_bytes_ < sizeof(Header) + sizeof(Prefix) + sizeof(Trailer)) return false;
+    const auto trailer = value<Trailer>(file_bytes_ - sizeof(Trailer));
+    if (!trailer) return trailer.error();
+    if (trailer->end_magic != end_magic || trailer->offset > file_bytes_ - sizeof(Prefix)) return false;
+    const auto prefix = value<Prefix>(trailer->offset);
+    if (!prefix) return prefix.error();
+    const Section directory = section_of(*prefix, trailer->offset);
+    if (prefix->mark != mark || prefix->type != 0 || prefix->seal != seal_of(*prefix) || !fits(directory, file_bytes_) ||
+        end_of(directory) != file_bytes_ || prefix->stored_bytes < sizeof(Trailer) ||
+        (prefix->stored_bytes - sizeof(Trailer)) % sizeof(DirectoryEntry) != 0) {
         return false;
     }
-    const std::uint64_t first = trailer.offset + sizeof(Prefix);
-    if (xxh3(bytes.subspan(first, prefix.stored_bytes)) != prefix.checksum) return false;
+    const auto entries = bytes(trailer->offset + sizeof(Prefix), prefix->stored_bytes);
+    if (!entries) return entries.error();
+    if (xxh3(*entries) != prefix->checksum) return false;
     std::vector<Section> sections;
     std::uint64_t expected = sizeof(Header);
-    for (std::uint64_t at = first; at < bytes.size() - sizeof(Trailer); at += sizeof(DirectoryEntry)) {
-        const auto entry = read_at<DirectoryEntry>(bytes, at);
+    for (std::uint64_t at = 0; at < entries->size() - sizeof(Trailer); at += sizeof(DirectoryEntry)) {
+        const auto entry = read_at<DirectoryEntry>(*entries, at);
         const Section section = {entry.offset,       SectionType{entry.type}, entry.version,
                                  entry.stored_bytes, entry.raw_bytes,         entry.checksum};
-        if (section.offset != expected || !fits(section, trailer.offset)) return false;
+        if (section.offset != expected || !fits(section, trailer->offset)) return false;
         expected = end_of(section);
         sections.push_back(section);
     }
-    if (expected != trailer.offset) return false;
+    if (expected != trailer->offset) return false;
     sections.push_back(directory);
     sections_ = std::move(sections);
     return true;
 }
 
 /// Finds the whole sections one after the other. What is only half there ends the file.
-void Container::scan() {
-    const std::span<const std::byte> bytes = bytes_;
+Result<void> Container::scan() {
     std::uint64_t at = sizeof(Header);
-    const auto stop = [&](std::string_view why) {
+    const auto stop = [&](std::string_view why) -> Result<void> {
         damage_ = fail(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
-                       name_, sections_.size(), at, why, bytes.size());
+                       name_, sections_.size(), at, why, file_bytes_);
+        return {};
     };
-    while (at != bytes.size()) {
-        if (bytes.size() - at < sizeof(Prefix)) return stop("ends within its header");
-        const auto prefix = read_at<Prefix>(bytes, at);
-        if (prefix.mark != mark || prefix.seal != seal_of(prefix)) return stop("has a damaged header");
-        const Section section = {
-            at, SectionType{prefix.type}, prefix.version, prefix.stored_bytes, prefix.raw_bytes, prefix.checksum};
-        if (!fits(section, bytes.size())) {
+    while (at != file_bytes_) {
+        if (file_bytes_ - at < sizeof(Prefix)) return stop("ends within its header");
+        const auto prefix = value<Prefix>(at);
+        if (!prefix) return prefix.error();
+        if (prefix->mark != mark || prefix->seal != seal_of(*prefix)) return stop("has a damaged header");
+        const Section section = section_of(*prefix, at);
+        if (!fits(section, file_bytes_)) {
             return stop(fmt::format("({}) needs {} bytes and ends before", name(section.type), section.stored_bytes));
         }
-        if (xxh3(bytes.subspan(at + sizeof(Prefix), section.stored_bytes)) != section.checksum) {
+        const auto payload = bytes(at + sizeof(Prefix), section.stored_bytes);
+        if (!payload) return payload.error();
+        if (xxh3(*payload) != section.checksum) {
             return stop(fmt::format("({}) is damaged: its checksum is wrong", name(section.type)));
         }
         sections_.push_back(section);
@@ -184,15 +214,33 @@ void Container::scan() {
     }
     damage_ = fail(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
                    name_, sections_.size(), at);
+    return {};
 }
 
-Result<std::span<const std::byte>> Container::stored(std::size_t index) const {
+Result<std::vector<std::byte>> Container::stored(std::size_t index) const {
     const Section& section = sections_[index];
-    const std::span<const std::byte> bytes = bytes_.subspan(section.offset + sizeof(Prefix), section.stored_bytes);
-    if (xxh3(bytes) != section.checksum) {
+    auto payload = bytes(section.offset + sizeof(Prefix), section.stored_bytes);
+    if (payload && xxh3(*payload) != section.checksum)
         return fail(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
+    return payload;
+}
+
+Result<void> Container::check_bytes() const {
+    for (std::size_t i = 0; i < sections_.size(); ++i) {
+        const Section& section = sections_[i];
+        const auto header = bytes(section.offset, sizeof(Prefix));
+        if (!header) return header.error();
+        const Prefix expected = prefix_of(section);
+        if (!std::ranges::equal(*header, bytes_of(expected)))
+            return fail(Fault::bad_input, "{} is damaged: its header is not the one in the directory", whereabouts(i));
+        if (const auto payload = stored(i); !payload) return payload.error();
+        const std::uint64_t end = section.offset + sizeof(Prefix) + section.stored_bytes;
+        const auto padding = bytes(end, end_of(section) - end);
+        if (!padding) return padding.error();
+        if (std::ranges::any_of(*padding, [](std::byte byte) { return byte != std::byte{0}; }))
+            return fail(Fault::bad_input, "{} is damaged: the padding behind it is not zero", whereabouts(i));
     }
-    return bytes;
+    return {};
 }
 
 std::string Container::whereabouts(std::size_t index) const {
@@ -225,15 +273,7 @@ Result<void> ContainerWriter::add(const Payload& payload) {
                              .stored_bytes = payload.stored.size(),
                              .raw_bytes = payload.raw_bytes,
                              .checksum = xxh3(payload.stored)};
-    Prefix prefix = {mark,
-                     static_cast<std::uint32_t>(section.type),
-                     section.version,
-                     0,
-                     section.stored_bytes,
-                     section.raw_bytes,
-                     section.checksum,
-                     0};
-    prefix.seal = seal_of(prefix);
+    const Prefix prefix = prefix_of(section);
     constexpr std::array<std::byte, 8> zeros{};
     const std::span<const std::byte> padding = std::span(zeros).first(padded(section.stored_bytes) - section.stored_bytes);
     for (const std::span<const std::byte> part : {bytes_of(prefix), payload.stored, padding}) {

@@ -46,23 +46,29 @@ public:
     std::span<const Section> sections() const { return sections_; }
     /// What is wrong with the file as a whole: where it was cut, or that its directory is damaged.
     const std::optional<Error>& damage() const { return damage_; }
-    /// The stored bytes of a section, 8-byte aligned, after comparing the checksum.
-    Result<std::span<const std::byte>> stored(std::size_t section) const;
+    /// The stored bytes of a section after comparing the checksum.
+    Result<std::vector<std::byte>> stored(std::size_t section) const;
+    /// Every byte of the file: headers are those of the directory, padding is zero, checksums are right. open() believes a
+    /// directory whose own checksum is right.
+    Result<void> check_bytes() const;
     /// "smoke.strata: section 2 (blobs) at offset 4096", for errors.
     std::string whereabouts(std::size_t section) const;
-    std::uint64_t file_bytes() const { return bytes_.size(); }
+    std::uint64_t file_bytes() const { return file_bytes_; }
     std::uint32_t version() const { return version_; }
 
 private:
-    using Source = std::variant<MappedFile, std::vector<std::byte>>;
-    Container(Source, std::span<const std::byte>, std::string name);
+    using Source = std::variant<ReadableFile, std::vector<std::byte>>;
+    Container(Source, std::uint64_t file_bytes, std::string name);
     static Result<Container> read(Container);
     Result<void> read_header();
-    bool read_directory();
-    void scan();
+    Result<bool> read_directory();
+    Result<void> scan();
+    Result<std::vector<std::byte>> bytes(std::uint64_t offset, std::uint64_t count) const;
+    template <typename T>
+    Result<T> value(std::uint64_t offset) const;
 
-    Source source_;                     ///< keeps the bytes
-    std::span<const std::byte> bytes_;  ///< the whole file; neither a mapping nor a vector's bytes move with their owner
+    Source source_;
+    std::uint64_t file_bytes_;
     std::string name_;
     std::uint32_t version_ = 0;
     std::vector<Section> sections_;

@@ -1,8 +1,8 @@
-// POSIX files: open, map, append. Writes go straight to the system, so what append() returned for outlives this process.
+// POSIX files: open, read, append, lock. Writes go straight to the system, so what append() returned for outlives this process.
 #include "capture_format/container/file.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,71 +15,79 @@ namespace {
 
 std::string system_words() { return std::generic_category().message(errno); }
 
-/// Closes a descriptor when it goes out of scope.
-struct Descriptor {
-    int number;
-    ~Descriptor() {
-        if (number >= 0) ::close(number);
-    }
-};
+/// Calls a function of the system again while a signal interrupts it.
+template <typename Call>
+auto uninterrupted(const Call& call) {
+    auto result = call();
+    while (result < 0 && errno == EINTR) result = call();
+    return result;
+}
+
+bool is_same_file(const struct stat& a, const struct stat& b) { return a.st_dev == b.st_dev && a.st_ino == b.st_ino; }
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
-    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (file.number < 0) return fail(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
+Descriptor::~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+}
+
+Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.number() < 0) return fail(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
     struct stat status {};
-    if (::fstat(file.number, &status) != 0) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), system_words());
+    if (::fstat(file.number(), &status) != 0) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), system_words());
     if (!S_ISREG(status.st_mode)) return fail(Fault::bad_input, "{} is not a file", path.string());
-    const auto size = static_cast<std::size_t>(status.st_size);
-    if (size == 0) return MappedFile(path.string(), {});
-    void* const mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
-    if (mapping == MAP_FAILED) return fail(Fault::bad_input, "cannot map {}: {}", path.string(), system_words());
-    return MappedFile(path.string(), {static_cast<const std::byte*>(mapping), size});
+    return ReadableFile(path.string(), std::move(file), static_cast<std::uint64_t>(status.st_size));
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept : path_(std::move(other.path_)), bytes_(std::exchange(other.bytes_, {})) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(bytes_, other.bytes_);
-    return *this;
+Result<std::vector<std::byte>> ReadableFile::read(std::uint64_t offset, std::uint64_t bytes) const {
+    std::vector<std::byte> all(bytes);
+    for (std::uint64_t done = 0; done < bytes;) {
+        const ssize_t got = uninterrupted(
+            [&] { return ::pread(descriptor_.number(), all.data() + done, bytes - done, static_cast<off_t>(offset + done)); });
+        if (got < 0) return fail(Fault::bad_input, "cannot read {}: {}", path_, system_words());
+        if (got == 0) {
+            return fail(Fault::bad_input, "{} was shortened while it was read: it had {} bytes and ends at {} now", path_, size_,
+                        offset + done);
+        }
+        done += static_cast<std::uint64_t>(got);
+    }
+    return all;
 }
 
-MappedFile::~MappedFile() {
-    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+Result<FileLock> FileLock::take(const std::filesystem::path& path) {
+    for (;;) {
+        // Some network file systems lock only what is open for writing.
+        const int access = ::access(path.c_str(), W_OK) == 0 ? O_RDWR : O_RDONLY;
+        FileLock lock(path, Descriptor(::open(path.c_str(), access | O_CLOEXEC)));
+        if (lock.descriptor_.number() < 0) return fail(Fault::usage, "cannot open {}: {}", path.string(), system_words());
+        if (uninterrupted([&] { return ::flock(lock.descriptor_.number(), LOCK_EX); }) != 0)
+            return fail(Fault::usage, "cannot lock {}: {}", path.string(), system_words());
+        if (lock.is_current()) return lock;
+    }
+}
+
+bool FileLock::is_current() const {
+    struct stat locked {
+    }, there{};
+    return ::fstat(descriptor_.number(), &locked) == 0 && ::stat(path_.c_str(), &there) == 0 && is_same_file(locked, there);
 }
 
 Result<GrowingFile> GrowingFile::open(const std::filesystem::path& path, int flags) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666);
-    if (descriptor < 0) return fail(Fault::usage, "cannot write {}: {}", path.string(), system_words());
+    Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666));
+    if (descriptor.number() < 0) return fail(Fault::usage, "cannot write {}: {}", path.string(), system_words());
     struct stat status {};
-    const bool known = ::fstat(descriptor, &status) == 0;
-    return GrowingFile(path.string(), descriptor, known ? static_cast<std::uint64_t>(status.st_size) : 0);
+    const bool known = ::fstat(descriptor.number(), &status) == 0;
+    return GrowingFile(path.string(), std::move(descriptor), known ? static_cast<std::uint64_t>(status.st_size) : 0);
 }
 
 Result<GrowingFile> GrowingFile::create(const std::filesystem::path& path) { return open(path, O_CREAT | O_TRUNC); }
 
 Result<GrowingFile> GrowingFile::extend(const std::filesystem::path& path) { return open(path, O_APPEND); }
 
-GrowingFile::GrowingFile(GrowingFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
-
-GrowingFile& GrowingFile::operator=(GrowingFile&& other) noexcept {
-    std::swap(path_, other.path_);
-    std::swap(descriptor_, other.descriptor_);
-    std::swap(size_, other.size_);
-    return *this;
-}
-
-GrowingFile::~GrowingFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
+        const ssize_t written = uninterrupted([&] { return ::write(descriptor_.number(), bytes.data(), bytes.size()); });
         if (written < 0) return fail(Fault::usage, "cannot write {}: {}", path_, system_words());
         size_ += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -88,8 +96,8 @@ Result<void> GrowingFile::append(std::span<const std::byte> bytes) {
 }
 
 void GrowingFile::cut_back(std::uint64_t size) {
-    if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0 &&
-        ::lseek(descriptor_, static_cast<off_t>(size), SEEK_SET) >= 0) {
+    if (::ftruncate(descriptor_.number(), static_cast<off_t>(size)) == 0 &&
+        ::lseek(descriptor_.number(), static_cast<off_t>(size), SEEK_SET) >= 0) {
         size_ = size;
     }
 }

@@ -1,4 +1,4 @@
-// Files as the container needs them: one mapped for reading, one that only grows. Errors carry the path and the system's words.
+// Files as the container needs them: one to read, one that only grows, a lock. Errors carry the path and the system's words.
 #pragma once
 
 #include <cstddef>
@@ -6,28 +6,62 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "capture_format/result.h"
 
 namespace strata {
 
-/// A whole file in memory, read-only. Another process that shortens the file while it is mapped kills this one (SIGBUS):
-/// captures are only ever appended to.
-class MappedFile {
+/// A file descriptor, closed when it goes out of scope.
+class Descriptor {
 public:
-    static Result<MappedFile> open(const std::filesystem::path&);
-    MappedFile(MappedFile&&) noexcept;
-    MappedFile& operator=(MappedFile&&) noexcept;
-    ~MappedFile();
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor();
+    int number() const { return number_; }
 
-    std::span<const std::byte> bytes() const { return bytes_; }
+private:
+    int number_;
+};
+
+/// A file open for reading. Nothing is mapped: a file that another process shortens gives an error where a mapping gave SIGBUS.
+class ReadableFile {
+public:
+    static Result<ReadableFile> open(const std::filesystem::path&);
+
+    /// These bytes of the file; fails (bad input) where the file ends before them.
+    Result<std::vector<std::byte>> read(std::uint64_t offset, std::uint64_t bytes) const;
+    std::uint64_t size() const { return size_; }  ///< when it was opened
     const std::string& path() const { return path_; }
 
 private:
-    MappedFile(std::string path, std::span<const std::byte> bytes) : path_(std::move(path)), bytes_(bytes) {}
+    ReadableFile(std::string path, Descriptor descriptor, std::uint64_t size)
+        : path_(std::move(path)), descriptor_(std::move(descriptor)), size_(size) {}
 
     std::string path_;
-    std::span<const std::byte> bytes_;
+    Descriptor descriptor_;
+    std::uint64_t size_;
+};
+
+/// The right to replace a file, which one holder has at a time (flock). It ends with the object or with the process, even one
+/// that is killed. A second lock of one file in the same process waits for ever.
+class FileLock {
+public:
+    /// Waits for whoever holds the lock. The previous holder may have replaced the file: the lock is on the new one.
+    static Result<FileLock> take(const std::filesystem::path&);
+    /// False when somebody replaced the file without taking the lock.
+    bool is_current() const;
+
+private:
+    FileLock(std::filesystem::path path, Descriptor descriptor) : path_(std::move(path)), descriptor_(std::move(descriptor)) {}
+
+    std::filesystem::path path_;
+    Descriptor descriptor_;
 };
 
 /// A file written at its end only.
@@ -37,9 +71,6 @@ public:
     static Result<GrowingFile> create(const std::filesystem::path&);
     /// An existing file, to be continued.
     static Result<GrowingFile> extend(const std::filesystem::path&);
-    GrowingFile(GrowingFile&&) noexcept;
-    GrowingFile& operator=(GrowingFile&&) noexcept;
-    ~GrowingFile();
 
     Result<void> append(std::span<const std::byte>);
     /// Forgets what was appended beyond the size, as far as the file system lets it.
@@ -48,12 +79,12 @@ public:
     const std::string& path() const { return path_; }
 
 private:
-    GrowingFile(std::string path, int descriptor, std::uint64_t size)
-        : path_(std::move(path)), descriptor_(descriptor), size_(size) {}
+    GrowingFile(std::string path, Descriptor descriptor, std::uint64_t size)
+        : path_(std::move(path)), descriptor_(std::move(descriptor)), size_(size) {}
     static Result<GrowingFile> open(const std::filesystem::path&, int flags);
 
     std::string path_;
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     std::uint64_t size_ = 0;
 };
 

@@ -11,15 +11,24 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "capture_format/container/file.h"
+#include "capture_format/container/kept_files.h"
 
 namespace strata {
 namespace {
 
-// With Pending::first the only thing of this program that is global and changes: a signal comes to the process and brings no
-// arguments. Neither has a destructor, so a signal during exit() finds them, too.
+// With Pending::first and the kept files the only thing of this program that is global and changes: a signal comes to the process
+// and brings no arguments. None has a destructor, so a signal during exit() finds them, too.
 constinit std::mutex lock;
+
+/// What keep_files() was given. Every file of the program is written through begin(), and few writers know what a verb reads.
+std::vector<std::filesystem::path>& kept_files() {
+    static auto* const kept = new std::vector<std::filesystem::path>;
+    return *kept;
+}
 
 Error unwritable(const std::filesystem::path& path, int problem) {
     return fail(Fault::usage, "cannot write {}: {}", path.string(), std::generic_category().message(problem));
@@ -78,7 +87,25 @@ WholeFile::WholeFile(WholeFile&&) noexcept = default;
 WholeFile& WholeFile::operator=(WholeFile&&) noexcept = default;
 WholeFile::~WholeFile() = default;
 
+void keep_files(std::vector<std::filesystem::path> files) {
+    const std::scoped_lock held(lock);
+    kept_files() = std::move(files);
+}
+
+Result<void> check_not_kept(const std::filesystem::path& path) {
+    struct stat written {};
+    if (::stat(path.c_str(), &written) != 0 || !S_ISREG(written.st_mode)) return {};
+    const std::scoped_lock held(lock);
+    for (const std::filesystem::path& kept : kept_files()) {
+        struct stat read {};
+        if (::stat(kept.c_str(), &read) == 0 && read.st_dev == written.st_dev && read.st_ino == written.st_ino)
+            return fail(Fault::usage, "cannot write {}: it is the input {}. Choose another output", path.string(), kept.string());
+    }
+    return {};
+}
+
 Result<WholeFile> WholeFile::begin(const std::filesystem::path& wanted) {
+    if (const auto free = check_not_kept(wanted); !free) return free.error();
     struct stat old {};
     const bool exists = ::stat(wanted.c_str(), &old) == 0;
     if (exists && S_ISDIR(old.st_mode)) return unwritable(wanted, EISDIR);

@@ -226,8 +226,9 @@ Result<ImportedDeep> import_deep(std::span<const std::byte> bytes, std::string_v
 }
 
 Result<ImportedDeep> import_deep(const std::filesystem::path& path, const DeepOptions& options) {
-    return MappedFile::open(path).and_then(
-        [&](auto& file) { return import_deep(file.bytes(), path.filename().string(), options); });
+    return ReadableFile::open(path).and_then([](auto& file) { return file.read(0, file.size()); }).and_then([&](auto& bytes) {
+        return import_deep(bytes, path.filename().string(), options);
+    });
 }
 
 }  // namespace strata

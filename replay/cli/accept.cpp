@@ -75,6 +75,13 @@ Result<void> accept(const AcceptArguments& options) {
     if (!request) return request.error();
     request->outputs.clear();
     request->acts = Acts::brought_back;
+    // Held from before the capture is read: an accept at the same time waits and then reads what this one wrote.
+    std::optional<ExpectationWriter> writer;
+    if (!options.dry_run) {
+        auto extended = ExpectationWriter::extend(options.open.capture);
+        if (!extended) return extended.error();
+        writer = *std::move(extended);
+    }
     auto session = open(options.open);
     if (!session) return session.error();
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
@@ -83,7 +90,6 @@ Result<void> accept(const AcceptArguments& options) {
     const auto known = expectations_of(*(*session)->capture());
     if (!known) return known.error();
 
-    std::optional<ExpectationWriter> writer;
     std::size_t news = 0;
     for (const std::size_t frame : *frames) {
         request->variant.frame = frame;
@@ -92,12 +98,7 @@ Result<void> accept(const AcceptArguments& options) {
         show(*candidate);
         if (!candidate->is_news()) continue;
         ++news;
-        if (options.dry_run) continue;
-        if (!writer) {
-            auto extended = ExpectationWriter::extend(options.open.capture);
-            if (!extended) return extended.error();
-            writer = *std::move(extended);
-        }
+        if (!writer) continue;
         if (const auto written = write(*writer, *candidate, options); !written) return written;
     }
     if (writer)
@@ -114,6 +115,7 @@ Result<void> accept(const AcceptArguments& options) {
 std::function<Result<void>()> declare_accept(CLI::App& app) {
     const auto options = std::make_shared<AcceptArguments>();
     add_options(app, options->open);
+    app.get_option("capture")->type_name("FILE");  // the one input that is extended
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
     app.add_flag("--with-images", options->with_images, "keep the images: a tolerance and worst texels need them");

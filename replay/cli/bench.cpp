@@ -107,7 +107,8 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
     app.add_option("technique", options->word, "a technique, with or without its stage")->required();
     CLI::Option* capture =
-        app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario");
+        app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario")
+            ->type_name(input_file);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
     add_options(app, options->choices);
@@ -118,7 +119,7 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
     app.add_option("--repeats", options->repeats, "timed runs of each way after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
     app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_option("-o,--output", options->output, "write the JSON to a file, too");
+    app.add_option("-o,--output", options->output, "write the JSON to a file, too")->type_name(output_file);
     return [options] { return bench(*options); };
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
@@ -61,6 +62,7 @@ public:
         const std::string name = case_name(frame, act, made);
         const auto path = options_.folder / fmt::format("{}.{}.diff.png", options_.a.file.stem().string(), name);
         if (made.verdict < Verdict::warning) {
+            if (const auto free = check_not_kept(path); !free) return free;
             std::error_code problem;
             if (std::filesystem::remove(path, problem)) fmt::print(stderr, "removed {}\n", path.string());
             return problem ? Result<void>(fail(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
@@ -221,8 +223,10 @@ Result<void> diff(DiffArguments options) {
 }
 
 void add_sides(CLI::App& app, DiffArguments& options) {
-    app.add_option("A", options.a.file, "a .strata capture, or an .exr or .png image: what is right")->required();
-    app.add_option("B", options.b.file, "what is compared with it; default A itself, done otherwise");
+    app.add_option("A", options.a.file, "a .strata capture, or an .exr or .png image: what is right")
+        ->required()
+        ->type_name(input_file);
+    app.add_option("B", options.b.file, "what is compared with it; default A itself, done otherwise")->type_name(input_file);
     const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
         app.add_option(name, to, help)->allow_extra_args(false);
     };
@@ -262,7 +266,8 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     const auto options = std::make_shared<DiffArguments>();
     add_sides(app, *options);
     add_limits(app, options->limits);
-    app.add_option("--junit", options->junit, "write JUnit XML to a file: a suite per frame, a case per act and image");
+    app.add_option("--junit", options->junit, "write JUnit XML to a file: a suite per frame, a case per act and image")
+        ->type_name(output_file);
     app.add_option("-o,--output", options->folder, "folder for pictures of what differs; old ones of what does not are removed");
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options, &app] {

@@ -53,7 +53,7 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     app.add_option("--transmittance", options->transmittance,
                    "--deep: colored glass is refused (the default), made grey by the mean, or kept in channels AR, AG, AB")
         ->check(CLI::IsMember({"refused", "mean", "channels"}));
-    app.add_option("-o,--output", options->output, "file to write")->required();
+    app.add_option("-o,--output", options->output, "file to write")->required()->type_name(output_file);
     return [options] { return run(*options); };
 }
 

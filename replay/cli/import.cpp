@@ -92,13 +92,16 @@ Result<void> import(const ImportArguments& options) {
 
 std::function<Result<void>()> declare_import(CLI::App& app) {
     const auto options = std::make_shared<ImportArguments>();
-    app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")->required();
+    app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")
+        ->required()
+        ->type_name(input_file);
     app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
     app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");
     app.add_option("--window", options->window, "X,Y,WIDTH,HEIGHT: pixels of a deep file; default its display window")
         ->delimiter(',')
         ->expected(4);
-    app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata");
+    app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata")
+        ->type_name(output_file);
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
     app.add_option("--camera", options->gltf.camera,

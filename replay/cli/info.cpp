@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/check_capture.h"
 #include "capture_format/frame_features.h"
 #include "replay/cli/verb_options.h"
+#include "replay/expectations/expectation.h"
 #include "replay/plural.h"
 
 namespace strata {
@@ -97,13 +99,26 @@ Result<void> info(const InfoArguments& options) {
     return {};
 }
 
+/// Whether expectations can be read, and every image that they keep is there.
+Result<void> check_texts(const Capture& capture) {
+    const auto expectations = expectations_of(capture);
+    if (!expectations) return expectations.error();
+    for (const Expectation& expectation : *expectations)
+        for (const ExpectedAct& act : expectation.acts)
+            for (const ExpectedImage& image : act.images) {
+                if (image.texels.empty()) continue;
+                if (const auto kept = capture.expected_image(image.texels, bytes(image.shape)); !kept) return kept.error();
+            }
+    return {};
+}
+
 Result<void> validate(const InfoArguments& options) {
     const auto capture = open_capture(options.capture, Partial::refused);
     if (!capture) return capture.error();
-    for (std::size_t i = 0; i < capture->frame_count(); ++i)
-        if (const auto frame = capture->frame(i); !frame)
-            return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
-    fmt::print("{}: {}, every section and every index is sound\n", options.capture.filename().string(),
+    if (const auto sound = check_capture(options.capture); !sound) return sound;
+    if (const auto sound = check_texts(*capture); !sound)
+        return fail(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
+    fmt::print("{}: {}, every byte, index, blob and expectation is sound\n", options.capture.filename().string(),
                plural(capture->frame_count(), "frame"));
     return {};
 }
@@ -112,7 +127,7 @@ Result<void> validate(const InfoArguments& options) {
 
 std::function<Result<void>()> declare_info(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required();
+    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     app.add_option("--frame", options->frame, "which frame to describe, default 0");
     app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
     app.add_flag("--json", options->json, "one JSON object on stdout");
@@ -121,7 +136,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
 
 std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required();
+    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     return [options] { return validate(*options); };
 }
 

@@ -212,7 +212,8 @@ std::function<Result<void>()> declare_isa(CLI::App& app) {
         app.add_flag("--no-run", options->no_run, "do not run the frame to count what indirect dispatches and draws invoke");
     app.add_option("--tiles", options->tiles,
                    "waves per SIMD of the shader of each tile, where a technique has several: .png in colors, .exr the numbers")
-        ->excludes(no_run);
+        ->excludes(no_run)
+        ->type_name(output_file);
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return run_isa(*options); };
 }

@@ -119,7 +119,8 @@ Result<void> report(const ReportArguments& options) {
 std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<ReportArguments>();
     CLI::Option* captures =
-        app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one");
+        app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one")
+            ->type_name(input_file);
     CLI::Option* hard_cases =
         app.add_flag("--hard-cases", options->hard_cases,
                      "every transparency technique on the frames such methods fail on: holds, or by how much it does not")
@@ -147,7 +148,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_option("--pan", options->pan, "degrees it turns to the right in all, default 5")->needs("--flicker");
     app.add_flag("--json", options->json, "one JSON object");
     app.add_flag("--csv", options->csv, "comma-separated values");
-    app.add_option("-o,--output", options->output, "write to a file instead of stdout");
+    app.add_option("-o,--output", options->output, "write to a file instead of stdout")->type_name(output_file);
     return [options] { return report(*options); };
 }
 

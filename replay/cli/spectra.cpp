@@ -119,7 +119,9 @@ std::string help_of_costs() {
 
 std::function<Result<void>()> declare_spectra(CLI::App& app) {
     const auto options = std::make_shared<SpectraArguments>();
-    app.add_option("captures", options->captures, ".strata files; every frame of each counts alike")->required();
+    app.add_option("captures", options->captures, ".strata files; every frame of each counts alike")
+        ->required()
+        ->type_name(input_file);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
     add_options(app, options->choices);
@@ -135,7 +137,7 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
     app.add_option("--repeats", options->repeats, "timed runs of each mode after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
     app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_option("-o,--output", options->output, "write the JSON to a file, too");
+    app.add_option("-o,--output", options->output, "write the JSON to a file, too")->type_name(output_file);
     return [options] { return spectra(*options); };
 }
 

@@ -1,11 +1,13 @@
 #include "replay/cli/tool.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <system_error>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/kept_files.h"
 #include "replay/gpu/device.h"
 #include "replay/revision.h"
 
@@ -40,6 +42,22 @@ Result<void> within_this_machine(const std::function<Result<void>()>& verb) {
     } catch (const std::system_error& refused) {
         return fail(Fault::usage, "{}", refused.what());
     }
+}
+
+/// The files that options of this type name.
+std::vector<std::filesystem::path> files_of(const CLI::App& verb, const std::string& type) {
+    std::vector<std::filesystem::path> files;
+    for (const CLI::Option* option : verb.get_options())
+        if (option->get_type_name() == type) files.insert(files.end(), option->results().begin(), option->results().end());
+    return files;
+}
+
+/// From now on no input of the verb is replaced. Outputs whose names are known are refused before any work is done.
+Result<void> keep_inputs(const CLI::App& verb) {
+    keep_files(files_of(verb, input_file));
+    for (const std::filesystem::path& output : files_of(verb, output_file))
+        if (const auto free = check_not_kept(output); !free) return free;
+    return {};
 }
 
 }  // namespace
@@ -80,7 +98,10 @@ int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
         fmt::print("{}", app.help());
     } else {
         for (const auto& [sub, verb] : runs)
-            if (sub->parsed()) done = within_this_machine(verb);
+            if (sub->parsed()) {
+                done = keep_inputs(*sub);
+                if (done) done = within_this_machine(verb);
+            }
     }
     return done ? 0 : report_error(done.error());
 }

@@ -13,6 +13,9 @@ class App;
 
 namespace strata {
 
+/// Type names of options for files: a verb does not replace a file it reads, also where an output is a link to it.
+inline constexpr const char *input_file = "INPUT", *output_file = "OUTPUT";
+
 struct Verb {
     std::string_view name, summary;
     /// Declares the options and returns what runs once they are parsed.

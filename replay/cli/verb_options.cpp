@@ -66,7 +66,7 @@ void add_options(CLI::App& app, DeviceChoice& device) {
 }
 
 void add_options(CLI::App& app, OpenOptions& options) {
-    app.add_option("capture", options.capture, "a .strata file")->required();
+    app.add_option("capture", options.capture, "a .strata file")->required()->type_name(input_file);
     add_options(app, options.device);
     app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
 }

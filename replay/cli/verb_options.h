@@ -7,12 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "replay/cli/verb.h"
 #include "replay/session/session.h"
 #include "replay/shell_word.h"
-
-namespace CLI {
-class App;
-}
 
 namespace strata {
 

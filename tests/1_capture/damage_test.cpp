@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include "capture_format/check_capture.h"
 #include "capture_format/codec/encode_frame.h"
 #include "capture_format/container/blob_store.h"
 #include "capture_format/container/container.h"
+#include "capture_format/expectation_writer.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
 #include "tests/1_capture/sample_frames.h"
@@ -112,6 +114,63 @@ TEST(Damage, OverwrittenBytesAreNoticedOrDoNotMatter) {
         expect_truth_or_sentence(whole, bytes, Partial::allowed);
     }
     EXPECT_GT(noticed, 0u);
+}
+
+/// A capture of every kind of section, extended once: its first directory is followed by expectations and a second directory.
+Bytes capture_of_every_section() {
+    const TemporaryFile file("every.strata");
+    auto recorder = Recorder::create(file.path(), "notes");
+    Texture picture{.name = "thumbnail", .format = TextureFormat::rgba8_srgb, .width = 1, .height = 1};
+    picture.texels.resize(4);
+    EXPECT_TRUE(recorder->thumbnail(picture) && recorder->record(rich_frame()) && recorder->record(triangle_frame()) &&
+                recorder->finish());
+    auto writer = ExpectationWriter::extend(file.path());
+    writer->add_image(bytes_of("texels of an image"));
+    EXPECT_TRUE(writer->add("{}") && writer->finish());
+    return read_file(file.path());
+}
+
+TEST(CheckCapture, RefusesEveryChangeOfALowestOrHighestBit) {
+    const TemporaryFile file;
+    Bytes bytes = capture_of_every_section();
+    write_file(file.path(), bytes);
+    ASSERT_TRUE(check_capture(file.path()));
+    for (const std::byte bit : {std::byte{0x01}, std::byte{0x80}})
+        for (std::size_t at = 0; at < bytes.size(); ++at) {
+            bytes[at] ^= bit;
+            write_file(file.path(), bytes);
+            const auto sound = check_capture(file.path());
+            ASSERT_FALSE(sound) << "byte " << at;
+            EXPECT_EQ(sound.error().fault, Fault::bad_input);
+            EXPECT_THAT(sound.error().sentence, HasSubstr(file.path().string())) << "byte " << at;
+            bytes[at] ^= bit;
+        }
+}
+
+TEST(CheckCapture, RefusesABlobOfNoFrameThatIsNotWhatItsHashSays) {
+    const TemporaryFile file;
+    write_file(file.path(), capture_of_every_section());
+    BlobCollector blobs;
+    blobs.put(bytes_of("of no frame"));
+    PackedBlobs packed = blobs.pack()->front();
+    packed.stored[8] ^= std::byte{1};
+    auto writer = ContainerWriter::extend(file.path());
+    ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, packed.stored, packed.raw_bytes}) && writer->finish());
+    const auto sound = check_capture(file.path());
+    ASSERT_FALSE(sound);
+    EXPECT_THAT(sound.error().sentence, HasSubstr("blob 0 is not what its hash says"));
+}
+
+TEST(Damage, AFileThatIsShortenedWhileItIsReadIsBadInput) {
+    const TemporaryFile file;
+    write_file(file.path(), whole_capture().file);
+    const auto capture = Capture::open(file.path());
+    ASSERT_TRUE(capture);
+    std::filesystem::resize_file(file.path(), 16);
+    const auto frame = capture->frame(capture->frame_count() - 1);
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().fault, Fault::bad_input);
+    EXPECT_THAT(frame.error().sentence, HasSubstr("was shortened while it was read"));
 }
 
 /// Notes, picture and expectations are dispensable, and a partial capture goes without them.

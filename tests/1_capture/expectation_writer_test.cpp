@@ -3,8 +3,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <set>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "capture_format/expectation_writer.h"
 #include "capture_format/reader.h"
@@ -95,6 +96,49 @@ TEST(ExpectationWriter, AKilledProcessLeavesTheCaptureAsItWas) {
     ASSERT_TRUE(WIFSIGNALED(status));
     EXPECT_EQ(read_file(file.path()), before);
     EXPECT_TRUE(Capture::open(file.path()));
+}
+
+TEST(ExpectationWriter, ProcessesThatWriteAtOnceLoseNothing) {
+    const TemporaryFile file;
+    record(file.path());
+    constexpr int processes = 4, texts = 10;
+    for (int process = 0; process < processes; ++process)
+        if (fork() == 0) {
+            bool written = true;
+            for (int i = 0; i < texts; ++i)
+                written = written && append_expectation(file.path(), fmt::format("{} of {}", i, process));
+            _exit(written ? 0 : 1);
+        }
+    for (int process = 0; process < processes; ++process) {
+        int status = 0;
+        wait(&status);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    }
+    const auto expectations = Capture::open(file.path())->expectations();
+    const std::set<std::string> different(expectations.begin(), expectations.end());
+    EXPECT_EQ(different.size(), std::size_t{processes} * texts);
+}
+
+TEST(ExpectationWriter, ACaptureThatWasReplacedMeanwhileStaysTheNewOne) {
+    const TemporaryFile file, other("other");
+    record(file.path());
+    record(other.path());
+    auto writer = ExpectationWriter::extend(file.path());
+    ASSERT_TRUE(writer && writer->add("of the old one"));
+    std::filesystem::rename(other.path(), file.path());
+    const auto finished = writer->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_THAT(finished.error().sentence, testing::HasSubstr("was replaced by another program"));
+    EXPECT_TRUE(Capture::open(file.path())->expectations().empty());
+}
+
+TEST(ExpectationWriter, ImagesAreKnownSectionsToAReader) {
+    const TemporaryFile file;
+    record(file.path());
+    auto writer = ExpectationWriter::extend(file.path());
+    writer->add_image(texels(100, 1));
+    ASSERT_TRUE(writer->add("text") && writer->finish());
+    EXPECT_THAT(Capture::open(file.path())->summary().left_out, testing::IsEmpty());
 }
 
 TEST(ExpectationWriter, WhatIsNoCaptureIsRefusedAndLeftAlone) {

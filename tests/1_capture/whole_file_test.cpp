@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "capture_format/container/kept_files.h"
 #include "tests/1_capture/temporary_file.h"
 
 namespace strata {
@@ -79,6 +80,24 @@ TEST(WholeFile, SaysWhatTheSystemSaysAndIsAUsageError) {
     expect(folder / "missing" / "a", "No such file or directory");
     expect("/dev/full", "No space left on device");
     EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WholeFile, AKeptFileIsNotReplacedByAnyNameOrLink) {
+    const auto folder = empty_folder();
+    ASSERT_TRUE(write_whole_file(folder / "input", "old"));
+    std::filesystem::create_symlink("input", folder / "symbolic");
+    std::filesystem::create_hard_link(folder / "input", folder / "hard");
+    keep_files({folder / "input"});
+    for (const auto& output :
+         {folder / "input", folder / "symbolic", folder / "hard", folder / ".." / folder.filename() / "input"}) {
+        const auto written = write_whole_file(output, "new");
+        ASSERT_FALSE(written) << output;
+        EXPECT_EQ(written.error().fault, Fault::usage);
+        EXPECT_THAT(written.error().sentence, HasSubstr("it is the input " + (folder / "input").string()));
+    }
+    EXPECT_TRUE(write_whole_file(folder / "other", "new"));
+    keep_files({});
+    EXPECT_EQ(text_of(folder / "hard"), "old");
 }
 
 TEST(WholeFile, ADeviceIsWrittenAndNotReplaced) {

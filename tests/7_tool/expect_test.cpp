@@ -1,4 +1,6 @@
 // Expectations through the tool: accepted once, met ever after, and every way not to meet them with its exit code.
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -41,6 +43,43 @@ TEST(Accept, ShowsWhatIsNewThenReplayMeetsIt) {
     EXPECT_EQ(replayed.code, 0);
     EXPECT_THAT(replayed.err, HasSubstr("bit for bit as expected"));
     EXPECT_EQ(json::parse(replayed.out)["frames"][0]["expectation"]["agreement"], "exact");
+}
+
+TEST(Accept, ProcessesAtOnceOnOneCaptureLoseNothing) {
+    record_panes();
+    const auto all = techniques_of(Stage::transparency);
+    std::vector<pid_t> running;
+    for (std::size_t i = 0; i < 3; ++i)
+        running.push_back(start(STRATA_BINARY_DIR "/strata", "accept panes.strata --use " + std::string(all[i]->name)));
+    for (const pid_t process : running) EXPECT_EQ(code_of(process), 0);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(strata("replay panes.strata --expect --use " + std::string(all[i]->name)).code, 0) << all[i]->name;
+}
+
+TEST(Accept, OfImagesMakesSectionsThatTheToolKnowsItself) {
+    record_panes();
+    ASSERT_EQ(strata("accept panes.strata --with-images").code, 0);
+    const Finished sound = strata("validate panes.strata");
+    EXPECT_EQ(sound.code, 0);
+    EXPECT_EQ(sound.err, "");
+}
+
+TEST(Validate, RefusesAnExpectationThatIsNoJson) {
+    record_panes();
+    must(append_expectation(folder() / "panes.strata", "display 1234"));
+    const Finished refused = strata("validate panes.strata");
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("panes.strata"), HasSubstr("an expectation cannot be read")));
+}
+
+TEST(Validate, RefusesAChangedHeaderOfASection) {
+    record_panes();
+    std::string bytes = bytes_of_panes();
+    bytes[16 + 8] ^= 1;  // version of the first section, which the directory repeats
+    std::ofstream(folder() / "panes.strata", std::ios::binary) << bytes;
+    const Finished refused = strata("validate panes.strata");
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("its header is not the one in the directory"));
 }
 
 TEST(Accept, WritesNothingWhenNothingChanged) {

@@ -58,6 +58,45 @@ TEST(Output, ThatCannotBeWrittenIsAUsageErrorWithTheSystemsWords) {
     EXPECT_EQ(files_made(), 0u);
 }
 
+/// A command that reads sound.strata, and a file that it writes.
+constexpr Writing inputs_as_outputs[] = {
+    {"report sound.strata --repeats 1 --sweep pool=2 -o link.txt", "link.txt"},
+    {"bench voxel sound.strata --repeats 1 --only wrap -o link.json", "link.json"},
+    {"spectra sound.strata --modes 3 -o link.json", "link.json"},
+    {"diff sound.strata --use transparency/weighted --limit 1000 --junit link.xml", "link.xml"},
+    {"export sound.strata --deep --transmittance mean -o link.exr", "link.exr"},
+    {"export sound.strata --gltf -o link.glb", "link.glb"},
+    {"export sound.strata --json -o link.json", "link.json"},
+    {"export sound.strata --image color -o link.png", "link.png"},
+    {"isa sound.strata --tiles link.png", "link.png"},
+    {"import sound.strata -o link.strata", "link.strata"},
+    {"replay sound.strata --frames 0 --outputs color -o out", "out/sound.f0000.exr"},
+    {"probe sound.strata --at 8,4 --methods sorted_lists --depths 16 -o link", "link.csv"},
+    {"inspect sound.strata --size 400x300 --script shot.script", "link.png"},
+};
+
+TEST(Output, ThatIsAnInputIsRefusedByEveryVerbAlsoThroughLinks) {
+    write_sound_capture();
+    std::ofstream(folder() / "shot.script") << "shot link.png\n";
+    std::filesystem::create_directory(folder() / "out");
+    const auto expect_kept = [](const std::string& command) {
+        const Finished refused = strata(command);
+        EXPECT_EQ(refused.code, 2) << command << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr("it is the input sound.strata")) << command;
+        EXPECT_EQ(read_file(folder() / "sound.strata"), sound_capture()) << command;
+    };
+    for (const auto& [command, output] : inputs_as_outputs) {
+        std::filesystem::create_symlink(folder() / "sound.strata", folder() / output);
+        expect_kept(command);
+        std::filesystem::remove(folder() / output);
+        std::filesystem::create_hard_link(folder() / "sound.strata", folder() / output);
+        expect_kept(command);
+        std::filesystem::remove(folder() / output);
+    }
+    expect_kept("export sound.strata --json -o sound.strata");
+    expect_kept("report sound.strata -o ./sound.strata");
+}
+
 // The limit of a file's size is a full disk for one process: a write of more fails.
 TEST(Output, OnAFullDiskIsAUsageErrorAndLeavesWhatWasThereBefore) {
     write_sound_capture();

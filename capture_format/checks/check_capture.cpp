@@ -1,0 +1,27 @@
+#include "capture_format/check_capture.h"
+
+#include "capture_format/container/blob_store.h"
+#include "capture_format/container/container.h"
+#include "capture_format/reader.h"
+
+namespace strata {
+
+Result<void> check_capture(const std::filesystem::path& path) {
+    const auto container = Container::open(path);
+    if (!container) return container.error();
+    if (container->damage()) return *container->damage();
+    if (const auto sound = container->check_bytes(); !sound) return sound;
+    for (const SectionType type : {SectionType::blobs, SectionType::expect}) {
+        auto blobs = BlobStore::open(*container, type);
+        if (!blobs) return blobs.error();
+        if (const auto sound = blobs->check_all(); !sound) return sound;
+    }
+    const auto capture = Capture::open(path);
+    if (!capture) return capture.error();
+    for (std::size_t i = 0; i < capture->frame_count(); ++i)
+        if (const auto frame = capture->frame(i); !frame)
+            return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
+    return {};
+}
+
+}  // namespace strata
