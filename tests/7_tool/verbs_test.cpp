@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr const char* verb_names[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
                                       "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
 
-void record_panes() { ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0); }
+void record_panes(const std::string& options = "") { ASSERT_EQ(strata("record three_panes -o panes.strata " + options).code, 0); }
 
 TEST(Tool, EveryVerbHasHelpInBothForms) {
     for (const char* verb : verb_names) {
@@ -190,8 +190,8 @@ TEST(Report, AnExactTechniqueStandsInForTheTruthOfALargeFrame) {
 }
 
 TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
-    record_panes();
-    const Finished made = strata("report panes.strata --repeats 2 --json");
+    record_panes("--size 48x27");
+    const Finished made = strata("report panes.strata --repeats 1 --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json report = json::parse(made.out);
     EXPECT_EQ(report["schema"], "strata.report");
@@ -199,8 +199,8 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
     for (const Technique* technique : techniques_of(Stage::transparency)) rows += 1 + technique->points.size();
     EXPECT_EQ(report["rows"].size(), rows);
     for (const json& row : report["rows"]) EXPECT_EQ(row["method_error"].back()["metric"], "FLIP") << row;
-    const Finished text = strata("report panes.strata --repeats 2 --sweep pool=2"),
-                   csv = strata("report panes.strata --repeats 2 --sweep pool=2 --csv");
+    const Finished text = strata("report panes.strata --repeats 1 --sweep pool=2"),
+                   csv = strata("report panes.strata --repeats 1 --sweep pool=2 --csv");
     for (const Technique* technique : techniques_of(Stage::transparency)) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name.substr(technique->name.find('/') + 1))));
         EXPECT_THAT(csv.out, HasSubstr(std::string(technique->name)));
@@ -255,8 +255,8 @@ std::size_t fields(std::string_view line) {
 }
 
 TEST(Report, OfSeveralCapturesIsEachOnesAndAPooledOne) {
-    record_panes();
-    ASSERT_EQ(strata("record red_and_green_glass -o glass.strata").code, 0);
+    record_panes("--size 48x27");
+    ASSERT_EQ(strata("record red_and_green_glass -o glass.strata --size 48x27").code, 0);
     const std::string both = "report panes.strata glass.strata --repeats 1 --sweep pool=2";
     const Finished made = strata(both + " --json");
     ASSERT_EQ(made.code, 0) << made.err;

@@ -3,7 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/transparency/functions/function.shared.h"
 #include "passes/transparency/lists/event_lists.shared.h"
 #include "passes/transparency/moments/moments.shared.h"
 
@@ -19,7 +18,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 6, r32f) uniform writeonly image2DArray total;
 layout(set = 0, binding = 7, rgba16) uniform writeonly image2DArray head;
 layout(set = 0, binding = 8, rgba16) uniform writeonly image2DArray tail;
-layout(set = 0, binding = 9, scalar) buffer Counters { FunctionCounters counters; };
+layout(set = 0, binding = 9, scalar) buffer Counters { MomentsCounters counters; };
 
 // What 16 bits keep.
 void round_to_16_bits(inout float moments[8]) {
@@ -58,5 +57,5 @@ void main() {
         imageStore(head, ivec3(texel, channel), vec4(kept[0], kept[1], kept[2], kept[3]));
         if (reals > 4u) imageStore(tail, ivec3(texel, channel), vec4(kept[4], kept[5], kept[6], kept[7]));
     }
-    if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
+    if (!finished(band.width)) atomicAdd(counters.function.lists.unfinished, 1u);
 }
