@@ -32,6 +32,11 @@ std::optional<Feature> unsupported(const Technique& technique, const Features& f
     return found == technique.cannot.end() ? std::nullopt : std::optional(*found);
 }
 
+std::string unsupported_because(const Technique& technique, const Features& features) {
+    const auto feature = unsupported(technique, features);
+    return feature ? fmt::format("{} ({})", name(*feature), features.reason(*feature)) : "";
+}
+
 std::uint32_t index_in_stage(const Technique& technique) {
     std::uint32_t index = 0;
     for (const Technique* other : techniques_of(technique.stage)) {

@@ -22,6 +22,8 @@ Result<const Technique*> find_technique(std::string_view name);
 std::vector<const Technique*> techniques_of(Stage);
 /// The first of its features that the technique cannot do, or nothing.
 std::optional<Feature> unsupported(const Technique&, const Features&);
+/// The same with why the frame has it: "chromatic (material 'ruby' lets ...)"; empty where the technique can do the frame.
+std::string unsupported_because(const Technique&, const Features&);
 /// The technique's place among those of its stage: what generated shader switches (gbuffer decoders) use.
 std::uint32_t index_in_stage(const Technique&);
 

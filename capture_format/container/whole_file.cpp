@@ -93,12 +93,11 @@ void keep_files(std::vector<std::filesystem::path> files) {
 }
 
 Result<void> check_not_kept(const std::filesystem::path& path) {
-    struct stat written {};
-    if (::stat(path.c_str(), &written) != 0 || !S_ISREG(written.st_mode)) return {};
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none)) return {};
     const std::scoped_lock held(lock);
     for (const std::filesystem::path& kept : kept_files()) {
-        struct stat read {};
-        if (::stat(kept.c_str(), &read) == 0 && read.st_dev == written.st_dev && read.st_ino == written.st_ino)
+        if (std::filesystem::equivalent(kept, path, none))
             return fail(Fault::usage, "cannot write {}: it is the input {}. Choose another output", path.string(), kept.string());
     }
     return {};

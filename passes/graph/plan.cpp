@@ -42,12 +42,17 @@ bool replaces_all(const Step& step, const Use& use) {
            });
 }
 
+bool is_of_counters(const Graph& graph, const Use& use) { return use.buffer && graph.record(use.buffer).weak; }
+
 bool feeds_something(const Graph& graph, const PlannedStep& planned, const std::vector<Use>& all, const Needed& needed) {
     const bool is_shader = !planned.shaders.empty();
-    return std::ranges::any_of(all, [&](const Use& use) {
-        const bool weak = use.buffer && graph.record(use.buffer).weak && is_shader;
-        return writes(use.access) && !weak && needed.has(use);
-    });
+    return std::ranges::any_of(
+        all, [&](const Use& use) { return writes(use.access) && !(is_shader && is_of_counters(graph, use)) && needed.has(use); });
+}
+
+bool counts(const Graph& graph, const PlannedStep& planned, const std::vector<Use>& all) {
+    return !planned.shaders.empty() &&
+           std::ranges::any_of(all, [&](const Use& use) { return writes(use.access) && is_of_counters(graph, use); });
 }
 
 const std::string& name_of(const Graph& graph, const Use& use) {
@@ -58,9 +63,8 @@ std::string why_culled(const Graph& graph, const PlannedStep& planned, const std
     std::string written;
     std::set<std::string_view> named;
     for (const Use& use : all) {
-        const bool weak = use.buffer && graph.record(use.buffer).weak;
         const std::string& name = name_of(graph, use);
-        if (!writes(use.access) || weak || !named.insert(name).second) continue;
+        if (!writes(use.access) || is_of_counters(graph, use) || !named.insert(name).second) continue;
         written += written.empty() ? "'" + name + "'" : ", '" + name + "'";
     }
     if (!written.empty()) return "nobody reads " + written;
@@ -115,11 +119,7 @@ std::vector<Use> uses(const PlannedStep& planned) {
     return all;
 }
 
-bool writes_counters(const Graph& graph, const PlannedStep& planned) {
-    return !planned.shaders.empty() && std::ranges::any_of(uses(planned), [&](const Use& use) {
-        return use.buffer && graph.record(use.buffer).weak && writes(use.access);
-    });
-}
+bool writes_counters(const Graph& graph, const PlannedStep& planned) { return counts(graph, planned, uses(planned)); }
 
 AccessSet accesses(const PlannedStep& planned, Image image, Part part) {
     const auto overlap = [](auto a, auto b) { return !a || !b || *a == *b; };
@@ -147,7 +147,7 @@ void cull(const Graph& graph, Plan& plan) {
         const std::vector<Use> all = uses(planned);
         if (!feeds_something(graph, planned, all, needed)) {
             plan.culled.push_back({graph.scopes()[planned.step.scope], planned.step.name, why_culled(graph, planned, all)});
-            if (writes_counters(graph, planned)) plan.uncounted_scopes.insert(planned.step.scope);
+            if (counts(graph, planned, all)) plan.uncounted_scopes.insert(planned.step.scope);
             continue;
         }
         for (const Use& use : all)

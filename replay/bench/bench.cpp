@@ -20,9 +20,8 @@ Result<void> check(Session& session, const Variant& way) {
     for (const SkippedStage& skipped : planned->skipped)
         if (skipped.stage == way.technique->stage)
             return fail(Fault::usage, "the frame does not need {}: {}", name(skipped.stage), skipped.reason);
-    if (const auto feature = unsupported(*way.technique, planned->features))
-        return fail(Fault::usage, "{} cannot do {} ({})", way.technique->name, name(*feature),
-                    planned->features.reason(*feature));
+    if (const std::string reason = unsupported_because(*way.technique, planned->features); !reason.empty())
+        return fail(Fault::usage, "{} cannot do {}", way.technique->name, reason);
     return {};
 }
 

@@ -91,9 +91,9 @@ std::vector<UnsupportedChoice> not_supported(const Declaration& d, const Feature
     std::vector<UnsupportedChoice> choices;
     for (const auto& [stage, choice] : d.choices) {
         const Technique& technique = *choice.technique;
-        const auto feature = unsupported(technique, features);
-        if (feature && std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique))
-            choices.push_back({std::string(technique.name), fmt::format("{} ({})", name(*feature), features.reason(*feature))});
+        if (std::string reason = unsupported_because(technique, features);
+            !reason.empty() && std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique))
+            choices.push_back({std::string(technique.name), std::move(reason)});
     }
     return choices;
 }

@@ -172,10 +172,8 @@ ImageSet run_model(const JudgedStage& stage) {
 Accuracy judge_stage(const JudgedStage& stage) {
     Accuracy accuracy;
     const Technique& technique = *stage.choice.technique;
-    if (const auto feature = unsupported(technique, stage.features)) {
-        accuracy.not_supported = fmt::format("{} ({})", name(*feature), stage.features.reason(*feature));
-        return accuracy;
-    }
+    accuracy.not_supported = unsupported_because(technique, stage.features);
+    if (!accuracy.not_supported.empty()) return accuracy;
     if (stage.against != Against::truth) judge_by_model(stage, accuracy);
     if (stage.against != Against::model && !stage.stop.stop_requested()) judge_by_truth(stage, accuracy);
     return accuracy;

@@ -191,9 +191,11 @@ Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions option
                                  make_remembered(d.plan);
                                  return executor_->run(d.plan, options);
                              });
+                         })
+                         .and_then([&](auto& executed) {
+                             times_.device = executed.host_ms;
+                             return without_fatal_counts(d, std::move(executed));
                          });
-    if (execution) times_.device = execution->host_ms;
-    if (execution) execution = without_fatal_counts(d, *std::move(execution));
     if (execution) return execution;
     memo_.drop_unfilled();
     if (stop_.stop_requested()) return check_going().error();

@@ -13,6 +13,7 @@ namespace strata {
 namespace {
 
 constexpr double pixels_of_a_tile = 256, invocations_per_throughput = 64;
+
 /// Between two reports of progress.
 constexpr std::size_t modes_at_once = 15;
 
