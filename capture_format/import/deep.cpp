@@ -109,9 +109,11 @@ private:
             const double brightest = std::max({color.x, color.y, color.z}), densest = std::max({alpha.x, alpha.y, alpha.z});
             if (densest == 0 && brightest > 0) ++census.without_alpha;
             if (densest < least_alpha && brightest < least_alpha) ++census.faint;
-            if (std::isinf(sample->depth)) infinite_.emplace_back(meshes_[0].positions.size(), pixel);
-            else nearest_ = std::min(nearest_, sample->depth), farthest_ = std::max(farthest_, sample->depth);
-            for (int layer = 0; layer < int(layers_.size()); ++layer) add_triangle(layer, pixel, *sample);
+            DeepSample placed = *sample;
+            placed.depth = std::max(placed.depth, nearest_depth);
+            if (std::isinf(placed.depth)) infinite_.emplace_back(meshes_[0].positions.size(), pixel);
+            else nearest_ = std::min(nearest_, placed.depth), farthest_ = std::max(farthest_, placed.depth);
+            for (int layer = 0; layer < int(layers_.size()); ++layer) add_triangle(layer, pixel, placed);
         }
     }
 
@@ -184,6 +186,7 @@ private:
         say(c.split_pixels, "pixels have overlapping volumes, which were cut and merged");
         say(c.depth_not_a_number, "samples are left out: their depth is NaN");
         say(c.depth_not_in_front, "samples are left out: their depth is not in front of the eye (0 or below)");
+        say(c.depth_too_near, "samples are nearer than 1e-15: they are put there, in their order");
         say(c.depth_infinite, "samples are infinitely far: they are put behind all others");
         say(c.bad_color, "samples have a color or alpha that is NaN or infinite: it became 0");
         say(c.bad_alpha, "samples have an alpha below 0 or above 1: it was clamped");

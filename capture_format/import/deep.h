@@ -37,6 +37,7 @@ struct DeepCensus {
     std::uint64_t split_pixels = 0;         ///< where volumes overlapped something and were cut
     std::uint64_t cuts = 0;                 ///< at most, that this took
     std::uint64_t depth_not_a_number = 0, depth_not_in_front = 0;  ///< left out
+    std::uint64_t depth_too_near = 0;                              ///< put at nearest_depth
     std::uint64_t depth_infinite = 0;                              ///< put behind all others
     std::uint64_t bad_color = 0;                                   ///< a color or alpha that is no number became 0
     std::uint64_t bad_alpha = 0;                                   ///< below 0 or above 1, clamped

@@ -30,7 +30,8 @@ std::optional<DeepSample> usable_sample(const DeepBlock& block, std::size_t i, D
     DeepSample sample{.depth = double(block.depth[i]), .back = double(block.back[i])};
     ++census.samples;
     if (std::isnan(sample.depth)) return ++census.depth_not_a_number, std::nullopt;
-    if (sample.depth < nearest_depth) return ++census.depth_not_in_front, std::nullopt;
+    if (sample.depth <= 0) return ++census.depth_not_in_front, std::nullopt;
+    if (sample.depth < nearest_depth) ++census.depth_too_near;
     if (sample.depth > farthest_depth) ++census.depth_infinite, sample.depth = infinity;
     const bool thick = sample.back > sample.depth && sample.back <= farthest_depth;
     if (thick) ++census.volumes;

@@ -26,6 +26,9 @@ namespace strata::scenario {
 namespace {
 
 constexpr double height = 3, thickness = 0.1, room = 6, lobby = 8;
+// Blockers lie in the middle of walls and slabs and meet there: what lies within 5 mm of a blocker's plane counts as before it, so the
+// top of a wall would be lit through a blocker at the lower face of the ceiling.
+constexpr double slab = 0.2, roof_height = height + slab / 2;
 constexpr std::uint32_t rooms_in_row = 4, rows_of_rooms = 2, lights_in_room = 20, lights_in_lobby = 40;
 
 enum class Opening { none, door, window };
@@ -110,8 +113,8 @@ private:
         tiles.base_color_texture.texture = builder_->add(checker(2, glm::vec3(0.5f, 0.48f, 0.44f), glm::vec3(0.3f)));
         tiles.base_color_texture.transform = {12, 0, 0, 0, 10, 0};
         const double wide = 2 * room, deep = -room * rows_of_rooms;
-        block({-wide, -0.2, deep}, {wide, 0, lobby}, builder_->add(tiles));
-        block({-wide, height, deep}, {wide, height + 0.2, lobby}, paint_);
+        block({-wide, -slab, deep}, {wide, 0, lobby}, builder_->add(tiles));
+        block({-wide, height, deep}, {wide, height + slab, lobby}, paint_);
     }
 
     void add_wall(const Wall& wall) {
@@ -139,11 +142,11 @@ private:
         Frame& frame = builder_->frame;
         const glm::vec3 u(float(along.x), 0, float(along.y));
         const auto blocker = static_cast<std::uint32_t>(frame.blockers.size());
-        frame.blockers.push_back({.center = {middle.x, height / 2, middle.y},
+        frame.blockers.push_back({.center = {middle.x, roof_height / 2, middle.y},
                                   .u = u,
                                   .v = {0, 1, 0},
                                   .half_u = float(length / 2),
-                                  .half_v = float(height / 2)});
+                                  .half_v = float(roof_height / 2)});
         if (wall.opening == Opening::none) return;
         const glm::dvec3 opening{middle.x, 0.5 * (cut.low + cut.high), middle.y};
         frame.portals.push_back({.center = opening,
@@ -163,7 +166,7 @@ private:
     void add_sky() {
         Frame& frame = builder_->frame;
         const auto roof = static_cast<std::uint32_t>(frame.blockers.size());
-        frame.blockers.push_back({.center = {0, height, (lobby - room * rows_of_rooms) / 2},
+        frame.blockers.push_back({.center = {0, roof_height, (lobby - room * rows_of_rooms) / 2},
                                   .u = {1, 0, 0},
                                   .v = {0, 0, 1},
                                   .half_u = float(2 * room),
@@ -205,7 +208,7 @@ private:
             const bool hangs = light.type != LightType::omni && light.type != LightType::sphere;
             light.position = {floor.x + random_.between(-0.8, 0.8) * half.x, hangs ? height - 0.15 : random_.between(0.9, 2.4),
                               floor.z + random_.between(-0.8, 0.8) * half.y};
-            if (i % 20 == 16) light.intensity *= -0.4f;  // a dark
+            if (i % 20 == 16) light.intensity = glm::vec3(-0.5f);  // a dark: grey, a warm one would leave blue rims
             if (i % 20 == 18) light.clip_planes = {{{0, 1, 0}, -light.position.y + 0.4}, {{1, 0, 0}, -light.position.x}};
             shield(light);
             builder_->frame.lights.push_back(std::move(light));

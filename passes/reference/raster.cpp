@@ -160,7 +160,7 @@ glm::i64vec2 columns(const RasterTriangle& triangle, std::int64_t y, std::int64_
 
 bool keeps_back_faces(const Frame& frame, std::uint32_t draw) {
     const Material* material = material_of(frame, draw);
-    return material == nullptr || material->double_sided || is_transparent(material->alpha_mode);
+    return material == nullptr || material->double_sided;
 }
 
 }  // namespace

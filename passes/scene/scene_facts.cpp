@@ -1,6 +1,6 @@
 #include "passes/scene/scene_facts.h"
 
-#include "passes/scene/fragments_by_row.h"
+#include "passes/scene/fragment_bounds.h"
 #include "passes/scene/frame_spectrum.h"
 #include "passes/scene/light_features.h"
 #include "passes/scene/light_list.h"
@@ -43,9 +43,9 @@ float SceneFacts::farthest_depth_offset() const {
     return farthest_depth_offset_.get([&] { return strata::farthest_depth_offset(*frame_); });
 }
 
-const std::vector<std::uint64_t>& SceneFacts::most_fragments_by_row(Extent extent) const {
-    const auto [found, is_new] = most_fragments_by_row_.try_emplace({extent.width, extent.height});
-    if (is_new) found->second = strata::most_fragments_by_row(*frame_, lists(), extent);
+const FragmentBounds& SceneFacts::fragment_bounds(Extent extent) const {
+    const auto [found, is_new] = fragment_bounds_.try_emplace({extent.width, extent.height});
+    if (is_new) found->second = strata::fragment_bounds(*frame_, lists(), extent);
     return found->second;
 }
 
@@ -73,7 +73,7 @@ std::uint32_t SceneFacts::highest_interface_layer() const {
 }
 
 std::size_t SceneFacts::derived() const {
-    std::size_t made = most_fragments_by_row_.size() + possible_spectra_.size();
+    std::size_t made = fragment_bounds_.size() + possible_spectra_.size();
     for (const bool is_made :
          {features_.is_made(), lists_.is_made(), lights_.is_made(), bounds_.is_made(), views_[0].is_made(), views_[1].is_made(),
           transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), texture_uses_[0].is_made(),

@@ -13,6 +13,7 @@
 #include "passes/graph/graph.h"
 #include "passes/scene/draw_bounds.h"
 #include "passes/scene/draw_lists.h"
+#include "passes/scene/fragment_bounds.h"
 #include "passes/scene/shadow_views.h"
 #include "passes/scene/texture_uses.h"
 #include "passes/scene/transparent_depths.h"
@@ -52,8 +53,8 @@ public:
     DepthRange transparent_depths() const;
     DepthRange world_depths() const;
     float farthest_depth_offset() const;
-    /// Of transparent geometry on images of an extent: see most_fragments_by_row.h.
-    const std::vector<std::uint64_t>& most_fragments_by_row(Extent) const;
+    /// Of transparent geometry on images of an extent.
+    const FragmentBounds& fragment_bounds(Extent) const;
     TextureUses texture_uses(Surfaces) const;
     /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
     std::uint32_t light_features() const;
@@ -63,8 +64,8 @@ public:
     /// Of everything transparent; 0 where nothing is in an interface layer.
     std::uint32_t highest_interface_layer() const;
 
-    /// How many members were derived so far, row bounds once per extent and possible spectra once per set of features: asking for
-    /// a member again adds nothing.
+    /// How many members were derived so far, fragment bounds once per extent and possible spectra once per set of features:
+    /// asking for a member again adds nothing.
     std::size_t derived() const;
 
 private:
@@ -76,9 +77,8 @@ private:
     Kept<std::vector<ShadowView>> views_[2];  ///< by Allocation
     Kept<DepthRange> transparent_depths_, world_depths_;
     Kept<float> farthest_depth_offset_;
-    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint64_t>>
-        most_fragments_by_row_;          ///< by width and height
-    Kept<TextureUses> texture_uses_[2];  ///< by Surfaces
+    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, FragmentBounds> fragment_bounds_;  ///< by width and height
+    Kept<TextureUses> texture_uses_[2];                                                          ///< by Surfaces
     Kept<std::uint32_t> light_features_, spectrum_, highest_interface_layer_;
     mutable std::map<std::uint32_t, std::vector<std::uint32_t>> possible_spectra_;  ///< by features
 };

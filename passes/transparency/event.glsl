@@ -111,6 +111,9 @@ float ordering_depth(float z) {
     return layer > 0u ? layer_depth(view.near, layer) : max(z, view.near);
 }
 
+// glTF culls back faces in every alpha mode. A particle has none.
+bool is_culled() { return !gl_FrontFacing && materials[draws[in_draw].material].double_sided == 0u; }
+
 Event transparent_event() {
     const bool particle = in_draw >= view.first_emitter;
     const float scale = to_sample();
@@ -126,6 +129,7 @@ Event transparent_event() {
         event.d = materials[draws[in_draw].material].distortion * vec2(m.normal.x, -m.normal.y);
         event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
     }
+    event.visible = event.visible && (particle || !is_culled());
     event.z = ordering_depth(event.z - in_emissive.w * scale);
     return event;
 }

@@ -243,6 +243,42 @@ void add_sides(CLI::App& app, DiffArguments& options) {
     app.add_option("--frames", options.frames, "which frames, like 0,4-8; default all");
 }
 
+/// "START,STOP" or "START,STOP,COUNT".
+std::string read_exposures(const std::string& text, std::optional<ExposureRange>& exposures) {
+    std::vector<double> numbers;
+    for (const std::string& part : CLI::detail::split(text, ',')) {
+        double number = 0;
+        if (!CLI::detail::lexical_cast(part, number) || !(std::abs(number) <= 100)) return "expected numbers from -100 to 100";
+        numbers.push_back(number);
+    }
+    if (numbers.size() < 2 || numbers.size() > 3) return "expected START,STOP or START,STOP,COUNT";
+    exposures = exposure_range(numbers[0], numbers[1]);
+    if (numbers[1] < numbers[0]) return "the first exposure must not be larger than the last";
+    if (numbers.size() == 2) return "";
+    if (numbers[2] < 1 || numbers[2] != std::floor(numbers[2])) return "the number of exposures must be an integer from 1 to 100";
+    exposures->count = static_cast<std::uint32_t>(numbers[2]);
+    return "";
+}
+
+void add_flip(CLI::App& app, FlipOptions& flip) {
+    app.add_option("--ppd", flip.pixels_per_degree,
+                   "FLIP: pixels per degree of visual angle; default 67.02, a 4K screen at 0.7 m")
+        ->check(CLI::Range(1., 1000.));
+    std::map<std::string, ToneMapper> mappers;
+    for (std::size_t i = 0; i < tone_mapper_names.size(); ++i) mappers.emplace(tone_mapper_names[i], static_cast<ToneMapper>(i));
+    app.add_option_function<std::string>(
+           "--tone-mapper", [&flip, mappers](const std::string& text) { flip.tone_mapper = mappers.at(text); },
+           "FLIP of radiance: tone mapper, aces (default), hable or reinhard")
+        ->check(CLI::IsMember(mappers));
+    app.add_option_function<std::string>(
+           "--exposures", [](const std::string&) {},
+           "FLIP of radiance: first and last exposure in stops and their number, as START,STOP or START,STOP,COUNT; default: "
+           "from "
+           "the brightest to the median pixel of A, one per stop")
+        ->type_name("LIST")
+        ->check([&flip](const std::string& text) { return read_exposures(text, flip.exposures); });
+}
+
 void add_limits(CLI::App& app, ErrorLimits& limits) {
     app.add_option("--limit", limits.limit, "a pixel may differ by so much in each channel; default 0")
         ->check(CLI::NonNegativeNumber);
@@ -258,6 +294,7 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
     app.add_option("--flip-limit", limits.flip_mean,
                    "mean of FLIP, of images of light; without --limit it alone decides about them")
         ->check(CLI::Range(0., 1.));
+    add_flip(app, limits.flip);
 }
 
 }  // namespace

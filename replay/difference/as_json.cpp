@@ -15,18 +15,18 @@ ordered_json number(double value) {
     return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
 }
 
-ordered_json json_of(const Flip& flip) {
+ordered_json json_of(const Flip& flip, const FlipOptions& options) {
     ordered_json json{
         {"mean", flip.mean},
         {"weighted", {{"first_quartile", flip.first_quartile}, {"median", flip.median}, {"third_quartile", flip.third_quartile}}},
         {"low", flip.low},
         {"high", flip.high},
-        {"pixels_per_degree", pixels_per_degree_of_a_desk}};
+        {"pixels_per_degree", options.pixels_per_degree}};
     if (flip.exposures.count > 0)
         json["exposures"] = {{"start", flip.exposures.start},
                              {"stop", flip.exposures.stop},
                              {"count", flip.exposures.count},
-                             {"tone_mapper", "aces"}};
+                             {"tone_mapper", name(options.tone_mapper)}};
     return json;
 }
 
@@ -51,23 +51,23 @@ ordered_json json_of(const ImageError& error) {
             {"not_finite_in_one_alone", error.disagreeing}};
 }
 
-ordered_json json_of(const ImageComparison& image) {
+ordered_json json_of(const ImageComparison& image, const FlipOptions& flip) {
     ordered_json json{{"image", image.image}, {"verdict", name(image.verdict)}, {"identical", image.error.identical}};
     if (!image.reason.empty()) json["reason"] = image.reason;
     for (const Judged& judged : image.judged)
         json["comparisons"].push_back(
             {{"metric", judged.metric}, {"value", number(judged.value)}, {"threshold", number(judged.threshold)}});
     if (image.error.pixels > 0) json["error"] = json_of(image.error);
-    if (image.flip) json["flip"] = json_of(*image.flip);
+    if (image.flip) json["flip"] = json_of(*image.flip, flip);
     return json;
 }
 
-ordered_json json_of(const FrameComparison& frame) {
+ordered_json json_of(const FrameComparison& frame, const FlipOptions& flip) {
     ordered_json json{{"frame", frame.frame}, {"verdict", name(frame.verdict)}, {"acts", ordered_json::array()}};
     for (const ActComparison& act : frame.acts) {
         ordered_json row{{"act", act.label}};
         if (!act.choice_a.empty() || !act.choice_b.empty()) row["choice"] = {{"a", act.choice_a}, {"b", act.choice_b}};
-        for (const ImageComparison& image : act.images) row["images"].push_back(json_of(image));
+        for (const ImageComparison& image : act.images) row["images"].push_back(json_of(image, flip));
         json["acts"].push_back(row);
     }
     if (!frame.divergence.act.empty())
@@ -103,7 +103,7 @@ std::string as_json(const Comparison& comparison) {
                       {"verdict", name(verdict(comparison))},
                       {"rerun", comparison.rerun},
                       {"frames", ordered_json::array()}};
-    for (const FrameComparison& frame : comparison.frames) json["frames"].push_back(json_of(frame));
+    for (const FrameComparison& frame : comparison.frames) json["frames"].push_back(json_of(frame, comparison.limits.flip));
     return json.dump(2) + "\n";
 }
 

@@ -85,7 +85,8 @@ Result<ImageComparison> compare_images(std::string name, const HostImage& a, con
         made.flip = Flip{};
     } else if (is_light) {
         const ColorPlanes of_a = color_planes(a), of_b = color_planes(b);
-        made.flip = content == Content::radiance ? radiance_flip(of_a, of_b) : display_flip(of_a, of_b);
+        made.flip = content == Content::radiance ? radiance_flip(of_a, of_b, limits.flip)
+                                                 : display_flip(of_a, of_b, limits.flip.pixels_per_degree);
     }
     if (!made.error.identical) decide(made, limits);
     return made;

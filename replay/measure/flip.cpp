@@ -12,10 +12,16 @@
 namespace strata {
 namespace {
 
-// What the ACES curve (see observer.cpp) makes 0.85: the positive root of k3 x^2 + k4 x + k5 at that height.
-double light_that_shows_as_85_percent() {
-    constexpr double t = .85, square = .36 * (2.51 - 2.43 * t), linear = .6 * (.03 - .59 * t), constant = -.14 * t;
-    return (-linear + std::sqrt(linear * linear - 4 * square * constant)) / (2 * square);
+// The larger root of curve(x) = 0.85.
+double light_that_shows_as_85_percent(ToneMapper mapper) {
+    constexpr double t = .85;
+    const ToneCurve curve = tone_curve(mapper);
+    const double square = double(curve.above[0]) - t * double(curve.below[0]);
+    const double linear = double(curve.above[1]) - t * double(curve.below[1]);
+    const double constant = double(curve.above[2]) - t * double(curve.below[2]);
+    if (square == 0) return -constant / linear;
+    const double middle = -linear / (2 * square), apart = std::sqrt(middle * middle - constant / square);
+    return middle + apart;
 }
 
 // A picture of a range beyond this is mostly darkness that no display shows.
@@ -31,14 +37,14 @@ std::vector<float> luminances(const ColorPlanes& picture) {
     return all;
 }
 
-/// The lower one of an even number.
 float median_of(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    if (values.size() == 1) return values[0];
+    const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, upper);
+    return .5f * (*std::max_element(values.begin(), upper) + *upper);
 }
 
-std::optional<ExposureRange> exposures_of(const ColorPlanes& picture) {
+std::optional<ExposureRange> exposures_of(const ColorPlanes& picture, ToneMapper mapper) {
     std::vector<float> light = luminances(picture);
     const float brightest = light.empty() ? 0 : *std::ranges::max_element(light);
     if (brightest <= darkest) return {};
@@ -47,11 +53,9 @@ std::optional<ExposureRange> exposures_of(const ColorPlanes& picture) {
         std::erase_if(light, [](float v) { return v <= darkest; });
         median = median_of(light);
     }
-    const double shown = light_that_shows_as_85_percent();
-    ExposureRange range{std::log2(shown / double(brightest)), std::log2(shown / double(median))};
-    range.stop = std::min(range.stop, range.start + most_exposures);
-    range.count = static_cast<std::uint32_t>(std::max(2., std::ceil(range.stop - range.start)));
-    return range;
+    const double shown = light_that_shows_as_85_percent(mapper);
+    const double start = std::log2(shown / double(brightest)), stop = std::log2(shown / double(median));
+    return exposure_range(start, std::min(stop, start + most_exposures));
 }
 
 /// Where only one picture has a number, they could not differ more.
@@ -117,9 +121,15 @@ ColorPlanes color_planes(const ReferenceImage& image) {
     return planes;
 }
 
-ExposureRange exposures_of(const ColorPlanes& reference, const ColorPlanes& test) {
-    if (const auto range = exposures_of(reference)) return *range;
-    return exposures_of(test).value_or(ExposureRange{.count = 1});
+std::string_view name(ToneMapper mapper) { return tone_mapper_names[static_cast<std::size_t>(mapper)]; }
+
+ExposureRange exposure_range(double start, double stop) {
+    return {start, stop, static_cast<std::uint32_t>(std::max(2., std::ceil(stop - start)))};
+}
+
+ExposureRange exposures_of(const ColorPlanes& reference, const ColorPlanes& test, ToneMapper mapper) {
+    if (const auto range = exposures_of(reference, mapper)) return *range;
+    return exposures_of(test, mapper).value_or(ExposureRange{.count = 1});
 }
 
 Flip display_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree) {
@@ -131,15 +141,15 @@ Flip display_flip(const ColorPlanes& reference, const ColorPlanes& test, double 
     return flip;
 }
 
-Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree) {
+Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, const FlipOptions& options) {
     Flip flip = empty_flip(reference, test);
-    flip.exposures = exposures_of(reference, test);
+    flip.exposures = options.exposures ? *options.exposures : exposures_of(reference, test, options.tone_mapper);
     flip.exposure.resize(flip.map.size());
-    Observer observer(flip.width, flip.height, pixels_per_degree);
+    Observer observer(flip.width, flip.height, options.pixels_per_degree);
     for (std::uint32_t i = 0; i < flip.exposures.count; ++i) {
         const auto& [start, stop, count] = flip.exposures;
         const std::span<const float> map =
-            observer.compare(reference, test, start + (stop - start) * i / std::max(1u, count - 1));
+            observer.compare(reference, test, Exposed{start + (stop - start) * i / std::max(1u, count - 1), options.tone_mapper});
         for (std::size_t p = 0; p < map.size(); ++p) {
             if (map[p] <= flip.map[p]) continue;
             flip.map[p] = map[p];

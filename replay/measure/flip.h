@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "replay/images/host_image.h"
@@ -27,10 +29,26 @@ ColorPlanes color_planes(const ReferenceImage&);
 /// Seen from 0.7 m on a monitor 0.7 m wide of 3840 pixels: 67.02.
 inline constexpr double pixels_per_degree_of_a_desk = 3840 * 3.14159265358979323846 / 180;
 
-/// Both pictures are tone mapped at start, ..., stop, evenly, in steps of at most about one stop.
+/// Radiance is tone mapped at `count` exposures, evenly spaced from start to stop.
 struct ExposureRange {
     double start = 0, stop = 0;  ///< log2 of the factor
     std::uint32_t count = 0;     ///< 0: display light, no exposure
+};
+/// One exposure per stop and at least two.
+ExposureRange exposure_range(double start, double stop);
+
+/// Curves from radiance to display light: Narkowicz's fit of ACES without its pre-exposure of 0.6, Hable's filmic curve (both per
+/// channel) and Reinhard's L / (1 + L) of the luminance, with the constants of the authors' program.
+enum class ToneMapper { aces, hable, reinhard };
+inline constexpr std::array<std::string_view, 3> tone_mapper_names = {"aces", "hable", "reinhard"};
+std::string_view name(ToneMapper);
+
+/// How a person looks at the pictures.
+struct FlipOptions {
+    double pixels_per_degree = pixels_per_degree_of_a_desk;
+    // Of radiance:
+    ToneMapper tone_mapper = ToneMapper::aces;
+    std::optional<ExposureRange> exposures = std::nullopt;  ///< unset: those that show the reference, see exposures_of()
 };
 
 struct Flip {
@@ -46,12 +64,12 @@ struct Flip {
 /// Of display light, 0..1. Sizes are equal (asserted). A pixel that only one picture has a number for is 1.
 Flip display_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
 
-/// Of radiance: the worst over the exposures that show the reference, see exposures_of().
-Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree = pixels_per_degree_of_a_desk);
+/// Of radiance: the worst over the exposures.
+Flip radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, const FlipOptions& = {});
 
-/// From where the brightest pixel reaches 85 % of white to where the median one does, through the ACES curve (2021, section 3).
-/// Where more than half is black: the median of what is not. Of a black reference: the test's own, so that it is judged, too.
-/// At most 32 exposures.
-ExposureRange exposures_of(const ColorPlanes& reference, const ColorPlanes& test);
+/// From where the brightest pixel reaches 85 % of white to where the median one does, through the tone mapper (2021, section 3).
+/// The median is that of the authors' program: the mean of the sorted luminances n / 2 - 1 and n / 2. Where it is black: the
+/// median of what is not. Of a black reference: the test's own, so that it is judged, too. At most 32 exposures.
+ExposureRange exposures_of(const ColorPlanes& reference, const ColorPlanes& test, ToneMapper = ToneMapper::aces);
 
 }  // namespace strata

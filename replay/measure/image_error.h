@@ -10,6 +10,7 @@
 
 #include "capture_format/result.h"
 #include "replay/images/host_image.h"
+#include "replay/measure/flip.h"
 
 namespace strata {
 
@@ -23,6 +24,7 @@ struct ErrorLimits {
     double warn_limit = none, warn_percent = 0;      ///< the same, for a warning
     std::uint32_t ulps = 0;                          ///< of depth: floats from one value to the other
     std::optional<double> flip_mean = std::nullopt;  ///< where there is FLIP
+    FlipOptions flip = {};
 };
 
 /// The channel that differs most.

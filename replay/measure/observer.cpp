@@ -76,11 +76,19 @@ void down(const FlipKernel& kernel, const float* const* rows, float* out, std::s
     else filter_down<Symmetry::odd>(kernel.weights, rows, out, count);
 }
 
-/// Narkowicz's fit of the ACES curve without its pre-exposure of 0.6; above 100 it is 1.
-inline float tone_mapped(float light) {
-    const float x = .6f * smaller(light, 100.f);
-    return smaller(1.f, x * (2.51f * x + .03f) / (x * (2.43f * x + .59f) + .14f));
+/// Where every curve is at its end: beyond, squares would leave the range of a float.
+constexpr float brightest = 1e15f;
+
+inline float tone_mapped(const ToneCurve& curve, float light) {
+    const float x = smaller(light, brightest);
+    const auto [a, b, c] = curve.above;
+    const auto [d, e, f] = curve.below;
+    return smaller(1.f, (x * (a * x + b) + c) / (x * (d * x + e) + f));
 }
+
+struct Light {
+    float r, g, b;
+};
 
 /// Luminance over white's, X' - Y' and Y' - Z' (both over white's): YCxCz without its scales and its offset, which cancel
 /// because every filter keeps a constant.
@@ -104,7 +112,8 @@ inline void opponent_row(const float* const* in, float* const* out, std::size_t 
     float *luminance = out[0], *red_green = out[1], *blue_yellow = out[2];
 #pragma GCC ivdep  // rows are apart
     for (std::size_t i = 0; i < count; ++i) {
-        const Opponent o = opponent(shown(red[i]), shown(green[i]), shown(blue[i]));
+        const Light light = shown(red[i], green[i], blue[i]);
+        const Opponent o = opponent(light.r, light.g, light.b);
         luminance[i] = o.luminance;
         red_green[i] = o.red_green;
         blue_yellow[i] = o.blue_yellow;
@@ -112,11 +121,23 @@ inline void opponent_row(const float* const* in, float* const* out, std::size_t 
 }
 
 void displayed_row(const float* const* in, float* const* out, std::size_t count) {
-    opponent_row(in, out, count, [](float light) { return on_display(light); });
+    opponent_row(in, out, count, [](float r, float g, float b) { return Light{on_display(r), on_display(g), on_display(b)}; });
 }
 
-void exposed_row(const float* const* in, float* const* out, std::size_t count, float exposure) {
-    opponent_row(in, out, count, [=](float light) { return tone_mapped(larger(0.f, light) * exposure); });
+void exposed_row(const float* const* in, float* const* out, std::size_t count, float scale, const ToneCurve& curve) {
+    const auto exposed = [=](float light) { return larger(0.f, light) * scale; };
+    if (curve.of_luminance) {
+        opponent_row(in, out, count, [=](float r, float g, float b) {
+            const Light light{smaller(exposed(r), brightest), smaller(exposed(g), brightest), smaller(exposed(b), brightest)};
+            const float luminance = .2126f * light.r + .7152f * light.g + .0722f * light.b;
+            const float share = luminance > 0 ? tone_mapped(curve, luminance) / luminance : 0.f;
+            return Light{on_display(light.r * share), on_display(light.g * share), on_display(light.b * share)};
+        });
+        return;
+    }
+    opponent_row(in, out, count, [=](float r, float g, float b) {
+        return Light{tone_mapped(curve, exposed(r)), tone_mapped(curve, exposed(g)), tone_mapped(curve, exposed(b))};
+    });
 }
 
 /// Relative error below 2e-7 for t in [.008, 1]: a third of the exponent, then Halley's iteration twice.
@@ -224,6 +245,18 @@ struct Observer::Rows {
     std::array<std::vector<float>, count> rows;
 };
 
+ToneCurve tone_curve(ToneMapper mapper) {
+    switch (mapper) {
+        case ToneMapper::aces:
+            return {{.36f * 2.51f, .6f * .03f, 0}, {.36f * 2.43f, .6f * .59f, .14f}};
+        case ToneMapper::hable:
+            return {{.231683f, .013791f, 0}, {.18f, .3f, .018f}};
+        case ToneMapper::reinhard:
+            break;
+    }
+    return {{0, 1, 0}, {0, 1, 1}, true};
+}
+
 Observer::Observer(std::uint32_t width, std::uint32_t height, double pixels_per_degree)
     : width_(width), height_(height), stride_((width + lanes - 1) / lanes * lanes), map_(std::size_t(width) * height) {
     across_[luminance] = normalized(see(to_luminance, pixels_per_degree));
@@ -257,11 +290,12 @@ Observer::Observer(std::uint32_t width, std::uint32_t height, double pixels_per_
         for (std::vector<float>& plane : *planes) plane.resize(stride_ * height);
 }
 
-void Observer::filter_rows(const ColorPlanes& picture, std::optional<double> exposure, Planes& planes) const {
+void Observer::filter_rows(const ColorPlanes& picture, const std::optional<Exposed>& exposed, Planes& planes) const {
     constexpr std::size_t channel[plane_count] = {0, 1, 2, 2, 0, 0, 0};
     std::size_t reach = 0;
     for (const FlipKernel& k : across_) reach = std::max(reach, k.weights.size());
-    const float scale = exposure ? static_cast<float>(std::exp2(*exposure)) : 1.f;
+    const float scale = exposed ? static_cast<float>(std::exp2(exposed->exposure)) : 1.f;
+    const ToneCurve curve = tone_curve(exposed ? exposed->tone_mapper : ToneMapper::aces);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height_, 8), [&](const tbb::blocked_range<std::size_t>& range) {
         std::array<std::vector<float>, 3> rows;
         for (std::vector<float>& row : rows) row.resize(stride_ + 2 * reach);
@@ -272,7 +306,7 @@ void Observer::filter_rows(const ColorPlanes& picture, std::optional<double> exp
                 in[c] = picture.rgb[c].data() + y * width_;
                 out[c] = rows[c].data() + reach;
             }
-            if (exposure) exposed_row(in, out, width_, scale);
+            if (exposed) exposed_row(in, out, width_, scale, curve);
             else displayed_row(in, out, width_);
             for (float* row : out) {  // beyond its border a picture goes on as its border
                 std::fill(row - reach, row, row[0]);
@@ -351,9 +385,10 @@ void Observer::compare_row(const Rows& reference, const Rows& test, std::span<fl
     difference_row(row(reference), row(test), {knee_, largest_}, out);
 }
 
-std::span<const float> Observer::compare(const ColorPlanes& reference, const ColorPlanes& test, std::optional<double> exposure) {
-    filter_rows(reference, exposure, reference_);
-    filter_rows(test, exposure, test_);
+std::span<const float> Observer::compare(const ColorPlanes& reference, const ColorPlanes& test,
+                                         const std::optional<Exposed>& exposed) {
+    filter_rows(reference, exposed, reference_);
+    filter_rows(test, exposed, test_);
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, height_, 8), [&](const tbb::blocked_range<std::uint32_t>& range) {
         Rows a, b;
         for (std::uint32_t y = range.begin(); y < range.end(); ++y) {

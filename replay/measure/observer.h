@@ -11,6 +11,20 @@
 
 namespace strata {
 
+/// x -> (above[0] x^2 + above[1] x + above[2]) / (the same of below), at most 1: of each channel, or of the luminance for all
+/// three.
+struct ToneCurve {
+    std::array<float, 3> above, below;
+    bool of_luminance = false;
+};
+ToneCurve tone_curve(ToneMapper);
+
+/// How radiance becomes display light.
+struct Exposed {
+    double exposure = 0;  ///< log2 of the factor
+    ToneMapper tone_mapper = ToneMapper::aces;
+};
+
 /// Weights at distance 0, 1, ... on one side; the other side is the same, or its negative.
 struct FlipKernel {
     std::vector<float> weights;
@@ -22,8 +36,8 @@ class Observer {
 public:
     Observer(std::uint32_t width, std::uint32_t height, double pixels_per_degree);
 
-    /// FLIP per pixel, 0..1, of two pictures of the observer's size. With an exposure (log2) they are tone mapped first.
-    std::span<const float> compare(const ColorPlanes& reference, const ColorPlanes& test, std::optional<double> exposure);
+    /// FLIP per pixel, 0..1, of two pictures of the observer's size: of display light, or exposed and tone mapped first.
+    std::span<const float> compare(const ColorPlanes& reference, const ColorPlanes& test, const std::optional<Exposed>&);
 
 private:
     // What is left of a picture after its rows are filtered; the columns' filters make the rest of it.
@@ -31,7 +45,7 @@ private:
     using Planes = std::array<std::vector<float>, plane_count>;
     struct Rows;
 
-    void filter_rows(const ColorPlanes&, std::optional<double> exposure, Planes&) const;
+    void filter_rows(const ColorPlanes&, const std::optional<Exposed>&, Planes&) const;
     void filter_columns(const Planes&, std::uint32_t y, Rows&) const;
     void compare_row(const Rows& reference, const Rows& test, std::span<float> out) const;
 

@@ -194,6 +194,13 @@ TEST(DeepImport, LeavesOutWhatHasNoPlaceInFrontOfTheEyeAndMendsTheRest) {
     EXPECT_NEAR(fragments_of(image.frame).at(0, 0)[0].depth, 10, 1e-12) << "twice as far as the farthest finite one";
 }
 
+TEST(DeepImport, PutsDepthsBelowTheSmallestThatCanBeDrawnThereInTheirOrder) {
+    const ImportedDeep image = frame_of(pixel_of({{1, 1, 2e-40f}, {0, .5f, 1e-40f}}));
+    EXPECT_EQ(image.census.depth_too_near, 2u);
+    EXPECT_EQ(image.census.depth_not_in_front, 0u);
+    EXPECT_DOUBLE_EQ(red_of(image), .5) << "the half that is nearer is black";
+}
+
 TEST(DeepImport, ReadsEveryLayoutPackingAndTypeAlike) {
     DeepSource source = random_image(11, 8);
     for (auto& pixel : source.pixels)

@@ -234,10 +234,10 @@ TEST(SceneFacts, DeriveNothingBeforeItIsAskedForAndNothingTwice) {
     EXPECT_EQ(facts.derived(), 4u);
     EXPECT_EQ(&facts.shadow_views(Allocation::own), views);
     EXPECT_EQ(facts.derived(), 4u);
-    const auto* rows = &facts.most_fragments_by_row({16, 16, 1});
-    facts.most_fragments_by_row({8, 8, 1});
-    EXPECT_EQ(&facts.most_fragments_by_row({16, 16, 1}), rows);
-    EXPECT_EQ(facts.derived(), 6u) << "bounds of rows, once per extent";
+    const auto* rows = &facts.fragment_bounds({16, 16, 1});
+    facts.fragment_bounds({8, 8, 1});
+    EXPECT_EQ(&facts.fragment_bounds({16, 16, 1}), rows);
+    EXPECT_EQ(facts.derived(), 6u) << "bounds, once per extent";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -10,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/graph/plan.h"
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/event_lists.h"
 #include "tests/support/device.h"
 #include "tests/support/session.h"
 
@@ -71,28 +72,28 @@ protected:
     }
 
     /// Lists of these lengths lie one after the other in `keys`, one per cell.
-    std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const std::vector<ListKey>& keys) {
+    std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const std::vector<ListKey>& keys,
+                                std::uint32_t order) {
         const Band band{0, 1, static_cast<std::uint32_t>(lengths.size()), 1, static_cast<std::uint32_t>(keys.size())};
         std::vector<std::uint32_t> places;
         std::uint32_t place = 0;
         for (const std::uint32_t length : lengths) places.push_back(std::exchange(place, place + length));
         Graph graph;
-        // What is read back is created: imports outlive the frame and stay on the device.
-        Buffer listed = graph.create("sorted keys", keys.size() * sizeof(ListKey));
-        graph.copy(import(graph, "keys", keys), listed);
+        transparency::EventLists lists{.counts = import(graph, "counts", lengths),
+                                       .starts = import(graph, "starts", places),
+                                       .group_starts = import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)),
+                                       .layers = std::ranges::max(lengths)};
+        transparency::create_keys(graph, lists, band.pool);
+        graph.copy(import(graph, "keys", keys), lists.keys);
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
         graph.clear(counters, 0);
-        graph.compute("transparency/lists/sort.comp")
-            .loads("Counts", import(graph, "counts", lengths))
-            .loads("Starts", import(graph, "starts", places))
-            .loads("GroupStarts", import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)))
-            .updates("Keys", listed)
-            .updates("Counters", counters)
-            .push(band)
-            .over({band.width, 1, 1});
-        graph.keep(listed);
-        return values_of<ListKey>(run(graph, listed));
+        graph.offer("Counters", counters);
+        transparency::sort_lists(graph, lists, band, order);
+        graph.keep(lists.keys);
+        return values_of<ListKey>(run(graph, lists.keys));
     }
+
+    void expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t order);
 
 private:
     std::uint64_t imports_ = 5000;  // ids are the device's: away from those of scenes
@@ -110,26 +111,34 @@ std::vector<ListKey> random_keys(std::size_t count) {
     return keys;
 }
 
-void expect_sorted(std::span<const ListKey> got, std::vector<ListKey> wanted) {
-    std::ranges::sort(wanted, [](const ListKey& a, const ListKey& b) {
-        return std::tuple(a.z, b.draw, b.primitive) < std::tuple(b.z, a.draw, a.primitive);
-    });
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i << " of a list of " << wanted.size();
+std::tuple<float, std::int64_t, std::int64_t> rank(const ListKey& key, std::uint32_t order) {
+    if (order == transparency::list_order_submission) return {0, key.draw, key.primitive};
+    return {key.z, -std::int64_t{key.draw}, -std::int64_t{key.primitive}};
 }
 
-TEST_F(ListsOnDevice, AreSortedNearToFarAtEveryLength) {
-    const std::vector<std::uint32_t> lengths{0, 1, 2, 3, 8, 12, 13, 16, 31, 32, 33, 64, 0, 300, 2000};
-    std::size_t total = 0;
-    for (const std::uint32_t length : lengths) total += length;
-    const std::vector<ListKey> keys = random_keys(total);
-    const std::vector<ListKey> result = sorted(lengths, keys);
+void ListsOnDevice::expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t order) {
+    std::vector<ListKey> wanted = random_keys(std::accumulate(lengths.begin(), lengths.end(), std::size_t{0}));
+    const std::vector<ListKey> got = sorted(lengths, wanted, order);
     std::size_t first = 0;
     for (const std::uint32_t length : lengths) {
-        const auto at = keys.begin() + static_cast<std::ptrdiff_t>(first);
-        expect_sorted(std::span(result).subspan(first, length), std::vector<ListKey>(at, at + length));
+        std::ranges::sort(std::span(wanted).subspan(first, length), {}, [&](const ListKey& key) { return rank(key, order); });
+        for (std::size_t i = first; i < first + length; ++i)
+            ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i - first << " of a list of " << length;
         first += length;
     }
+}
+
+TEST_F(ListsOnDevice, AreSortedAtEveryLength) {
+    const std::vector<std::uint32_t> lengths{0, 1, 2, 3, 8, 12, 13, 16, 31, 32, 33, 64, 0, 300, 511, 512};
+    expect_all_sorted(lengths, transparency::list_order_depth);
+    expect_all_sorted(lengths, transparency::list_order_submission);
+}
+
+TEST_F(ListsOnDevice, AreSortedInChunksWhereTheyAreLong) {
+    const std::vector<std::uint32_t> lengths{5,    513,  1,   1023,   1024,    1025,      0, 2048,
+                                             2049, 4097, 512, 20'000, 100'000, 1'000'000, 3};
+    expect_all_sorted(lengths, transparency::list_order_depth);
+    expect_all_sorted(lengths, transparency::list_order_submission);
 }
 
 TEST_F(ListsOnDevice, StartWhereTheListsBeforeThemEnd) {

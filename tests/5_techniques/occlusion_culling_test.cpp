@@ -23,7 +23,7 @@ Request culled(std::size_t frame, std::vector<std::string> sets = {}) {
     return {.variant = {.frame = frame}, .choices = chosen({hiz}, std::move(sets)), .outputs = {"visible"}};
 }
 
-std::uint64_t count_of(const Run& run, std::string_view name) {
+std::uint64_t counted_by_hiz(const Run& run, std::string_view name) {
     for (const CounterRecord& counter : run.counters)
         if (counter.technique == hiz && counter.name == name) return counter.value;
     throw std::runtime_error(fmt::format("no counter {}", name));
@@ -61,13 +61,13 @@ TEST(OcclusionCulling, HidesNoVisibleDrawAlongAPathThroughACityAndAnswersAsIfItH
         if (i % 8 == 7) {
             cold->forget_memo();
             const auto alone = must(cold->run(culled(i)));
-            EXPECT_LE(count_of(alone, "drawn first"), 64u);
+            EXPECT_LE(counted_by_hiz(alone, "drawn first"), 64u);
             ASSERT_EQ(hash_of(run.images.at("visible")), hash_of(alone.images.at("visible"))) << "frame " << i;
         }
         const std::vector<Figure> figures = judged(run, frames[i]);
         EXPECT_EQ(figures[0].value, 0) << figures[0].name << " in frame " << i;
-        EXPECT_LT(figures[2].value, .5 * double(count_of(run, "in view"))) << "drawn in frame " << i;
-        if (i > 0) newly += count_of(run, "newly visible");
+        EXPECT_LT(figures[2].value, .5 * double(counted_by_hiz(run, "in view"))) << "drawn in frame " << i;
+        if (i > 0) newly += counted_by_hiz(run, "newly visible");
     }
     EXPECT_GT(newly, 0u) << "nothing came into sight: the second phase was never needed";
     EXPECT_LT(newly, 5 * std::uint64_t{count});
@@ -76,13 +76,13 @@ TEST(OcclusionCulling, HidesNoVisibleDrawAlongAPathThroughACityAndAnswersAsIfItH
 TEST(OcclusionCulling, DrawsWhatIsVisibleAndNothingElseInTheFirstPhaseOnceItIsKnown) {
     const auto session = scenario_session("city_of_boxes");
     const auto cold = must(session->run(culled(0))), warm = must(session->run(culled(0)));
-    EXPECT_LE(count_of(cold, "drawn first"), 64u);
-    EXPECT_EQ(count_of(cold, "tested"), count_of(cold, "in view") - count_of(cold, "drawn first"));
-    EXPECT_EQ(count_of(cold, "in view"), count_of(cold, "occluded") + drawn(cold));
-    EXPECT_EQ(count_of(warm, "drawn first"), drawn(cold));
-    EXPECT_EQ(count_of(warm, "newly visible"), 0u);
-    EXPECT_EQ(count_of(warm, "occluded"), count_of(cold, "occluded"));
-    EXPECT_EQ(count_of(warm, "pyramid texels"), 2u * 19244);
+    EXPECT_LE(counted_by_hiz(cold, "drawn first"), 64u);
+    EXPECT_EQ(counted_by_hiz(cold, "tested"), counted_by_hiz(cold, "in view") - counted_by_hiz(cold, "drawn first"));
+    EXPECT_EQ(counted_by_hiz(cold, "in view"), counted_by_hiz(cold, "occluded") + drawn(cold));
+    EXPECT_EQ(counted_by_hiz(warm, "drawn first"), drawn(cold));
+    EXPECT_EQ(counted_by_hiz(warm, "newly visible"), 0u);
+    EXPECT_EQ(counted_by_hiz(warm, "occluded"), counted_by_hiz(cold, "occluded"));
+    EXPECT_EQ(counted_by_hiz(warm, "pyramid texels"), 2u * 19244);
 }
 
 TEST(OcclusionCulling, ChangesNoBitOfAPicture) {
@@ -150,7 +150,7 @@ TEST(OcclusionCulling, DrawsNothingThatIsBehindTheEye) {
     Request away = culled(0);
     away.variant.eye.pan = std::numbers::pi;
     const auto run = must(session->run(away));
-    EXPECT_EQ(count_of(run, "in view"), drawn(run));
+    EXPECT_EQ(counted_by_hiz(run, "in view"), drawn(run));
     Request at_it = culled(0);
     EXPECT_GT(drawn(must(session->run(at_it))), drawn(run)) << "after a turn nothing of what was known is left, and all is found";
 }
@@ -163,7 +163,7 @@ TEST(OcclusionCulling, WorksOnAPictureOfOnePixel) {
             const auto run = must(session->run(culled(0, {set})));
             EXPECT_EQ(judged(run, frames[0])[0].value, 0);
             EXPECT_GE(drawn(run), 1u);
-            EXPECT_EQ(count_of(run, "pyramid texels"), set == settings[0] ? 2u : 1u);
+            EXPECT_EQ(counted_by_hiz(run, "pyramid texels"), set == settings[0] ? 2u : 1u);
         }
     }
 }

@@ -1,6 +1,7 @@
 // FLIP: what it says of pictures whose answer is known, against its model in double, and against the reference program's figures.
 #include <cmath>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,41 @@ TEST(Flip, OfRadianceIsWhatTheModelInDoubleSays) {
     expect_like_the_model(flip, plain_radiance_flip(a, b, flip.exposures));
 }
 
+TEST(Flip, OfRadianceThroughEveryToneMapperIsWhatTheModelInDoubleSays) {
+    const ColorPlanes a = scene(101, 67, 200), b = changed(a, [](float v) { return std::min(v, 20.f); });
+    const ExposureRange range = exposure_range(-4, 2.5);
+    EXPECT_EQ(range.count, 7u);
+    std::set<double> means;
+    for (const ToneMapper mapper : {ToneMapper::aces, ToneMapper::hable, ToneMapper::reinhard}) {
+        SCOPED_TRACE(name(mapper));
+        const Flip flip = radiance_flip(a, b, {.tone_mapper = mapper, .exposures = range});
+        expect_like_the_model(flip, plain_radiance_flip(a, b, range, std::string(name(mapper))));
+        means.insert(flip.mean);
+    }
+    EXPECT_EQ(means.size(), 3u);
+}
+
+TEST(Flip, ExposuresReach85PercentThroughEveryToneMapper) {
+    ColorPlanes picture = uniform(2, 2, 2);
+    for (std::vector<float>& plane : picture.rgb) plane[5] = 64;
+    const auto brightest = [&](ToneMapper mapper) { return 64 * std::exp2(exposures_of(picture, picture, mapper).start); };
+    EXPECT_NEAR(brightest(ToneMapper::reinhard), .85 / .15, 1e-6);
+    const double x = brightest(ToneMapper::hable);
+    EXPECT_NEAR((.231683 * x * x + .013791 * x) / (.18 * x * x + .3 * x + .018), .85, 1e-6);
+}
+
+TEST(Flip, TheMedianIsTheMeanOfTheTwoThatTheAuthorsProgramTakes) {
+    ColorPlanes even{4, 1, {}, {}}, odd{3, 1, {}, {}};
+    for (std::vector<float>& plane : even.rgb) plane = {8, 1, 3, 2};
+    for (std::vector<float>& plane : odd.rgb) plane = {8, 1, 2};
+    const auto stops = [](const ColorPlanes& picture) {
+        const ExposureRange range = exposures_of(picture, picture);
+        return range.stop - range.start;
+    };
+    EXPECT_NEAR(stops(even), std::log2(8 / 2.5), 1e-6);
+    EXPECT_NEAR(stops(odd), std::log2(8 / 1.5), 1e-6);  // sorted luminances n / 2 - 1 and n / 2, also of an odd number
+}
+
 TEST(Flip, DoesNotSeeAFinePatternFromAfar) {
     ColorPlanes a = uniform(.4f, .4f, .4f), b = a;
     for (std::size_t c = 0; c < 3; ++c)
@@ -99,7 +135,7 @@ TEST(Flip, ABlackReferenceIsJudgedByTheExposuresOfTheTest) {
 
 TEST(Flip, AMostlyBlackReferenceHasFiniteExposures) {
     ColorPlanes picture = uniform(0, 0, 0);
-    for (std::vector<float>& plane : picture.rgb) plane[7] = 8, plane[8] = 1;
+    for (std::vector<float>& plane : picture.rgb) plane[7] = 8, plane[8] = 1, plane[9] = 1;
     const ExposureRange range = exposures_of(picture, picture);
     EXPECT_NEAR(range.stop - range.start, 3, 1e-5);
 }

@@ -173,16 +173,26 @@ std::vector<double> map_of(const Picture& reference, const Picture& test, double
 }
 
 /// Narkowicz's fit of the ACES curve, without its pre-exposure of 0.6.
-double tone_mapped(double x) {
+double aces(double x) {
     x *= .6;
-    return std::clamp(x * (2.51 * x + .03) / (x * (2.43 * x + .59) + .14), 0., 1.);
+    return x * (2.51 * x + .03) / (x * (2.43 * x + .59) + .14);
 }
 
-Picture picture_of(const ColorPlanes& planes, const std::function<double(double)>& shown) {
+/// Hable 2010, John Hable's constants A = .15 ... W = 11.2 multiplied out (FLIP's own table of coefficients).
+double hable(double x) { return (.231683 * x * x + .013791 * x) / (.18 * x * x + .3 * x + .018); }
+
+glm::dvec3 tone_mapped(glm::dvec3 light, const std::string& mapper) {
+    light = glm::max(light, glm::dvec3(0));
+    if (mapper == "reinhard") light /= 1 + glm::dot(light, glm::dvec3(.2126, .7152, .0722));
+    if (mapper == "aces") light = {aces(light.x), aces(light.y), aces(light.z)};
+    if (mapper == "hable") light = {hable(light.x), hable(light.y), hable(light.z)};
+    return glm::clamp(light, 0., 1.);
+}
+
+Picture picture_of(const ColorPlanes& planes, const std::function<glm::dvec3(glm::dvec3)>& shown) {
     Picture picture{static_cast<int>(planes.width), static_cast<int>(planes.height), {}};
     for (std::size_t i = 0; i < planes.rgb[0].size(); ++i)
-        picture.pixels.emplace_back(shown(double(planes.rgb[0][i])), shown(double(planes.rgb[1][i])),
-                                    shown(double(planes.rgb[2][i])));
+        picture.pixels.push_back(shown({double(planes.rgb[0][i]), double(planes.rgb[1][i]), double(planes.rgb[2][i])}));
     return picture;
 }
 
@@ -196,17 +206,18 @@ PlainFlip pooled(std::vector<double> map) {
 }  // namespace
 
 PlainFlip plain_display_flip(const ColorPlanes& reference, const ColorPlanes& test, double pixels_per_degree) {
-    const auto shown = [](double v) { return std::clamp(v, 0., 1.); };
+    const auto shown = [](glm::dvec3 light) { return glm::clamp(light, 0., 1.); };
     return pooled(map_of(picture_of(reference, shown), picture_of(test, shown), pixels_per_degree));
 }
 
 PlainFlip plain_radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, const ExposureRange& range,
-                              double pixels_per_degree) {
+                              const std::string& tone_mapper) {
     std::vector<double> worst(reference.rgb[0].size());
     for (std::uint32_t i = 0; i < range.count; ++i) {
         const double exposure = std::exp2(range.start + (range.stop - range.start) * i / std::max(1u, range.count - 1));
-        const auto shown = [=](double v) { return tone_mapped(std::max(0., v) * exposure); };
-        const std::vector<double> map = map_of(picture_of(reference, shown), picture_of(test, shown), pixels_per_degree);
+        const auto shown = [&](glm::dvec3 light) { return tone_mapped(light * exposure, tone_mapper); };
+        const std::vector<double> map =
+            map_of(picture_of(reference, shown), picture_of(test, shown), pixels_per_degree_of_a_desk);
         for (std::size_t p = 0; p < map.size(); ++p) worst[p] = std::max(worst[p], map[p]);
     }
     return pooled(std::move(worst));

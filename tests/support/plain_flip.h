@@ -15,6 +15,6 @@ PlainFlip plain_display_flip(const ColorPlanes& reference, const ColorPlanes& te
                              double pixels_per_degree = pixels_per_degree_of_a_desk);
 /// Over the given exposures.
 PlainFlip plain_radiance_flip(const ColorPlanes& reference, const ColorPlanes& test, const ExposureRange&,
-                              double pixels_per_degree = pixels_per_degree_of_a_desk);
+                              const std::string& tone_mapper = "aces");
 
 }  // namespace strata

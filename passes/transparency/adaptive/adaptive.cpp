@@ -26,6 +26,7 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
         read_lists(graph.compute("transparency/adaptive/compress.comp"), lists, band)
             .updates("Curves", curves)
             .fixes("curve_nodes", nodes)
+            .fixes("per_turn", fragments_per_turn(lists))
             .over(over(band));
     }
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});

@@ -18,20 +18,20 @@ layout(set = 0, binding = 7, scalar) buffer Counters { FunctionCounters counters
 
 const float far_away = 3.402823466e38;
 
-CurveNode nodes[most_curve_nodes + 1u];
+CurveNode nodes[most_curve_nodes + 1u];  // indexed by constants alone: registers, and loops that are unrolled
 uint used = 0u;
 
 float grey(vec3 t) { return dot(t, vec3(1.0 / 3.0)); }
 
 // A fragment hides everything behind it, whatever was there before.
 void insert(float z, vec3 t) {
-    uint at = used;
-    while (at > 0u) {
-        if (nodes[at - 1u].z < z) break;
-        nodes[at] = CurveNode(nodes[at - 1u].z, nodes[at - 1u].t * t);
-        --at;
+    uint place = 0u;
+    [[unroll]] for (uint i = 0u; i < curve_nodes; ++i) place += i < used && nodes[i].z < z ? 1u : 0u;
+    [[unroll]] for (uint k = 0u; k < curve_nodes; ++k) {
+        const uint i = curve_nodes - k;
+        if (i >= place) nodes[i] = CurveNode(i == place ? z : nodes[i - 1u].z, nodes[i - 1u].t * t);
     }
-    nodes[at] = CurveNode(z, (at > 0u ? nodes[at - 1u].t : vec3(1.0)) * t);
+    if (place == 0u) nodes[0] = CurveNode(z, t);
     ++used;
 }
 
@@ -40,16 +40,23 @@ void insert(float z, vec3 t) {
 void remove_least() {
     uint least = 1u;
     float least_area = far_away;
-    for (uint i = 1u; i + 1u < used; ++i) {
+    [[unroll]] for (uint i = 1u; i < curve_nodes; ++i) {
         const float area = (nodes[i].z - nodes[i - 1u].z) * (grey(nodes[i - 1u].t) - grey(nodes[i].t));
         if (area < least_area) {
             least = i;
             least_area = area;
         }
     }
-    nodes[least - 1u].t = nodes[least].t;
+    [[unroll]] for (uint i = 0u; i < curve_nodes; ++i) {
+        if (i + 1u == least) nodes[i].t = nodes[i + 1u].t;
+        if (i >= least) nodes[i] = nodes[i + 1u];
+    }
     --used;
-    for (uint i = least; i < used; ++i) nodes[i] = nodes[i + 1u];
+}
+
+void add(ListKey key) {
+    insert(key.z, events[key.event].t);
+    if (used > curve_nodes) remove_least();
 }
 
 void main() {
@@ -57,11 +64,9 @@ void main() {
     if (at.x >= band.width || at.y >= band.rows) return;
     const uvec2 pixel = uvec2(at.x, at.y + band.first_row);
     const uint cell = cell_of(pixel, at.z), start = list_start(cell), count = stored(start, counts[cell]);
-    for (uint i = 0u; i < count; ++i) {
-        const ListKey key = keys[start + i];
-        insert(key.z, events[key.event].t);
-        if (used > curve_nodes) remove_least();
-    }
+    for (uint i = 0u; i < count; i += per_turn)
+        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+            if (i + k < count) add(keys[start + i + k]);
     if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
     const uint first = ((pixel.y * band.width + pixel.x) * band.samples + at.z) * curve_nodes;
     for (uint i = 0u; i < curve_nodes; ++i) curves[first + i] = i < used ? nodes[i] : CurveNode(far_away, vec3(0.0));

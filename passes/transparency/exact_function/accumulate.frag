@@ -8,19 +8,19 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/finished.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
 
+// Of the events strictly nearer than z: products.comp left the product of all up to each.
 vec3 transmittance(uint start, uint count, float z) {
-    vec3 through = vec3(1.0);
-    for (uint i = 0u; i < count; ++i) {
-        const ListKey key = keys[start + i];
-        if (key.z >= z) break;
-        through *= events[key.event].t;
+    uint low = 0u, high = count;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (keys[start + middle].z < z) low = middle + 1u;
+        else high = middle;
     }
-    return through;
+    return low > 0u ? events[keys[start + low - 1u].event].t : vec3(1.0);
 }
 
 void main() {
@@ -29,7 +29,5 @@ void main() {
     if (!event.visible || !in_band(pixel.y)) discard;
     const uint cell = cell_of(pixel, gl_SampleID), start = list_start(cell);
     atomicAdd(counters.drawn, 1u);
-    const vec3 through = transmittance(start, stored(start, counts[cell]), event.z);
-    if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
-    write_event(event, through);
+    write_event(event, transmittance(start, stored(start, counts[cell]), event.z));
 }

@@ -18,6 +18,15 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
+        graph.compute("transparency/exact_function/products.comp")
+            .loads("Counts", lists.counts)
+            .loads("Starts", lists.starts)
+            .loads("GroupStarts", lists.group_starts)
+            .loads("Keys", lists.keys)
+            .updates("Events", lists.events)
+            .fixes("per_turn", fragments_per_turn(lists))
+            .push(band)
+            .over(over(band));
         draw_into(graph, "transparency/exact_function/accumulate", images, drawn,
                   [&](DrawPass& draw, Resolution) { read_lists(draw, lists, band); });
     }
@@ -33,8 +42,9 @@ Technique exact_function() {
         .title = "Exact transmittance function",
         .source = "Salvi, Montgomery and Lefohn 2011, HPG, section 3: the step function that the others compress",
         .summary =
-            "Every fragment looks its exact T(z) up in sorted lists and is added: shows what the shared draw and resolve cost in "
-            "accuracy; slow in deep pixels, and fragments of equal depth do not hide each other.",
+            "Finds the exact T(z) of each fragment in sorted lists and adds the fragment: shows what the shared draw and resolve "
+            "cost in "
+            "accuracy; fragments of equal depth do not hide each other.",
         .params = {param<&ExactFunctionParams::pool>(pool_row), param<&ExactFunctionParams::accumulation>(accumulation_row)},
         .points = {"accumulation=packed", "accumulation=single"},
         .counters = function_counters_with_lists(),

@@ -1,10 +1,11 @@
 #include "passes/transparency/lists/event_lists.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
-#include "passes/scene/fragments_by_row.h"
+#include "passes/scene/fragment_bounds.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/layers_beyond.h"
@@ -17,10 +18,10 @@ std::uint32_t groups(const Band& band) { return (cells(band) + cells_per_group -
 
 std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
     const double limit = double(pool_millions) * 1e6 / images.samples;
-    const std::vector<std::uint64_t>& most_fragments_by_row = images.facts->most_fragments_by_row(images.extent);
+    const std::vector<std::uint64_t>& fragments_by_row = images.facts->fragment_bounds(images.extent).by_row;
     std::vector<Band> bands;
     std::uint64_t pool = 1;
-    for (const RowBand& rows : row_bands(most_fragments_by_row, static_cast<std::uint64_t>(limit))) {
+    for (const RowBand& rows : row_bands(fragments_by_row, static_cast<std::uint64_t>(limit))) {
         pool = std::max(pool, rows.bound * images.samples);
         bands.push_back({rows.first_row, rows.rows, images.extent.width, images.samples, 0});
     }
@@ -56,16 +57,50 @@ void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band
         .push(band);
 }
 
+bool has_long_lists(const EventLists& lists) { return lists.layers > chunk_keys; }
+
+/// A list of more than chunk_keys keys fills its chunks by more than a half.
+std::uint64_t bytes_of_chunks(std::uint64_t keys) { return sizeof(ListChunks) + (2 * keys / chunk_keys + 1) * sizeof(ListChunk); }
+
+void merge_runs(Graph& graph, EventLists& lists, Buffer& from, Buffer& to, std::uint32_t run, std::uint32_t order) {
+    graph.compute("transparency/lists/merge_chunks.comp")
+        .loads("Chunks", lists.chunks)
+        .loads("From", from)
+        .updates("To", to)
+        .fixes("list_order", order)
+        .push(run)
+        .indirect(lists.chunks);
+}
+
+/// Sorts what sort.comp left. Runs are merged in pairs of steps, so that the keys end where they began.
+void sort_long_lists(Graph& graph, EventLists& lists, std::uint32_t order) {
+    graph.compute("transparency/lists/sort_chunks.comp")
+        .loads("Chunks", lists.chunks)
+        .updates("Keys", lists.keys)
+        .fixes("list_order", order)
+        .indirect(lists.chunks);
+    for (std::uint32_t run = chunk_keys; run < lists.layers; run *= 4) {
+        merge_runs(graph, lists, lists.keys, lists.merged_keys, run, order);
+        merge_runs(graph, lists, lists.merged_keys, lists.keys, 2 * run, order);
+    }
+}
+
 }  // namespace
 
+void create_keys(Graph& graph, EventLists& lists, std::uint32_t keys) {
+    lists.keys = graph.create("list keys", std::uint64_t{keys} * sizeof(ListKey));
+    lists.chunks = graph.create("list chunks", bytes_of_chunks(has_long_lists(lists) ? keys : 0));
+    if (has_long_lists(lists)) lists.merged_keys = graph.create("list keys merged", std::uint64_t{keys} * sizeof(ListKey));
+}
+
 EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
-    EventLists lists{.bands = bands_within(images, pool)};
+    EventLists lists{.bands = bands_within(images, pool), .layers = images.facts->fragment_bounds(images.extent).layers};
     const Band& largest = *std::ranges::max_element(lists.bands, {}, &Band::rows);
     const std::uint64_t words = std::uint64_t{cells(largest)} * sizeof(std::uint32_t);
     lists.counts = graph.create("list counts", words);
     lists.starts = graph.create("list starts", words);
     lists.group_starts = graph.create("list group starts", groups(largest) * sizeof(std::uint32_t));
-    lists.keys = graph.create("list keys", std::uint64_t{largest.pool} * sizeof(ListKey));
+    create_keys(graph, lists, largest.pool);
     lists.events = graph.create("list events", std::uint64_t{largest.pool} * sizeof(ListEvent));
     const bool distorts = images.features->has(Feature::distortion);
     lists.offsets = graph.create("list offsets", std::uint64_t{distorts ? largest.pool : 1} * 2 * sizeof(float));
@@ -75,14 +110,27 @@ EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
 void make_lists(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band, std::uint32_t order) {
     count_and_scan(graph, images, lists, band);
     fill(graph, images, lists, band);
+    sort_lists(graph, lists, band, order);
+}
+
+void sort_lists(Graph& graph, EventLists& lists, const Band& band, std::uint32_t order) {
+    if (has_long_lists(lists)) graph.clear(lists.chunks, 0);
     graph.compute("transparency/lists/sort.comp")
         .loads("Counts", lists.counts)
         .loads("Starts", lists.starts)
         .loads("GroupStarts", lists.group_starts)
         .updates("Keys", lists.keys)
+        .updates("Chunks", lists.chunks)
         .fixes("list_order", order)
+        .fixes("sorts_chunks", has_long_lists(lists) ? 1u : 0u)
         .push(band)
         .over(over(band));
+    if (has_long_lists(lists)) sort_long_lists(graph, lists, order);
+}
+
+std::uint32_t fragments_per_turn(const EventLists& lists) {
+    constexpr std::uint64_t most_turns = 32768;
+    return static_cast<std::uint32_t>(std::bit_ceil((lists.layers + most_turns - 1) / most_turns));
 }
 
 std::vector<Counter> list_counters() {

@@ -16,7 +16,7 @@ uint cell_of(uvec2 pixel, uint sample_index) {
 uint list_start(uint cell) { return group_starts[cell / cells_per_group] + starts[cell]; }
 
 // Of `count` fragments, those that have a node. All of them: the pool holds what the band can have
-// (passes/scene/fragments_by_row.h), and the counter `dropped` proves it.
+// (passes/scene/fragment_bounds.h), and the counter `dropped` proves it.
 uint stored(uint start, uint count) { return min(count, band.pool - min(start, band.pool)); }
 
 #endif

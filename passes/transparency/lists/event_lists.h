@@ -1,5 +1,6 @@
 // Every transparent fragment of a frame in a list per sample, on the device: counted, then stored, then sorted. Done in bands of
-// rows whose fragments fit the memory whatever the device covers, so that none is ever dropped.
+// rows whose fragments fit the memory whatever the device covers, so that none is ever dropped. llvmpipe ends the loops of an
+// invocation after 65,535 turns: long lists are sorted in chunks, and loops over a list take several fragments per turn.
 #pragma once
 
 #include <span>
@@ -13,14 +14,24 @@ namespace strata::transparency {
 struct EventLists {
     std::vector<Band> bands;  ///< at least one
     Buffer counts, starts, group_starts, keys, events;
-    Buffer offsets;  ///< d of every event, in a frame with materials that distort; else of none
+    Buffer chunks, merged_keys;  ///< for lists of more than chunk_keys keys
+    std::uint64_t layers = 0;    ///< fragments that one list can have
+    Buffer offsets;              ///< d of every event, in a frame with materials that distort; else of none
 };
 
-/// Memory for the largest band. pool: million fragments kept at a time (52 bytes each).
+/// Memory for the largest band. pool: million fragments kept at a time.
 EventLists create_lists(Graph&, const FrameImages&, float pool);
 
 /// Declares what makes the lists of a band, sorted by `order` (event_lists.shared.h). Counts into ListCounters.
 void make_lists(Graph&, const FrameImages&, EventLists&, const Band&, std::uint32_t order);
+
+/// The parts of create_lists and make_lists that are about keys; lists.layers says how long a list can be.
+void create_keys(Graph&, EventLists&, std::uint32_t keys);
+void sort_lists(Graph&, EventLists&, const Band&, std::uint32_t order);
+
+/// Fragments that a loop over a list has to take per turn (a power of two), so that no list of the frame needs more than 32,768
+/// turns: a shader's specialization constant. 1 for all but very deep frames.
+std::uint32_t fragments_per_turn(const EventLists&);
 
 /// Binds what passes/transparency/lists/event_lists.glsl and events.glsl declare, and pushes the band.
 template <typename Pass>
@@ -42,7 +53,9 @@ inline constexpr Param pool_row = {
     .low = 0.01,
     .high = 64,
     .fallback = 2,
-    .help = "million fragments kept at a time (52 bytes each); a frame that can have more is done in bands of rows",
+    .help =
+        "million fragments kept at a time (52 bytes each, 68 where a list can have more than 512); a frame that can have more "
+        "is done in bands of rows",
     .scale = Scale::logarithmic};
 
 /// The row of a count of atomic operations; a technique without one has none but those that count.

@@ -23,6 +23,22 @@ struct ListKey {
     uint event;  // index into events
 };
 
+// A list of more keys is sorted in chunks of so many, which are merged then: a driver may end loops that turn too often.
+const uint chunk_keys = 512u;
+
+// The head of the list of chunks: arguments of an indirect dispatch, one workgroup per chunk up to the limit of a dispatch.
+struct ListChunks {
+    uvec3 groups;
+    uint count;
+};
+const uint most_chunk_groups = 65535u;  // maxComputeWorkGroupCount that every device has
+
+struct ListChunk {
+    uint list;   // first key
+    uint keys;   // of the list
+    uint place;  // of the chunk within its list
+};
+
 struct ListEvent {
     vec3 p;
     vec3 t;

@@ -3,6 +3,10 @@
 // that comes after it, which then takes one turn instead of two.
 #ifndef PASSES_TRANSPARENCY_LISTS_FINISHED_GLSL
 #define PASSES_TRANSPARENCY_LISTS_FINISHED_GLSL
+#extension GL_EXT_control_flow_attributes : require
+
+// Fragments that a loop over a list takes per turn: the inner loop is unrolled, which is what saves turns.
+layout(constant_id = 20) const uint per_turn = 1u;
 
 // `one`: a number of at least 1 that no compiler knows, or it would unroll the loop.
 bool finished(uint one) {

@@ -1,11 +1,11 @@
-// Sorts every list of the band in place, one thread per cell: z ascending, then later submission first; or by submission.
+// Sorts every list of the band in place, one thread per cell; lists of more than chunk_keys keys are left to sort_chunks.comp.
 // A shell sort with gaps shrinking by 5/11 (Gonnet and Baeza-Yates 1991); short lists are insertion sorted by its last round.
 // Not a bubble sort: lavapipe 22.3 miscompiles that, silently, from 8 elements on with run-time bounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#include "passes/transparency/lists/event_lists.shared.h"
+#include "passes/transparency/lists/order.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/event_lists.glsl"
@@ -13,18 +13,10 @@ layout(push_constant, scalar) uniform Push { Band band; };
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
-layout(constant_id = 0) const uint list_order = list_order_depth;
+layout(constant_id = 1) const uint sorts_chunks = 0u;  // 1: lists can have more than chunk_keys
 layout(set = 0, binding = 4, scalar) buffer Keys { ListKey keys[]; };
+layout(set = 0, binding = 5, scalar) buffer Chunks { ListChunks chunks; ListChunk chunk[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
-
-bool submitted_later(ListKey a, ListKey b) {
-    return a.draw != b.draw ? a.draw > b.draw : a.primitive > b.primitive;
-}
-
-bool comes_first(ListKey a, ListKey b) {
-    if (list_order == list_order_submission) return submitted_later(b, a);
-    return a.z != b.z ? a.z < b.z : submitted_later(a, b);
-}
 
 // Insertion sort of every gap-th key.
 void sort_gapped(uint first, uint count, uint gap) {
@@ -51,13 +43,22 @@ void sort_list(uint first, uint count) {
     sort_gapped(first, count, 1u);
 }
 
+void append_chunks(uint first, uint count) {
+    const uint number = (count + chunk_keys - 1u) / chunk_keys;
+    const uint begin = atomicAdd(chunks.count, number);
+    for (uint i = 0u; i < number; ++i) chunk[begin + i] = ListChunk(first, count, i);
+    atomicMax(chunks.groups.x, min(begin + number, most_chunk_groups));
+    atomicMax(chunks.groups.y, 1u);
+    atomicMax(chunks.groups.z, 1u);
+}
+
 void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const uint cell = cell_of(uvec2(at.x, at.y + band.first_row), at.z);
     const uint start = list_start(cell), count = stored(start, counts[cell]);
-    sort_list(start, count);
-
+    if (sorts_chunks != 0u && count > chunk_keys) append_chunks(start, count);
+    else sort_list(start, count);
     if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);
 
     const uint together = subgroupAdd(count), longest = subgroupMax(count);

@@ -92,6 +92,7 @@ void quantize(Graph& graph, const FrameImages& low, const MomentsParams& params,
             .stores("head", moments.head)
             .stores("tail", others)
             .fixes("kind", params.kind)
+            .fixes("per_turn", push.channels * fragments_per_turn(lists))
             .push(BandAndMoments{band, push})
             .over(over(band));
     }

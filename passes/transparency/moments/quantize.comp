@@ -25,23 +25,26 @@ void round_to_16_bits(inout float moments[8]) {
     for (uint i = 0u; i < 8u; ++i) moments[i] = round(clamp(moments[i], 0.0, 1.0) * 65535.0) / 65535.0;
 }
 
+void add(ListKey key, uint channel, inout float sum, inout float kept[8]) {
+    const float tau = moment_depth(events[key.event].t, channel);
+    if (tau <= 0.0) return;
+    float moments[8], before[8] = kept;
+    fill_moments(warped(key.z), moments);
+    dequantize(before);
+    const float share = tau / (sum + tau);
+    for (uint m = 0u; m < 8u; ++m) kept[m] = sum > 0.0 ? mix(before[m], moments[m], share) : moments[m];
+    quantize(kept);
+    round_to_16_bits(kept);
+    sum += tau;
+}
+
 // The texel's sum of optical depths; its stored moments in `kept`.
 float build(uint start, uint count, uint channel, out float kept[8]) {
     float sum = 0.0;
     for (uint i = 0u; i < 8u; ++i) kept[i] = 0.0;
-    for (uint i = 0u; i < count; ++i) {
-        const ListKey key = keys[start + i];
-        const float tau = moment_depth(events[key.event].t, channel);
-        if (tau <= 0.0) continue;
-        float moments[8], before[8] = kept;
-        fill_moments(warped(key.z), moments);
-        dequantize(before);
-        const float share = tau / (sum + tau);
-        for (uint m = 0u; m < 8u; ++m) kept[m] = sum > 0.0 ? mix(before[m], moments[m], share) : moments[m];
-        quantize(kept);
-        round_to_16_bits(kept);
-        sum += tau;
-    }
+    for (uint i = 0u; i < count; i += per_turn)
+        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+            if (i + k < count) add(keys[start + i + k], channel, sum, kept);
     return sum;
 }
 

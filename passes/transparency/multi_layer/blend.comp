@@ -1,5 +1,5 @@
 // Inserts a sample's fragments into its nodes in the order of submission, as an ordered interlock would, and composites the nodes
-// (Salvi and Vaidyanathan 2014). Buckets are done one after the other, near to far, with the same nodes.
+// (Salvi and Vaidyanathan 2014): those of one bucket of depth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -8,6 +8,7 @@
 layout(push_constant, scalar) uniform Push {
     Band band;
     float log_nearest, buckets_per_log;
+    uint bucket;
 };
 #include "passes/transparency/lists/events.glsl"
 #include "passes/transparency/lists/finished.glsl"
@@ -23,20 +24,19 @@ struct Node {
     vec3 rgb;
     vec3 t;
 };
-Node nodes[most_layers + 1u];
-uint used, merged = 0u;
+Node nodes[most_layers + 1u];  // indexed by constants alone: registers, and loops that are unrolled
+uint used = 0u, merged = 0u;
 
 uint bucket_of(float z) { return uint(clamp((log(z) - log_nearest) * buckets_per_log, 0.0, float(buckets - 1u))); }
 
 // Before what is not nearer: of equal depths the later submission is in front.
 void insert(Node node) {
-    uint at = used;
-    while (at > 0u) {
-        if (nodes[at - 1u].z < node.z) break;
-        nodes[at] = nodes[at - 1u];
-        --at;
-    }
-    nodes[at] = node;
+    uint place = 0u;
+    [[unroll]] for (uint i = 0u; i < layers; ++i) place += i < used && nodes[i].z < node.z ? 1u : 0u;
+    [[unroll]] for (uint k = 0u; k < layers; ++k)
+        if (layers - k > place) nodes[layers - k] = nodes[layers - k - 1u];
+    [[unroll]] for (uint i = 0u; i < layers + 1u; ++i)
+        if (i == place) nodes[i] = node;
     ++used;
 }
 
@@ -48,15 +48,11 @@ void merge_last_two() {
     ++merged;
 }
 
-void fill_nodes(uint start, uint count, uint bucket) {
-    used = 0u;
-    for (uint i = 0u; i < count; ++i) {
-        const ListKey key = keys[start + i];
-        if (buckets > 1u && bucket_of(key.z) != bucket) continue;
-        const ListEvent event = events[key.event];
-        insert(Node(key.z, event.p + event.e, event.t));
-        if (used > layers) merge_last_two();
-    }
+void add(ListKey key) {
+    if (buckets > 1u && bucket_of(key.z) != bucket) return;
+    const ListEvent event = events[key.event];
+    insert(Node(key.z, event.p + event.e, event.t));
+    if (used > layers) merge_last_two();
 }
 
 void main() {
@@ -67,9 +63,11 @@ void main() {
     if (count == 0u) return;
 
     vec3 sum = vec3(0.0), through = vec3(1.0);
-    for (uint bucket = 0u; bucket < buckets; ++bucket) {
-        fill_nodes(start, count, bucket);
-        for (uint i = 0u; i < used; ++i) {
+    for (uint i = 0u; i < count; i += per_turn)
+        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+            if (i + k < count) add(keys[start + i + k]);
+    [[unroll]] for (uint i = 0u; i < layers; ++i) {
+        if (i < used) {
             sum += through * nodes[i].rgb;
             through *= nodes[i].t;
         }

@@ -22,12 +22,14 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
     EventLists lists = create_lists(graph, images, params.pool);
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_submission);
-        read_lists(graph.compute("transparency/multi_layer/blend.comp"), lists, band)
-            .updates("color", images.color)
-            .fixes("layers", params.layers)
-            .fixes("buckets", params.buckets)
-            .push(MultiLayerPush{band, std::log(range.nearest), per_log})
-            .over(over(band));
+        for (std::uint32_t bucket = params.buckets; bucket-- > 0;)  // far to near: each over what is behind it
+            read_lists(graph.compute("transparency/multi_layer/blend.comp"), lists, band)
+                .updates("color", images.color)
+                .fixes("layers", params.layers)
+                .fixes("buckets", params.buckets)
+                .fixes("per_turn", fragments_per_turn(lists))
+                .push(MultiLayerPush{band, std::log(range.nearest), per_log, bucket})
+                .over(over(band));
     }
 }
 

@@ -17,6 +17,7 @@ struct MultiLayerPush {
     Band band;
     float log_nearest;      // where the first bucket begins, in ln metres
     float buckets_per_log;  // buckets are equal in ln z
+    uint bucket;            // the one that is blended
 };
 
 const uint most_layers = 16u;

@@ -18,6 +18,15 @@ layout(set = 0, binding = 6, scalar) readonly buffer Offsets { vec2 offsets[]; }
 layout(set = 0, binding = 7) uniform sampler2DArray behind;
 layout(set = 0, binding = 8, scalar) buffer Counters { ListCounters counters; };
 
+vec3 sum = vec3(0.0), through = vec3(1.0);
+vec2 offset = vec2(0.0);
+
+void add_behind(uint node) {
+    sum += through * (events[node].p + events[node].e);
+    if (distorts != 0u) offset += luminance(through) * offsets[node];
+    through *= events[node].t;
+}
+
 void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
@@ -25,14 +34,9 @@ void main() {
     const uint cell = cell_of(texel.xy, at.z);
     const uint start = list_start(cell), count = stored(start, counts[cell]);
     if (count == 0u) return;
-    vec3 sum = vec3(0.0), through = vec3(1.0);
-    vec2 offset = vec2(0.0);
-    for (uint i = 0u; i < count; ++i) {
-        const uint node = keys[start + i].event;
-        sum += through * (events[node].p + events[node].e);
-        if (distorts != 0u) offset += luminance(through) * offsets[node];
-        through *= events[node].t;
-    }
+    for (uint i = 0u; i < count; i += per_turn)
+        [[unroll]] for (uint k = 0u; k < per_turn; ++k)
+            if (i + k < count) add_behind(keys[start + i + k].event);
     if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);
     const vec4 here = imageLoad(color, texel);
     const vec3 seen = distorts != 0u ? seen_behind(behind, texel, offset) : here.rgb;

@@ -20,6 +20,7 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
             .loads("Offsets", lists.offsets)
             .samples("behind", behind)
             .fixes("distorts", behind ? 1u : 0u)
+            .fixes("per_turn", fragments_per_turn(lists))
             .over(over(band));
     }
 }

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "captures/cards.h"
-#include "passes/scene/fragments_by_row.h"
+#include "passes/scene/fragment_bounds.h"
 #include "passes/transparency/truth.h"
 #include "tests/support/layers.h"
 
@@ -119,13 +119,13 @@ TEST(SortedTruth, BlendsCardsInTheirOrderOfDepthPerSample) {
 TEST(RowBounds, CountEveryPixelOfAFullScreenQuadOnce) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, 5}, .size = 20}}});
-    EXPECT_THAT(most_fragments_by_row(frame, draw_lists(frame), {8, 8, 1}), testing::Each(8u));
+    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}).by_row, testing::Each(8u));
 }
 
 TEST(RowBounds, CountNothingBehindTheEye) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, -5}, .size = 20}}});
-    EXPECT_THAT(most_fragments_by_row(frame, draw_lists(frame), {8, 8, 1}), testing::Each(0u));
+    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}).by_row, testing::Each(0u));
 }
 
 TEST(RowBounds, AreNeverBelowWhatIsCovered) {
@@ -142,14 +142,20 @@ TEST(RowBounds, AreNeverBelowWhatIsCovered) {
         {.name = "smoke",
          .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
     const FragmentLists lists = transparent_fragments(frame, ReferenceImage(32, 32));
-    const std::vector<std::uint64_t> bounds = most_fragments_by_row(frame, draw_lists(frame), {32, 32, 1});
+    const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {32, 32, 1});
     std::uint64_t bound = 0;
+    std::size_t deepest = 0;
     for (std::uint32_t y = 0; y < 32; ++y) {
         std::uint64_t covered = 0;
-        for (std::uint32_t x = 0; x < 32; ++x) covered += lists.at(x, y).size();
-        EXPECT_LE(covered, bounds[y]) << "row " << y;
-        bound += bounds[y];
+        for (std::uint32_t x = 0; x < 32; ++x) {
+            covered += lists.at(x, y).size();
+            deepest = std::max(deepest, lists.at(x, y).size());
+        }
+        EXPECT_LE(covered, bounds.by_row[y]) << "row " << y;
+        bound += bounds.by_row[y];
     }
+    EXPECT_LE(deepest, bounds.layers);
+    EXPECT_LT(bounds.layers, 3 * deepest) << "rectangles around tilted cards and quads";
     EXPECT_GT(lists.total(), 1000u);
     EXPECT_LT(bound, 2 * lists.total()) << "a bound twice too high wastes memory";
 }

@@ -1,4 +1,4 @@
-#include "passes/scene/fragments_by_row.h"
+#include "passes/scene/fragment_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,48 @@ namespace {
 // Vertices are transformed in float (1e-6 of a coordinate) and snapped to 1/256 pixel; both stay far below this, in pixels.
 constexpr double edge_margin = .25;
 
-/// Projects to pixels and adds what polygons touch to the rows.
-class RowSum {
+/// First and last pixel of a range in one direction that a polygon from `low` to `high` can touch; none where last < first.
+struct PixelRange {
+    PixelRange(double low, double high, std::uint32_t size)
+        : first(static_cast<std::int64_t>(std::floor(std::clamp(low - edge_margin, 0., double(size))))),
+          last(static_cast<std::int64_t>(std::floor(std::clamp(high + edge_margin, -1., size - 1.)))) {}
+    std::int64_t first, last;
+    std::uint64_t count() const { return last < first ? 0 : static_cast<std::uint64_t>(last - first) + 1; }
+};
+
+/// Rectangles over pixels, counted by their corners: a prefix sum in both directions makes them counts per pixel.
+class Overlaps {
 public:
-    RowSum(const View& view, Extent extent) : view_(view), extent_(extent), rows_(extent.height, 0) {}
+    explicit Overlaps(Extent extent) : width_(extent.width + 1), corners_(std::size_t{width_} * (extent.height + 1), 0) {}
+
+    void add(const PixelRange& x, const PixelRange& y) {
+        if (x.count() == 0 || y.count() == 0) return;
+        corner(x.first, y.first) += 1;
+        corner(x.last + 1, y.first) -= 1;
+        corner(x.first, y.last + 1) -= 1;
+        corner(x.last + 1, y.last + 1) += 1;
+    }
+
+    std::uint64_t most() {
+        for (std::size_t i = 1; i < corners_.size(); ++i)
+            if (i % width_ != 0) corners_[i] += corners_[i - 1];
+        for (std::size_t i = width_; i < corners_.size(); ++i) corners_[i] += corners_[i - width_];
+        return static_cast<std::uint64_t>(std::ranges::max(corners_));
+    }
+
+private:
+    std::int64_t& corner(std::int64_t x, std::int64_t y) {
+        return corners_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+    }
+
+    std::size_t width_;
+    std::vector<std::int64_t> corners_;
+};
+
+/// Projects to pixels and adds what polygons touch to the rows.
+class TouchedPixels {
+public:
+    TouchedPixels(const View& view, Extent extent) : view_(view), extent_(extent), rows_(extent.height, 0), overlaps_(extent) {}
 
     /// A convex polygon in view space.
     void add(std::span<const glm::dvec3> corners) {
@@ -24,7 +62,7 @@ public:
         if (!pixels_.empty()) add_pixels();
     }
 
-    std::vector<std::uint64_t> take() { return std::move(rows_); }
+    FragmentBounds take() { return {std::move(rows_), overlaps_.most()}; }
 
 private:
     /// The part of an edge in front of the near plane: its begin, and where it crosses the plane.
@@ -41,11 +79,11 @@ private:
     }
 
     void add_pixels() {
-        double low = pixels_[0].y, high = low;
-        for (const glm::dvec2& p : pixels_) low = std::min(low, p.y), high = std::max(high, p.y);
-        const auto first = static_cast<std::int64_t>(std::floor(std::clamp(low - edge_margin, 0., double(extent_.height))));
-        const auto last = static_cast<std::int64_t>(std::floor(std::clamp(high + edge_margin, -1., extent_.height - 1.)));
-        for (std::int64_t y = first; y <= last; ++y)
+        glm::dvec2 low = pixels_[0], high = low;
+        for (const glm::dvec2& p : pixels_) low = glm::min(low, p), high = glm::max(high, p);
+        const PixelRange columns(low.x, high.x, extent_.width), rows(low.y, high.y, extent_.height);
+        overlaps_.add(columns, rows);
+        for (std::int64_t y = rows.first; y <= rows.last; ++y)
             rows_[static_cast<std::size_t>(y)] += touched(double(y) - edge_margin, double(y) + 1 + edge_margin);
     }
 
@@ -62,18 +100,17 @@ private:
             }
         }
         if (low > high) return 0;
-        const double first = std::floor(std::clamp(low - edge_margin, 0., double(extent_.width)));
-        const double last = std::floor(std::clamp(high + edge_margin, -1., extent_.width - 1.));
-        return last < first ? 0 : static_cast<std::uint64_t>(last - first) + 1;
+        return PixelRange(low, high, extent_.width).count();
     }
 
     const View& view_;
     Extent extent_;
     std::vector<std::uint64_t> rows_;
+    Overlaps overlaps_;
     std::vector<glm::dvec2> pixels_;
 };
 
-void add_draw(const Frame& frame, const Draw& draw, RowSum& sum) {
+void add_draw(const Frame& frame, const Draw& draw, TouchedPixels& sum) {
     const Mesh& mesh = frame.meshes[draw.mesh];
     std::vector<glm::dvec3> positions;
     positions.reserve(mesh.positions.size());
@@ -86,7 +123,7 @@ void add_draw(const Frame& frame, const Draw& draw, RowSum& sum) {
 }
 
 /// The two triangles of a quad share no sample, so the quad counts once.
-void add_particle(const Frame& frame, const Particle& particle, RowSum& sum) {
+void add_particle(const Frame& frame, const Particle& particle, TouchedPixels& sum) {
     const glm::dvec3 center = in_view_space(frame.view, particle.center);
     const double c = std::cos(double(particle.rotation)) * double(particle.size);
     const double s = std::sin(double(particle.rotation)) * double(particle.size);
@@ -96,8 +133,8 @@ void add_particle(const Frame& frame, const Particle& particle, RowSum& sum) {
 
 }  // namespace
 
-std::vector<std::uint64_t> most_fragments_by_row(const Frame& frame, const DrawLists& lists, Extent extent) {
-    RowSum sum(frame.view, extent);
+FragmentBounds fragment_bounds(const Frame& frame, const DrawLists& lists, Extent extent) {
+    TouchedPixels sum(frame.view, extent);
     for (const std::uint32_t index : lists.transparent) {
         if (index < frame.draws.size()) {
             add_draw(frame, frame.draws[index], sum);
@@ -109,11 +146,11 @@ std::vector<std::uint64_t> most_fragments_by_row(const Frame& frame, const DrawL
     return sum.take();
 }
 
-std::vector<RowBand> row_bands(std::span<const std::uint64_t> most_fragments_by_row, std::uint64_t limit) {
+std::vector<RowBand> row_bands(std::span<const std::uint64_t> fragments_by_row, std::uint64_t limit) {
     std::vector<RowBand> bands{{}};
-    for (std::size_t y = 0; y < most_fragments_by_row.size(); y += 2) {
-        const std::uint32_t rows = y + 1 < most_fragments_by_row.size() ? 2 : 1;
-        const std::uint64_t pair = most_fragments_by_row[y] + (rows == 2 ? most_fragments_by_row[y + 1] : 0);
+    for (std::size_t y = 0; y < fragments_by_row.size(); y += 2) {
+        const std::uint32_t rows = y + 1 < fragments_by_row.size() ? 2 : 1;
+        const std::uint64_t pair = fragments_by_row[y] + (rows == 2 ? fragments_by_row[y + 1] : 0);
         if (bands.back().rows > 0 && bands.back().bound + pair > limit)
             bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
         bands.back().rows += rows;

@@ -1,0 +1,34 @@
+// How many transparent fragments rows and pixels can have at most, from the projected triangles and without a device: a technique
+// that stores every fragment sizes its memory and its loops by these bounds, so that no fragment can be dropped.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "capture_format/frame.h"
+#include "passes/graph/graph.h"
+#include "passes/scene/draw_lists.h"
+
+namespace strata {
+
+/// Depth is not tested, and edges are widened by a quarter pixel for float transforms and snapping, so no device covers more.
+struct FragmentBounds {
+    /// Per row of the extent: pixels that each transparent triangle (each particle's quad) can touch in the row, summed.
+    std::vector<std::uint64_t> by_row;
+    /// Fragments that one sample can have: the largest number of bounding rectangles that overlap in a pixel.
+    std::uint64_t layers = 0;
+};
+FragmentBounds fragment_bounds(const Frame&, const DrawLists&, Extent);
+
+/// Rows that are done together.
+struct RowBand {
+    std::uint32_t first_row = 0, rows = 0;
+    std::uint64_t bound = 0;  ///< fragments it can have
+};
+
+/// The rows as few bands with at most `limit` fragments each. A band has an even number of rows but for the last, so no 2x2
+/// quad straddles two; where a single pair of rows exceeds the limit, so does its band. Always at least one band.
+std::vector<RowBand> row_bands(std::span<const std::uint64_t> fragments_by_row, std::uint64_t limit);
+
+}  // namespace strata
