@@ -114,6 +114,9 @@ float ordering_depth(float z) {
 // glTF culls back faces in every alpha mode. A particle has none.
 bool is_culled() { return !gl_FrontFacing && materials[draws[in_draw].material].double_sided == 0u; }
 
+// Adds nothing, hides nothing and bends nothing, also where a technique does not ask whether it is visible.
+Event no_event() { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), vec3(0.0), vec2(0.0), false); }
+
 Event transparent_event() {
     const bool particle = in_draw >= view.first_emitter;
     const float scale = to_sample();
@@ -129,7 +132,7 @@ Event transparent_event() {
         event.d = materials[draws[in_draw].material].distortion * vec2(m.normal.x, -m.normal.y);
         event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
     }
-    event.visible = event.visible && (particle || !is_culled());
+    if (!particle && is_culled()) event = no_event();
     event.z = ordering_depth(event.z - in_emissive.w * scale);
     return event;
 }
