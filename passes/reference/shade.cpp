@@ -5,6 +5,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "passes/reference/brdf.h"
+#include "passes/reference/ltc_table.h"
+
 namespace strata {
 Light sun_light(const Frame& frame) {
     Light light;
@@ -16,12 +19,39 @@ Light sun_light(const Frame& frame) {
     return light;
 }
 
+namespace {
+
+/// The share of the lobe above the horizon: the plane of the horizon, brought to where the lobe is a cosine's.
+double share_above(const Ltc& lobe, const glm::dvec3& up) {
+    const glm::dmat3 matrix(glm::dvec3(lobe.m11, 0, lobe.m31), glm::dvec3(0, lobe.m22, 0), glm::dvec3(lobe.m13, 0, lobe.m33));
+    return .5 + .5 * glm::normalize(glm::transpose(matrix) * up).z;
+}
+
+glm::dvec3 hemisphere_in_metal(const Frame& frame, const SurfacePoint& surface) {
+    const glm::dvec3 n = facing_normal(surface), v = glm::normalize(-surface.position);
+    const Ltc lobe = ltc_at(surface.roughness, std::max(glm::dot(n, v), smallest_cosine));
+    const glm::dvec3 above = frame.view.to_view * glm::dvec3(0, 1, 0);
+    // Where the eye looks along the normal the lobe is round, and any axis will do.
+    const glm::dvec3 other = std::abs(n.x) < .5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 beside = glm::length(glm::cross(n, v)) > 1e-9 ? v : other;
+    const glm::dvec3 x = glm::normalize(beside - n * glm::dot(n, beside));
+    const glm::dvec3 up(glm::dot(x, above), glm::dot(glm::cross(n, x), above), glm::dot(n, above));
+    glm::dvec3 albedo = surface.base_color * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
+    if (surface.model == LightingModel::multiscatter_ggx) albedo *= 1. + surface.base_color * (1 / lobe.albedo - 1);
+    const glm::dvec3 ground(frame.hemisphere.ground), sky(frame.hemisphere.sky);
+    return albedo * glm::mix(ground, sky, share_above(lobe, up));
+}
+
+}  // namespace
+
 glm::dvec3 hemisphere_light(const Frame& frame, const SurfacePoint& surface) {
     if (surface.model == LightingModel::unlit) return glm::dvec3(0);
     const glm::dvec3 world_normal = glm::transpose(frame.view.to_view) * facing_normal(surface);
     const glm::dvec3 radiance =
         glm::mix(glm::dvec3(frame.hemisphere.ground), glm::dvec3(frame.hemisphere.sky), 0.5 + 0.5 * world_normal.y);
-    return surface.base_color * (1 - surface.metallic) * radiance * surface.occlusion;
+    const glm::dvec3 diffuse = surface.base_color * (1 - surface.metallic) * radiance;
+    if (surface.metallic == 0) return diffuse * surface.occlusion;
+    return (diffuse + surface.metallic * hemisphere_in_metal(frame, surface)) * surface.occlusion;
 }
 
 FogAt fog_at(const Frame& frame, double z) {

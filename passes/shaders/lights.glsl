@@ -71,12 +71,27 @@ vec3 reflected(MaterialPoint m, LightRecord light, uint features) {
     return brdf(m, incident.to_light, normalize(-m.position), features) * incident.irradiance * cosine;
 }
 
-// Diffuse light of sky and ground. The material's own occlusion is in it; traced or screen-space occlusion is not.
+// Sky above the horizon and ground below it as a lobe of linearly transformed cosines sees them, times the lobe's albedo: of the part
+// that M makes of a cosine lobe, the half space around `up` holds .5 + .5 n.z / |n| with n = M^T up.
+vec3 hemisphere_in_metal(MaterialPoint m, vec3 normal) {
+    const vec3 v = normalize(-m.position);
+    const LtcRecord lobe = ltc_at(m.roughness, max(dot(normal, v), smallest_cosine));
+    const vec3 up = to_frame(normal, v) * vec3(view.to_world[0].y, view.to_world[1].y, view.to_world[2].y);
+    const vec3 n = vec3(lobe.m11 * up.x + lobe.m31 * up.z, lobe.m22 * up.y, lobe.m13 * up.x + lobe.m33 * up.z);
+    vec3 albedo = m.base_color * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
+    if (m.lighting_model == model_multiscatter_ggx) albedo *= 1.0 + m.base_color * (1.0 / lobe.albedo - 1.0);
+    return albedo * mix(view.ground, view.sky, 0.5 + 0.5 * n.z / length(n));
+}
+
+// Light of sky and ground: what diffuse surfaces scatter and metals mirror. Dielectrics mirror none of it. The material's own occlusion
+// is in it; traced or screen-space occlusion is not.
 vec3 hemisphere_light(MaterialPoint m) {
     if (m.lighting_model == model_unlit) return vec3(0.0);
     const vec3 normal = facing_normal(m.lighting_model, m.normal, m.position);
     const float up = 0.5 + 0.5 * (view.to_world * normal).y;
-    return m.base_color * (1.0 - m.metallic) * mix(view.ground, view.sky, up) * m.occlusion;
+    vec3 sum = m.base_color * (1.0 - m.metallic) * mix(view.ground, view.sky, up);
+    if (m.metallic > 0.0) sum += m.metallic * hemisphere_in_metal(m, normal);
+    return sum * m.occlusion;
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes/reference/brdf.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/shade.h"
 #include "tests/4_references/hemisphere.h"
@@ -151,6 +152,53 @@ TEST(Fog, HalvesWhatIsAHalfLifeAway) {
     EXPECT_NEAR(fog_at(frame, 10).remains, 0.5, 1e-7);
     EXPECT_LT(glm::length(fog_at(frame, 20).added - glm::dvec3(0.75, 0.375, 0)), 1e-7);
     EXPECT_EQ(fog_at(frame, 0).remains, 1);
+}
+
+// A white metal under a white sky and over black ground, integrated over its GGX lobe.
+double sky_in_metal(const SurfacePoint& surface, const glm::dvec3& up) {
+    const glm::dvec3 v = glm::normalize(-surface.position);
+    const auto from_sky = [&](const glm::dvec3& l) { return glm::dot(l, up) > 0 ? brdf(surface, l, v).x : 0; };
+    return reflected_share({2000, 500}, [&](const glm::dvec3& l) { return .5 * (from_sky(l) + from_sky({l.x, -l.y, l.z})); });
+}
+
+TEST(HemisphereLight, IsInMetalsWhatTheirLobeSeesOfIt) {
+    Frame frame = tiny::frame(8, 8);
+    frame.hemisphere = {.sky = glm::vec3(1), .ground = glm::vec3(0)};
+    double worst = 0;
+    for (const double roughness : {.2, .5, .8, 1.})
+        for (const double cosine : {1., .7, .3})
+            for (const glm::dvec3 up :
+                 {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(.6, 0, -.8), glm::dvec3(-.6, .64, -.48)}) {
+                SurfacePoint surface;
+                surface.model = LightingModel::ggx;
+                surface.roughness = roughness;
+                surface.metallic = 1;
+                surface.position = -5. * toward(cosine, 0);
+                const glm::dvec3 side = glm::normalize(glm::cross(up, glm::dvec3(.1, .9, .3)));
+                frame.view.to_view = glm::dmat3(side, up, glm::cross(side, up));
+                const double got = hemisphere_light(frame, surface).x, wanted = sky_in_metal(surface, up);
+                worst = std::max(worst, std::abs(got - wanted));
+                EXPECT_NEAR(got, wanted, .04) << roughness << ' ' << cosine << ' ' << up.x << ' ' << up.y;
+            }
+    EXPECT_GT(worst, 1e-6) << "a fitted lobe is not exact";
+}
+
+TEST(HemisphereLight, ShowsAMirrorTheGroundBelowTheHorizonAndTheSkyAboveIt) {
+    Frame frame = tiny::frame(8, 8);
+    frame.view.to_view = glm::dmat3(1);
+    frame.hemisphere = {.sky = {0, 0, 1}, .ground = {1, 0, 0}};
+    SurfacePoint mirror;
+    mirror.model = LightingModel::ggx;
+    mirror.roughness = 0;
+    mirror.metallic = 1;
+    mirror.base_color = glm::dvec3(1);
+    for (const double height : {-1., 1.}) {
+        mirror.normal = glm::normalize(glm::dvec3(0, .2 * height, -1));  // the eye is at the origin, the mirror before it
+        mirror.position = {0, 0, 5};
+        const glm::dvec3 seen = hemisphere_light(frame, mirror);
+        EXPECT_NEAR(height > 0 ? seen.z : seen.x, 1, .02);
+        EXPECT_NEAR(height > 0 ? seen.x : seen.z, 0, .02);
+    }
 }
 
 }  // namespace

@@ -75,12 +75,15 @@ TEST(HiLoCombine, OcclusionDarkensWhatComesFromAllAroundAndNotTheLights) {
     EXPECT_NEAR(color_of(frame, before).x, 3 + .5 * .5 * (1 + .5), 1e-12);
 }
 
-TEST(HiLoCombine, MetalsHaveNoDiffuseLight) {
+TEST(HiLoCombine, MetalsMirrorTheHemisphere) {
     Frame frame = one_pixel(1);
     frame.hemisphere.sky = glm::vec3(1);
-    ImageSet before = white_surface({0, 1, 0});
+    ImageSet before = white_surface(glm::normalize(glm::dvec3(0, 1, -1)));
     before["surface_material"].at(0, 0) = {double(LightingModel::ggx), 1, 1, 0};
-    EXPECT_EQ(color_of(frame, before).x, 0);
+    before["surface_color"].at(0, 0) = glm::dvec4(1, 1, 1, .2);
+    EXPECT_GT(color_of(frame, before).x, .9);
+    before["surface_color"].at(0, 0) = glm::dvec4(0, 0, 0, .2);
+    EXPECT_LT(color_of(frame, before).x, .05) << "black metal";
 }
 
 TEST(HiLoCombine, FogHidesWhatItCoversAndAddsItsOwnColor) {
