@@ -27,6 +27,8 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(typed.size() / 3, 2) + 1;
     for (const std::string_view name : known) {
+        const std::size_t lengths = std::max(name.size(), typed.size()) - std::min(name.size(), typed.size());
+        if (lengths >= best_distance) continue;  // no distance is less: a word of megabytes is told by its length
         const std::size_t distance = edit_distance(typed, name);
         if (distance < best_distance) {
             best = name;

@@ -7,6 +7,7 @@
 
 #include <xxhash.h>
 
+#include "capture_format/clean_text.h"
 #include "capture_format/codec/decode_frame.h"
 #include "capture_format/codec/frame_delta.h"
 #include "capture_format/codec/upgrade.h"
@@ -109,7 +110,7 @@ Result<void> Capture::Contents::take(std::size_t number) {
     if (section.type == SectionType::notes) {
         Result<std::string> notes = text(number, longest_notes);
         if (!notes) return notes.error();
-        summary.notes = *std::move(notes);
+        summary.notes = clean_text(*notes);
     }
     if (section.type == SectionType::expect && section.version == expect_version) {
         Result<std::string> expectation = text(number, longest_expectation);

@@ -25,7 +25,7 @@ struct CaptureSummary {
     std::uint64_t file_bytes = 0, blob_bytes_stored = 0, blob_bytes_raw = 0;
     std::size_t frames = 0, blobs = 0;
     bool cut_short = false;
-    std::string notes;                  ///< free text of the notes section
+    std::string notes;                  ///< free text of the notes section, as clean_text() leaves it
     std::vector<std::string> left_out;  ///< what was not read, and why: sections of a newer program, or damaged where partial
 };
 
@@ -42,6 +42,7 @@ public:
     /// Decodes and checks one frame. Cheapest in order: blobs shared with the frame asked for before are not decompressed again,
     /// and a frame is told by what changed since the ones before it, up to 63 of which are unpacked first when it is asked for
     /// out of order.
+    /// Names are UTF-8 without control characters: clean_text().
     Result<Frame> frame(std::size_t index) const;
     /// 32 hex digits over the frames and their blobs: equal files have equal ids wherever they lie, and notes, thumbnail and
     /// expectations do not change it.

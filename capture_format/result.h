@@ -22,6 +22,7 @@ enum class Fault {
     device_failed = 5,        ///< the device was lost or the validation layer complained
     expectation_missing = 6,  ///< nothing to compare with
     not_repeatable = 7,       ///< two equal runs differed
+    internal = 8,             ///< a mistake of this program
     stopped = 130,            ///< whoever asked for it asked to stop
 };
 

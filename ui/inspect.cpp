@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "capture_format/reader.h"
+#include "replay/standard_streams.h"
 #include "ui/script/script.h"
 #include "ui/window/window.h"
 
@@ -32,7 +33,7 @@ Model model_of(const std::filesystem::path& capture, const InspectOptions& optio
 /// What a window would show and nobody is there to read.
 Result<void> report_opening(const Inspector& inspector) {
     for (const LogLine& line : inspector.log())
-        if (line.kind == LogLine::Kind::warned) fmt::print(stderr, "strata: {}\n", line.text);
+        if (line.kind == LogLine::Kind::warned) to_stderr("strata: {}\n", line.text);
     const Replayer& replayer = inspector.replayer();
     const Error* error = replayer.open_error() ? replayer.open_error() : replayer.error("A");
     return error ? Result<void>(*error) : Result<void>();
@@ -42,7 +43,7 @@ Result<void> play_script(const InspectOptions& options) {
     std::ifstream file(options.script);
     std::stringstream text;
     text << file.rdbuf();
-    if (!file) return fail(Fault::usage, "cannot read {}", options.script.string());
+    if (file.bad()) return fail(Fault::bad_input, "cannot read {}", options.script.string());
     const auto lines = parse_script(text.str(), options.script.string());
     if (!lines) return lines.error();
     const Context context;

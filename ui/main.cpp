@@ -1,13 +1,13 @@
 // strata: the verbs of the command line, and the inspector's.
-#include "capture_format/container/whole_file.h"
 #include "replay/cli/tool.h"
+#include "replay/standard_streams.h"
 
 namespace strata {
 std::function<Result<void>()> declare_inspect(CLI::App&);
 }
 
 int main(int count, char** arguments) {
-    strata::leave_nothing_half_written_when_stopped();
+    strata::open_standard_streams();
     std::vector<strata::Verb> verbs(strata::verbs().begin(), strata::verbs().end());
     verbs.push_back({"inspect", "look at a frame, change how it is made, see what changed and why", strata::declare_inspect});
     return strata::run_tool({arguments + 1, arguments + count}, verbs);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "capture_format/clean_text.h"
 #include "capture_format/codec/stored_bits.h"
 #include "capture_format/inspection.h"
 
@@ -88,7 +89,7 @@ std::vector<T> Decoder::stream(const schema::Blob& blob, std::string_view what) 
 std::string Decoder::text(const flatbuffers::String* stored) {
     if (!stored) return {};
     if (stored->size() > longest_text) refuse(fail(Fault::bad_input, "a name of {} bytes is too long", stored->size()));
-    return error_ ? std::string() : stored->str();
+    return error_ ? std::string() : clean_text({stored->c_str(), stored->size()});
 }
 
 std::vector<std::uint32_t> Decoder::indices(const flatbuffers::Vector<std::uint32_t>& stored) {

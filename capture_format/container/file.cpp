@@ -31,8 +31,16 @@ Descriptor::~Descriptor() {
     if (number_ >= 0) ::close(number_);
 }
 
+Result<void> check_is_file(const std::filesystem::path& path) {
+    struct stat status {
+    }, null{};
+    if (::stat(path.c_str(), &status) != 0) return fail(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
+    const bool is_null = ::stat("/dev/null", &null) == 0 && is_same_file(status, null);
+    return S_ISREG(status.st_mode) || is_null ? Result<void>() : fail(Fault::bad_input, "{} is not a file", path.string());
+}
+
 Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // of a pipe it would wait for a writer
     if (file.number() < 0) return fail(Fault::bad_input, "cannot open {}: {}", path.string(), system_words());
     struct stat status {};
     if (::fstat(file.number(), &status) != 0) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), system_words());
@@ -59,7 +67,7 @@ Result<FileLock> FileLock::take(const std::filesystem::path& path) {
     for (;;) {
         // Some network file systems lock only what is open for writing.
         const int access = ::access(path.c_str(), W_OK) == 0 ? O_RDWR : O_RDONLY;
-        FileLock lock(path, Descriptor(::open(path.c_str(), access | O_CLOEXEC)));
+        FileLock lock(path, Descriptor(::open(path.c_str(), access | O_CLOEXEC | O_NONBLOCK)));
         if (lock.descriptor_.number() < 0) return fail(Fault::usage, "cannot open {}: {}", path.string(), system_words());
         if (uninterrupted([&] { return ::flock(lock.descriptor_.number(), LOCK_EX); }) != 0)
             return fail(Fault::usage, "cannot lock {}: {}", path.string(), system_words());

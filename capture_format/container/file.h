@@ -29,6 +29,10 @@ private:
     int number_;
 };
 
+/// Fails (bad input) where there is nothing to read, or a pipe, device or folder, which are not opened: a pipe would wait for a
+/// writer. /dev/null counts as an empty file.
+Result<void> check_is_file(const std::filesystem::path&);
+
 /// A file open for reading. Nothing is mapped: a file that another process shortens gives an error where a mapping gave SIGBUS.
 class ReadableFile {
 public:

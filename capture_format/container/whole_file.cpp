@@ -155,26 +155,32 @@ Result<void> write_whole_file(const std::filesystem::path& path, std::string_vie
     return write_whole_file(path, std::as_bytes(std::span(text)));
 }
 
-void leave_nothing_half_written_when_stopped() {
+Result<void> leave_nothing_half_written_when_stopped() {
     sigset_t stops;
     sigemptyset(&stops);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // What a terminal, a batch system or a limit of the processor's time sends to end a program.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
         struct sigaction inherited {};
         sigaction(signal, nullptr, &inherited);
         if (inherited.sa_handler != SIG_IGN) sigaddset(&stops, signal);
     }
     pthread_sigmask(SIG_BLOCK, &stops, nullptr);
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::thread([stops] {
-        int signal = 0;
-        sigwait(&stops, &signal);
-        lock.lock();  // for good: no writer goes on
-        for (const WholeFile::Pending* each = WholeFile::Pending::first; each; each = each->after)
-            ::unlink(each->temporary.c_str());
-        constexpr std::string_view words = "strata: interrupted; no file is half written\n";
-        [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
-        _exit(128 + signal);
-    }).detach();
+    for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+    try {
+        std::thread([stops] {
+            int signal = 0;
+            sigwait(&stops, &signal);
+            lock.lock();  // for good: no writer goes on
+            for (const WholeFile::Pending* each = WholeFile::Pending::first; each; each = each->after)
+                ::unlink(each->temporary.c_str());
+            constexpr std::string_view words = "strata: interrupted; no file is half written\n";
+            [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
+            _exit(128 + signal);
+        }).detach();
+    } catch (const std::system_error& refused) {
+        return fail(Fault::device_lacks, "this machine starts no thread: {}", refused.what());
+    }
+    return {};
 }
 
 }  // namespace strata

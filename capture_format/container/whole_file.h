@@ -29,7 +29,7 @@ public:
     Result<void> commit();
 
 private:
-    friend void leave_nothing_half_written_when_stopped();
+    friend Result<void> leave_nothing_half_written_when_stopped();
     struct Pending;
     explicit WholeFile(std::unique_ptr<Pending>);
     std::unique_ptr<Pending> pending_;
@@ -39,9 +39,10 @@ private:
 Result<void> write_whole_file(const std::filesystem::path&, std::span<const std::byte>);
 Result<void> write_whole_file(const std::filesystem::path&, std::string_view text);
 
-/// For programs of our own, to be called before any thread starts: SIGINT, SIGTERM and SIGHUP remove the temporaries and
-/// end the process with 128 + signal (130 for SIGINT), unless whoever started us ignores them; a file beyond the size limit
-/// is a failed write and no signal.
-void leave_nothing_half_written_when_stopped();
+/// For programs of our own, to be called before any thread starts: a signal that ends the process (SIGINT, SIGTERM, SIGHUP,
+/// SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2) removes the temporaries and ends it with 128 + signal (130 for SIGINT), unless
+/// whoever started us ignores it. A file beyond the size limit and a pipe that nobody reads are failed writes and no signals.
+/// Fails (device lacks) where no thread can be started.
+Result<void> leave_nothing_half_written_when_stopped();
 
 }  // namespace strata

@@ -115,7 +115,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, Budg
     std::error_code failure;
     const bool regular = std::filesystem::is_regular_file(path, failure);  // a pipe or a device would never end
     const std::uintmax_t size = regular ? std::filesystem::file_size(path, failure) : 0;
-    std::ifstream file(path, std::ios::binary);
+    std::ifstream file;
+    if (regular) file.open(path, std::ios::binary);
     if (!regular || failure || !file) return fail(Fault::bad_input, "cannot open {}", path.string());
     if (const auto room = budget.take(size, 1, path.filename().string()); !room) return room.error();
     std::vector<std::byte> bytes(size);

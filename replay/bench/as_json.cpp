@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/bench/bench.h"
+#include "replay/json_text.h"
 #include "replay/report/json_parts.h"
 
 namespace strata {
@@ -45,7 +46,7 @@ std::string as_json(const Bench& bench) {
                       {"repeats", bench.repeats},
                       {"rows", ordered_json::array()}};
     for (const MeasuredRatio& row : bench.rows) json["rows"].push_back(json_of(row));
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata

@@ -3,22 +3,27 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "capture_format/expectation_writer.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation_check.h"
+#include "replay/json_text.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
 #include "replay/revision.h"
 #include "replay/session/repeat.h"
 
 namespace strata {
 namespace {
 
+using nlohmann::ordered_json;
+
 struct AcceptArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string frames;
-    bool with_images = false, dry_run = false;
+    bool with_images = false, dry_run = false, json = false;
 };
 
 /// What a frame gave beside what was expected of it.
@@ -50,17 +55,33 @@ Result<Candidate> replay_candidate(Session& session, const Request& request, con
 }
 
 void show(const Candidate& candidate) {
-    fmt::print("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
+    to_stdout("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
     if (!candidate.before) {
         for (const ExpectedAct& act : candidate.expectation.acts)
             for (const ExpectedImage& image : act.images)
-                fmt::print("  new      {:<24} {:<16} {}\n", act.label, image.name, image.hash);
+                to_stdout("  new      {:<24} {:<16} {}\n", act.label, image.name, image.hash);
         return;
     }
     for (const ImageVerdict& image : candidate.before->images) {
-        if (image.agreement == Agreement::exact) fmt::print("  same     {:<24} {:<16} {}\n", image.act, image.image, image.hash);
-        else fmt::print("  changed  {}\n", sentence(image));
+        if (image.agreement == Agreement::exact) to_stdout("  same     {:<24} {:<16} {}\n", image.act, image.image, image.hash);
+        else to_stdout("  changed  {}\n", sentence(image));
     }
+}
+
+ordered_json json_of(const Candidate& candidate) {
+    ordered_json json{
+        {"frame", candidate.expectation.frame}, {"on", text(candidate.expectation.on)}, {"images", ordered_json::array()}};
+    const auto add = [&](const char* state, const std::string& act, const std::string& image, const std::string& hash) {
+        json["images"].push_back({{"state", state}, {"act", act}, {"image", image}, {"hash", hash}});
+    };
+    if (!candidate.before) {
+        for (const ExpectedAct& act : candidate.expectation.acts)
+            for (const ExpectedImage& image : act.images) add("new", act.label, image.name, image.hash);
+        return json;
+    }
+    for (const ImageVerdict& image : candidate.before->images)
+        add(image.agreement == Agreement::exact ? "same" : "changed", image.act, image.image, image.hash);
+    return json;
 }
 
 Result<void> write(ExpectationWriter& writer, Candidate& candidate, const AcceptArguments& options) {
@@ -91,11 +112,15 @@ Result<void> accept(const AcceptArguments& options) {
     if (!known) return known.error();
 
     std::size_t news = 0;
+    ordered_json json{{"schema", "strata.accept"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
+    const Progress progress = progress_line();
     for (const std::size_t frame : *frames) {
+        show_frame(progress, json["frames"].size(), frames->size());
         request->variant.frame = frame;
         auto candidate = replay_candidate(**session, *request, options, *known);
         if (!candidate) return candidate.error();
-        show(*candidate);
+        json["frames"].push_back(json_of(*candidate));
+        if (!options.json) show(*candidate);
         if (!candidate->is_news()) continue;
         ++news;
         if (!writer) continue;
@@ -103,10 +128,12 @@ Result<void> accept(const AcceptArguments& options) {
     }
     if (writer)
         if (const auto finished = writer->finish(); !finished) return finished;
+    json["accepted_frames"] = options.dry_run ? 0 : news;
     const std::string file = options.open.capture.string();
-    if (news == 0) fmt::print("nothing changed: {} stays as it is\n", file);
-    else if (options.dry_run) fmt::print("{} would be expected anew; {} stays as it is\n", plural(news, "frame"), file);
-    else fmt::print("{} expected anew in {}{}\n", plural(news, "frame"), file, options.with_images ? ", images kept" : "");
+    if (options.json) write_stdout(json_text(json));
+    else if (news == 0) to_stdout("nothing changed: {} stays as it is\n", file);
+    else if (options.dry_run) to_stdout("{} would be expected anew; {} stays as it is\n", plural(news, "frame"), file);
+    else to_stdout("{} expected anew in {}{}\n", plural(news, "frame"), file, options.with_images ? ", images kept" : "");
     return {};
 }
 
@@ -115,10 +142,11 @@ Result<void> accept(const AcceptArguments& options) {
 std::function<Result<void>()> declare_accept(CLI::App& app) {
     const auto options = std::make_shared<AcceptArguments>();
     add_options(app, options->open);
-    app.get_option("capture")->type_name("FILE");  // the one input that is extended
+    app.get_option("capture")->type_name(extended_file);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
     app.add_flag("--with-images", options->with_images, "keep the images: a tolerance and worst texels need them");
+    app.add_flag("--json", options->json, "one JSON object on stdout");
     app.add_flag("--dry-run", options->dry_run, "show what would change and write nothing");
     return [options] { return accept(*options); };
 }

@@ -12,6 +12,7 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/cli/verb_options.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -95,9 +96,9 @@ Result<void> bench(const BenchArguments& options) {
     for (Claim& claim : *claims) claim.base = *base;
     const auto session = options.open.capture.empty() ? open_scenarios(options, *claims) : open_capture(options, *claims);
     if (!session) return session.error();
-    const auto measured = measure_ratios(**session, *claims, options.repeats, show_current);
+    const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
     if (!measured) return measured.error();
-    fmt::print("{}", options.json ? as_json(*measured) : as_text(*measured));
+    to_stdout("{}", options.json ? as_json(*measured) : as_text(*measured));
     return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*measured));
 }
 
@@ -110,7 +111,7 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
         app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario")
             ->type_name(input_file);
     add_options(app, options->open.device);
-    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
+    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut")->needs(capture);
     add_options(app, options->choices);
     app.add_option("--only", options->only, "ratios that have this in their name");
     app.add_option("--frame", options->frame, "which frame of the capture, default 0")->needs(capture);

@@ -6,11 +6,13 @@
 
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
 #include "replay/revision.h"
 
 namespace strata {
@@ -64,7 +66,7 @@ public:
         if (made.verdict < Verdict::warning) {
             if (const auto free = check_not_kept(path); !free) return free;
             std::error_code problem;
-            if (std::filesystem::remove(path, problem)) fmt::print(stderr, "removed {}\n", path.string());
+            if (std::filesystem::remove(path, problem)) to_stderr("removed {}\n", path.string());
             return problem ? Result<void>(fail(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
                            : Result<void>();
         }
@@ -77,7 +79,7 @@ public:
                                 side(options_.a, act.choice_a), side(options_.b, act.choice_b)});
         const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
         if (const auto done = write_png(path, extent, std::as_bytes(std::span(canvas.pixels()))); !done) return done;
-        fmt::print(stderr, "wrote {}\n", path.string());
+        to_stderr("wrote {}\n", path.string());
         artefacts_[name] = path.string();
         return {};
     }
@@ -131,7 +133,9 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
         return fail(Fault::usage, "A has {} and B {}; choose with --frames", plural(a.frame_count(), "frame"), b.frame_count());
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
+    const Progress progress = progress_line();
     for (const std::size_t frame : *frames) {
+        show_frame(progress, comparison.frames.size(), frames->size());
         request_a->variant.frame = request_b->variant.frame = frame;
         auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
         if (!made) return fail(made.error().fault, "frame {}: {}", frame, made.error().sentence);
@@ -203,6 +207,18 @@ Error over_tolerance(const Comparison& comparison) {
     return fail(Fault::over_tolerance, "over tolerance");
 }
 
+/// What is said of replaying where one side or both are images.
+Result<void> check_options(const DiffArguments& options, const CLI::App& app) {
+    const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
+    if (!is_image(options.b.file)) return {};
+    const auto of_b = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed");
+    if (!of_b || !is_image(options.a.file)) return of_b;
+    return check_not_given(app,
+                           {"--use-a", "--set-a", "--gpu-a", "--force", "--samples", "--gpu", "--without", "--validation",
+                            "--memory-budget", "--allow-partial", "--frames"},
+                           "two images are compared and nothing is replayed");
+}
+
 Result<void> diff(DiffArguments options) {
     if (options.b.file.empty()) {
         const bool same = options.a.uses == options.b.uses && options.a.sets == options.b.sets && options.a.gpu == options.b.gpu;
@@ -216,7 +232,7 @@ Result<void> diff(DiffArguments options) {
     Pictures pictures(options);
     Comparison comparison{.limits = options.limits, .tool = fmt::format("strata {}", tool_revision), .rerun = options.rerun};
     if (const auto done = compare(options, pictures, comparison); !done) return done;
-    fmt::print("{}", options.json ? as_json(comparison) : as_text(comparison));
+    to_stdout("{}", options.json ? as_json(comparison) : as_text(comparison));
     if (!options.junit.empty())
         if (const auto done = write_whole_file(options.junit, as_junit(comparison, pictures.artefacts())); !done) return done;
     return verdict(comparison) == Verdict::over ? Result<void>(over_tolerance(comparison)) : Result<void>();
@@ -235,7 +251,8 @@ void add_sides(CLI::App& app, DiffArguments& options) {
     list("--use-a", options.a.uses, "stage/technique of A");
     list("--set-a", options.a.sets, "key=value of A");
     list("--force", options.both.force, "feature or 'all', of both: switch it on though the frame lacks it");
-    app.add_option("--samples", options.both.samples, "samples per pixel of both instead of the recorded ones: 1 or 4");
+    app.add_option("--samples", options.both.samples, "samples per pixel of both instead of the recorded ones")
+        ->check(CLI::IsMember({1, 4}));
     add_options(app, options.device);
     app.add_option("--gpu-a", options.a.gpu, "device of A, where not --gpu");
     app.add_option("--gpu-b", options.b.gpu, "device of B, where not --gpu");
@@ -286,10 +303,11 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
         ->check(CLI::Range(0., 100.));
     app.add_option("--hard-limit", limits.hard_limit, "no pixel may differ by more; default: any may")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--warn-limit", limits.warn_limit, "like --limit, for a warning; default: none")
-        ->check(CLI::NonNegativeNumber);
+    CLI::Option* warn = app.add_option("--warn-limit", limits.warn_limit, "like --limit, for a warning; default: none")
+                            ->check(CLI::NonNegativeNumber);
     app.add_option("--warn-percent", limits.warn_percent, "like --percent, for a warning; default 0")
-        ->check(CLI::Range(0., 100.));
+        ->check(CLI::Range(0., 100.))
+        ->needs(warn);
     app.add_option("--ulps", limits.ulps, "depth may differ by so many floats; default 0. Ids are always exact");
     app.add_option("--flip-limit", limits.flip_mean,
                    "mean of FLIP, of images of light; without --limit it alone decides about them")
@@ -309,7 +327,7 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options, &app] {
         options->rerun = command_line(app);
-        return diff(*options);
+        return check_options(*options, app).and_then([&] { return diff(*options); });
     };
 }
 

@@ -82,15 +82,15 @@ Result<void> export_deep(const ExportOptions& options) {
     if (!exr) return exr.error();
     if (const auto done = write_whole_file(options.output, *exr); !done) return done;
 
-    fmt::print(stderr, "exported {}", plural(image->begin.back(), "fragment"));
+    to_stderr("exported {}", plural(image->begin.back(), "fragment"));
     if (transmittance->second == Transmittance::mean) {
-        fmt::print(stderr, "\n");
+        to_stderr("\n");
         return {};
     }
     const auto worst = worst_difference(*exr, lists, *sample);
     if (!worst) return worst.error();
-    fmt::print(stderr, "; flattened again they are within {:.1e} of their exact blend{}\n", *worst,
-               *worst > expected_difference ? ": light shines through more layers than a float's alpha can tell" : "");
+    to_stderr("; flattened again they are within {:.1e} of their exact blend{}\n", *worst,
+              *worst > expected_difference ? ": light shines through more layers than a float's alpha can tell" : "");
     return {};
 }
 

@@ -19,7 +19,7 @@ Result<void> export_scene(const ExportOptions& options) {
     if (!frame) return frame.error();
     const auto warnings = export_gltf(*frame, options.output);
     if (!warnings) return warnings.error();
-    for (const std::string& warning : *warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
+    for (const std::string& warning : *warnings) to_stderr("strata: warning: {}\n", warning);
     return {};
 }
 

@@ -2,19 +2,49 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "passes/graph/describe.h"
 #include "replay/cli/verb_options.h"
+#include "replay/json_text.h"
 
 namespace strata {
 namespace {
+
+using nlohmann::ordered_json;
 
 struct GraphArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0;
-    bool dot = false;
+    bool dot = false, json = false;
 };
+
+ordered_json json_of(const Session::PlannedFrame& planned, std::size_t frame) {
+    const Plan& plan = planned.plan;
+    ordered_json json{{"schema", "strata.graph"}, {"schema_version", 1}, {"frame", frame}};
+    json["image_bytes"] = plan.image_bytes;
+    json["buffer_bytes"] = plan.buffer_bytes;
+    json["steps"] = json["memory"] = json["culled"] = json["left_out"] = ordered_json::array();
+    for (const PlannedStep& step : plan.steps) {
+        ordered_json row{{"index", json["steps"].size()},
+                         {"scope", text_of(plan.scopes[step.step.scope])},
+                         {"name", step.step.name},
+                         {"barriers", ordered_json::array()}};
+        for (const Barrier& barrier : step.barriers) row["barriers"].push_back(describe(plan, barrier));
+        json["steps"].push_back(std::move(row));
+    }
+    for (const MemorySlot& slot : plan.slots) {
+        ordered_json row{{"bytes", slot.bytes}, {"images", ordered_json::array()}};
+        for (const std::uint32_t image : slot.images) row["images"].push_back(plan.images[image].name);
+        json["memory"].push_back(std::move(row));
+    }
+    for (const CulledStep& step : plan.culled)
+        json["culled"].push_back({{"scope", text_of(step.scope)}, {"name", step.name}, {"reason", step.reason}});
+    for (const SkippedStage& skipped : planned.skipped)
+        json["left_out"].push_back({{"stage", name(skipped.stage)}, {"reason", skipped.reason}});
+    return json;
+}
 
 Result<void> graph(const GraphArguments& options) {
     auto session = open(options.open);
@@ -24,12 +54,16 @@ Result<void> graph(const GraphArguments& options) {
     request->variant.frame = options.frame;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
-    if (options.dot) {
-        fmt::print("{}", describe_dot(planned->plan));
+    if (options.json) {
+        write_stdout(json_text(json_of(*planned, options.frame)));
         return {};
     }
-    fmt::print("{}", describe(planned->plan));
-    for (const SkippedStage& skipped : planned->skipped) fmt::print("left out: {}: {}\n", name(skipped.stage), skipped.reason);
+    if (options.dot) {
+        to_stdout("{}", describe_dot(planned->plan));
+        return {};
+    }
+    to_stdout("{}", describe(planned->plan));
+    for (const SkippedStage& skipped : planned->skipped) to_stdout("left out: {}: {}\n", name(skipped.stage), skipped.reason);
     return {};
 }
 
@@ -40,7 +74,8 @@ std::function<Result<void>()> declare_graph(CLI::App& app) {
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_flag("--dot", options->dot, "Graphviz instead of text");
+    CLI::Option* dot = app.add_flag("--dot", options->dot, "Graphviz instead of text");
+    app.add_flag("--json", options->json, "one JSON object on stdout")->excludes(dot);
     return [options] { return graph(*options); };
 }
 

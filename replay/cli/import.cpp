@@ -8,8 +8,10 @@
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/recorder.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -39,7 +41,9 @@ Result<Frame> record_frames(const ImportArguments& options, std::uint32_t count,
     auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
+    const Progress progress = progress_line();
     for (std::uint32_t index = 0; index < count; ++index) {
+        show_frame(progress, index, count);
         if (index > 0) frame = frame_at(index);
         if (!frame) return frame;
         if (const auto done = recorder->record(*frame); !done) return done.error();
@@ -50,11 +54,14 @@ Result<Frame> record_frames(const ImportArguments& options, std::uint32_t count,
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "strata: warning: {}\n", warning);
+    for (const std::string& warning : warnings) to_stderr("strata: warning: {}\n", warning);
 }
 
 Result<void> import_deep_image(const ImportArguments& options) {
     DeepOptions of_deep = options.of_deep;
+    if (!options.window.empty() && (options.window[2] < 1 || options.window[3] < 1))
+        return fail(Fault::usage, "--window takes a width and a height above 0, not {} x {}", options.window[2],
+                    options.window[3]);
     if (!options.window.empty())
         of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
                                     static_cast<std::uint32_t>(options.window[3])};
@@ -64,27 +71,31 @@ Result<void> import_deep_image(const ImportArguments& options) {
     const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
     if (!recorded) return recorded.error();
     const DeepCensus& census = image->census;
-    fmt::print(stderr, "imported {} of {} as {} in {}, {} in the deepest, into {}\n", plural(census.samples, "sample"),
-               options.scene.filename().string(), plural(census.fragments, "fragment"), plural(census.pixels, "pixel"),
-               census.deepest, output_of(options).string());
+    to_stderr("imported {} of {} as {} in {}, {} in the deepest, into {}\n", plural(census.samples, "sample"),
+              options.scene.filename().string(), plural(census.fragments, "fragment"), plural(census.pixels, "pixel"),
+              census.deepest, output_of(options).string());
     return {};
 }
 
-Result<void> import(const ImportArguments& options) {
-    if (options.deep) return import_deep_image(options);
+Result<void> import(const ImportArguments& options, const CLI::App& app) {
+    if (options.deep) {
+        const auto fits = check_not_given(
+            app, {"--size", "--samples", "--camera", "--azimuth", "--elevation", "--frames", "--fps", "--animation"},
+            "a deep image is one frame with a view of its own");
+        return fits ? import_deep_image(options) : fits;
+    }
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
     std::tie(gltf.width, gltf.height) = *extent;
-    if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
     const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
     print_warnings(scene->warnings());
     if (!last) return last.error();
-    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"),
-               plural(last->draws.size(), "draw"), plural(last->materials.size(), "material"),
-               plural(last->textures.size(), "texture"), plural(last->lights.size(), "light"), output_of(options).string());
+    to_stderr("imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws.size(), "draw"),
+              plural(last->materials.size(), "material"), plural(last->textures.size(), "texture"),
+              plural(last->lights.size(), "light"), output_of(options).string());
     return {};
 }
 
@@ -95,17 +106,21 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")
         ->required()
         ->type_name(input_file);
-    app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
-    app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one");
+    CLI::Option* deep =
+        app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
+    app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one")
+        ->needs(deep);
     app.add_option("--window", options->window, "X,Y,WIDTH,HEIGHT: pixels of a deep file; default its display window")
         ->delimiter(',')
-        ->expected(4);
+        ->expected(4)
+        ->needs(deep);
     app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata")
         ->type_name(output_file);
     app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
-    app.add_option("--samples", options->gltf.samples, "samples per pixel: 1 or 4");
+    app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
     app.add_option("--camera", options->gltf.camera,
-                   "index of the scene's camera; default its first, or one that frames the scene");
+                   "index of the scene's camera; default its first, or one that frames the scene")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--azimuth", options->gltf.azimuth,
                    "degrees from the front towards the right of a framing camera, default 22");
     app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
@@ -114,7 +129,7 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");
     app.add_option("--animation", options->gltf.animation, "name or index of the animation; default the first");
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
-    return [options] { return import(*options); };
+    return [options, &app] { return import(*options, app); };
 }
 
 }  // namespace strata

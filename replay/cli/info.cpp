@@ -1,5 +1,4 @@
 // strata info: what a capture holds and what its frames call for. strata validate: whether all of it is sound.
-#include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +8,7 @@
 #include "capture_format/frame_features.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation.h"
+#include "replay/json_text.h"
 #include "replay/plural.h"
 
 namespace strata {
@@ -69,20 +69,20 @@ ordered_json json_of(const Capture& capture, const Frame& frame, std::size_t ind
 
 void print(const Capture& capture, const Frame& frame, std::size_t index) {
     const CaptureSummary& summary = capture.summary();
-    fmt::print("capture {}, format {}, {}, {} bytes{}\n", capture.id(), summary.format_version, plural(summary.frames, "frame"),
-               summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
-    if (!summary.notes.empty()) fmt::print("notes: {}\n", summary.notes);
-    fmt::print("{} of meshes, textures and particles: {} bytes, {} unpacked\n", plural(summary.blobs, "blob"),
-               summary.blob_bytes_stored, summary.blob_bytes_raw);
-    fmt::print("\nframe {}: {} x {}, {} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
-               plural(frame.view.samples, "sample"), frame.time);
+    to_stdout("capture {}, format {}, {}, {} bytes{}\n", capture.id(), summary.format_version, plural(summary.frames, "frame"),
+              summary.file_bytes, summary.cut_short ? ", CUT SHORT" : "");
+    if (!summary.notes.empty()) to_stdout("notes: {}\n", summary.notes);
+    to_stdout("{} of meshes, textures and particles: {} bytes, {} unpacked\n", plural(summary.blobs, "blob"),
+              summary.blob_bytes_stored, summary.blob_bytes_raw);
+    to_stdout("\nframe {}: {} x {}, {} per pixel, time {:.3f} s\n", index, frame.view.width, frame.view.height,
+              plural(frame.view.samples, "sample"), frame.time);
     for (const Count& count : counts(frame))
-        if (count.value) fmt::print("  {:>8} {}\n", count.value, count.value == 1 ? count.one : count.name);
-    fmt::print("it calls for\n");
+        if (count.value) to_stdout("  {:>8} {}\n", count.value, count.value == 1 ? count.one : count.name);
+    to_stdout("it calls for\n");
     const Features features = frame_features(frame);
     for (const Feature feature : all_features())
-        if (features.has(feature)) fmt::print("  {:<18} {}\n", name(feature), features.reason(feature));
-    for (const StageChoice& stage : frame.recorded_with) fmt::print("recorded with {} for {}\n", stage.technique, stage.stage);
+        if (features.has(feature)) to_stdout("  {:<18} {}\n", name(feature), features.reason(feature));
+    for (const StageChoice& stage : frame.recorded_with) to_stdout("recorded with {} for {}\n", stage.technique, stage.stage);
 }
 
 Result<void> info(const InfoArguments& options) {
@@ -94,7 +94,7 @@ Result<void> info(const InfoArguments& options) {
                     options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
-    if (options.json) std::cout << json_of(*capture, *frame, options.frame).dump(2) << "\n";
+    if (options.json) write_stdout(json_text(json_of(*capture, *frame, options.frame)));
     else print(*capture, *frame, options.frame);
     return {};
 }
@@ -118,8 +118,16 @@ Result<void> validate(const InfoArguments& options) {
     if (const auto sound = check_capture(options.capture); !sound) return sound;
     if (const auto sound = check_texts(*capture); !sound)
         return fail(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
-    fmt::print("{}: {}, every byte, index, blob and expectation is sound\n", options.capture.filename().string(),
-               plural(capture->frame_count(), "frame"));
+    if (options.json) {
+        write_stdout(json_text({{"schema", "strata.validate"},
+                                {"schema_version", 1},
+                                {"capture", capture->id()},
+                                {"frames", capture->frame_count()},
+                                {"is_sound", true}}));
+        return {};
+    }
+    to_stdout("{}: {}, every byte, index, blob and expectation is sound\n", options.capture.filename().string(),
+              plural(capture->frame_count(), "frame"));
     return {};
 }
 
@@ -137,6 +145,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
 std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
     app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
+    app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return validate(*options); };
 }
 

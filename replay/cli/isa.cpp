@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
@@ -63,10 +64,9 @@ Result<void> dump(const IsaArguments& options, const std::string& gpu, const Com
             ++written;
             without_assembly += is_ir;
         }
-    fmt::print(stderr, "wrote {} for {} to {}\n", plural(written, "program"), gpu, options.dump.string());
+    to_stderr("wrote {} for {} to {}\n", plural(written, "program"), gpu, options.dump.string());
     if (without_assembly > 0)
-        fmt::print(stderr, "strata: the driver has no disassembler for {}: what it writes is the compiler's last form, ACO IR\n",
-                   gpu);
+        to_stderr("strata: the driver has no disassembler for {}: what it writes is the compiler's last form, ACO IR\n", gpu);
     return {};
 }
 
@@ -180,15 +180,21 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
         if (options.dump.empty()) continue;
         if (const auto done = dump(options, gpu.name, compiled, requests); !done) return done;
     }
-    fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
+    to_stdout("{}", options.json ? as_json(*report) : as_text(*report));
     return {};
 }
 
-Result<void> run_isa(const IsaArguments& options) {
+Result<void> run_isa(const IsaArguments& options, const CLI::App& app) {
     const auto models = models_of(options);
     if (!models) return models.error();
     if (options.open.capture.empty()) {
-        fmt::print("{}", gpu_models_text());
+        const auto listing =
+            check_not_given(app,
+                            {"--gpu", "--without", "--validation", "--memory-budget", "--allow-partial", "--use", "--set",
+                             "--force", "--samples", "--gpu-model", "--frame", "--dump", "--no-run", "--tiles", "--json"},
+                            "without a capture the known GPU models are listed");
+        if (!listing) return listing;
+        to_stdout("{}", gpu_models_text());
         return {};
     }
     if (const auto fine = check_tiles(options, *models); !fine) return fine;
@@ -215,7 +221,7 @@ std::function<Result<void>()> declare_isa(CLI::App& app) {
         ->excludes(no_run)
         ->type_name(output_file);
     app.add_flag("--json", options->json, "one JSON object on stdout");
-    return [options] { return run_isa(*options); };
+    return [options, &app] { return run_isa(*options, app); };
 }
 
 }  // namespace strata

@@ -7,6 +7,7 @@
 
 #include "replay/cli/verb.h"
 #include "replay/isa/compiler.h"
+#include "replay/standard_streams.h"
 
 namespace strata {
 namespace {
@@ -22,7 +23,7 @@ Result<void> compile(const IsaCompileArguments& options) {
     if (!requests) return requests.error();
     const auto compiled = compile_here(*requests, options.device, options.texts ? CompilerTexts::kept : CompilerTexts::left);
     if (!compiled) return compiled.error();
-    std::cout << as_json(*compiled) << std::endl;
+    write_stdout(as_json(*compiled) + "\n");
     return {};
 }
 

@@ -1,6 +1,5 @@
 // strata list: stages with their techniques and parameters, scenarios, features.
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +8,7 @@
 #include "capture_format/nearest_name.h"
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
+#include "replay/json_text.h"
 
 namespace strata {
 namespace {
@@ -34,23 +34,23 @@ std::string_view model_text(ModelKind kind) {
 
 void print(const Technique& technique, const ListArguments& options) {
     if (options.names) {
-        fmt::print("{}\n", technique.name);
+        to_stdout("{}\n", technique.name);
         return;
     }
-    fmt::print("  {:<32}{}. {}\n", technique.name, technique.title, technique.source);
+    to_stdout("  {:<32}{}. {}\n", technique.name, technique.title, technique.source);
     if (options.what.empty()) return;
-    fmt::print("  {:<32}{}\n", "", technique.summary);
-    fmt::print("      model: {}\n", model_text(technique.model_is));
+    to_stdout("  {:<32}{}\n", "", technique.summary);
+    to_stdout("      model: {}\n", model_text(technique.model_is));
     for (const Param& param : technique.params) {
-        if (!param.group.empty()) fmt::print("    {}:\n", param.group);
-        fmt::print("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
+        if (!param.group.empty()) to_stdout("    {}:\n", param.group);
+        to_stdout("      --set {:<18} {} ({})\n", param.name, param.help, range_text(param));
     }
-    for (const std::string_view point : technique.points) fmt::print("      reported also at {}\n", point);
-    for (const Counter& counter : technique.counters) fmt::print("      counter {:<16} {}\n", counter.name, counter.help);
-    for (const DebugView& view : technique.views) fmt::print("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
+    for (const std::string_view point : technique.points) to_stdout("      reported also at {}\n", point);
+    for (const Counter& counter : technique.counters) to_stdout("      counter {:<16} {}\n", counter.name, counter.help);
+    for (const DebugView& view : technique.views) to_stdout("      view {}:{:<12} {}\n", technique.name, view.name, view.help);
     for (const DebugTable& table : technique.tables)
-        fmt::print("      table {}:{:<11} {}\n", technique.name, table.name, table.help);
-    for (const Feature feature : technique.cannot) fmt::print("      cannot do {}\n", name(feature));
+        to_stdout("      table {}:{:<11} {}\n", technique.name, table.name, table.help);
+    for (const Feature feature : technique.cannot) to_stdout("      cannot do {}\n", name(feature));
 }
 
 ordered_json json_of(const Technique& technique) {
@@ -79,11 +79,18 @@ ordered_json json_of(const Technique& technique) {
 }
 
 Result<void> list_scenarios(const ListArguments& options) {
+    if (options.json) {
+        ordered_json json{{"schema", "strata.scenarios"}, {"schema_version", 1}, {"scenarios", ordered_json::array()}};
+        for (const Scenario& scenario : scenarios())
+            json["scenarios"].push_back({{"name", scenario.name}, {"question", scenario.question}});
+        write_stdout(json_text(json));
+        return {};
+    }
     std::size_t width = 0;
     for (const Scenario& scenario : scenarios()) width = std::max(width, scenario.name.size());
     for (const Scenario& scenario : scenarios())
-        if (options.names) fmt::print("{}\n", scenario.name);
-        else fmt::print("  {:<{}}  {}\n", scenario.name, width, scenario.question);
+        if (options.names) to_stdout("{}\n", scenario.name);
+        else to_stdout("  {:<{}}  {}\n", scenario.name, width, scenario.question);
     return {};
 }
 
@@ -99,7 +106,7 @@ Result<void> list(const ListArguments& options) {
             found = true;
             json["techniques"].push_back(json_of(*technique));
             if (options.json) continue;
-            if (!headed && !options.names) fmt::print("{}: {}\n", stage.name, stage.purpose);
+            if (!headed && !options.names) to_stdout("{}: {}\n", stage.name, stage.purpose);
             headed = true;
             print(*technique, options);
         }
@@ -111,7 +118,7 @@ Result<void> list(const ListArguments& options) {
         for (const Technique& technique : techniques()) known.push_back(technique.name);
         return fail(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
     }
-    if (options.json) std::cout << json.dump(2) << "\n";
+    if (options.json) write_stdout(json_text(json));
     return {};
 }
 
@@ -119,10 +126,11 @@ Result<void> list(const ListArguments& options) {
 
 std::function<Result<void>()> declare_list(CLI::App& app) {
     const auto options = std::make_shared<ListArguments>();
-    app.add_option("what,--stage", options->what, "a stage or a technique: then with parameters, counters and views");
-    app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows");
-    app.add_flag("--names", options->names, "names only, one a line");
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+    CLI::Option* what =
+        app.add_option("what,--stage", options->what, "a stage or a technique: then with parameters, counters and views");
+    app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows")->excludes(what);
+    CLI::Option* names = app.add_flag("--names", options->names, "names only, one a line");
+    app.add_flag("--json", options->json, "one JSON object on stdout")->excludes(names);
     return [options] { return list(*options); };
 }
 

@@ -20,6 +20,7 @@ struct ProbeArguments {
     std::size_t frame = 0;
     ProbeOptions probe;
     std::filesystem::path output;
+    bool json = false;
 };
 
 Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
@@ -47,7 +48,7 @@ Result<void> write_files(const std::filesystem::path& stem, const Probe& made) {
     for (const auto& [extension, text] : files) {
         const std::filesystem::path path = stem.string() + extension;
         if (const auto written = write_whole_file(path, text); !written) return written;
-        fmt::print(stderr, "wrote {}\n", path.string());
+        to_stderr("wrote {}\n", path.string());
     }
     return {};
 }
@@ -64,7 +65,7 @@ Result<void> run_probe(const ProbeArguments& options) {
     wanted.axis = options.axis == "linear" ? DepthAxis::linear : DepthAxis::logarithmic;
     const auto made = probe(**session, *request, *at, wanted);
     if (!made) return made.error();
-    fmt::print("{}", as_text(*made));
+    write_stdout(options.json ? as_json(*made) : as_text(*made));
     return write_files(stem_of(options, *at), *made);
 }
 
@@ -87,6 +88,7 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
     app.add_option("--from", options->probe.from, "first depth in metres, default: a little before the first fragment");
     app.add_option("--to", options->probe.to, "last depth in metres, default: a little behind the last fragment");
     app.add_option("-o,--output", options->output, "folder/name of the .json, .csv and .svg; default: capture.f0000.x0.y0");
+    app.add_flag("--json", options->json, "one JSON object on stdout instead of the text");
     return [options] { return run_probe(*options); };
 }
 

@@ -8,6 +8,7 @@
 #include "captures/scenarios.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -24,7 +25,6 @@ Result<void> record(const RecordArguments& options) {
     const auto scenario = find_scenario(options.scenario);
     if (!scenario) return scenario.error();
     ScenarioOptions wanted = options.frames;
-    if (wanted.samples != 1 && wanted.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", wanted.samples);
     wanted.width = (*scenario)->width;
     wanted.height = (*scenario)->height;
     if (!options.size.empty()) {
@@ -39,7 +39,9 @@ Result<void> record(const RecordArguments& options) {
     auto recorder =
         Recorder::create(file->temporary(), fmt::format("scenario {} seed {}", options.scenario, wanted.seed), options.recorder);
     if (!recorder) return recorder.error();
+    const Progress progress = progress_line();
     for (std::uint32_t index = 0; index < wanted.frames; ++index) {
+        show_frame(progress, index, wanted.frames);
         Frame frame = (*scenario)->build(index, wanted);
         if (index == 0)
             if (const auto done = add_thumbnail(*recorder, frame, options.device); !done) return done;
@@ -47,8 +49,8 @@ Result<void> record(const RecordArguments& options) {
     }
     if (const auto done = recorder->finish(); !done) return done;
     if (const auto done = file->commit(); !done) return done;
-    fmt::print(stderr, "recorded {} of {} at {} x {} into {}\n", plural(wanted.frames, "frame"), options.scenario, wanted.width,
-               wanted.height, output.string());
+    to_stderr("recorded {} of {} at {} x {} into {}\n", plural(wanted.frames, "frame"), options.scenario, wanted.width,
+              wanted.height, output.string());
     return {};
 }
 
@@ -60,7 +62,7 @@ std::function<Result<void>()> declare_record(CLI::App& app) {
     app.add_option("-o,--output", options->output, "capture to write; default SCENARIO.strata");
     app.add_option("--frames", options->frames.frames, "how many frames")->check(CLI::Range(1, 100000));
     app.add_option("--size", options->size, "WIDTHxHEIGHT instead of the scenario's own");
-    app.add_option("--samples", options->frames.samples, "samples per pixel: 1 or 4");
+    app.add_option("--samples", options->frames.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
     app.add_option("--seed", options->frames.seed, "of everything random");
     app.add_option("--budget", options->recorder.budget_bytes, "most memory for frames that wait to be written, as 64MiB")
         ->transform(CLI::AsSizeValue(true));

@@ -1,17 +1,24 @@
 // strata replay: every pass of the chosen frames again, headless; EXR, PNG and JSON.
-#include <iostream>
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <memory>
 #include <optional>
 
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/images/image_io.h"
+#include "replay/json_text.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
+#include "replay/session/choice_text.h"
 #include "replay/session/repeat.h"
 
 namespace strata {
@@ -25,8 +32,8 @@ struct ReplayArguments {
     std::string frames, until, eye;
     std::vector<std::string> outputs = {"color", "depth_layers", "display"};
     std::size_t repeat = 1, timed = 0;
-    std::filesystem::path folder = ".", shaders;
-    double tolerance = 0;
+    std::filesystem::path folder, shaders;  ///< without a folder no file is written
+    std::optional<double> tolerance;
     bool json = false, expect = false, no_expect = false, strict = false;
 };
 
@@ -39,29 +46,49 @@ struct Replayed {
     ordered_json json;
 };
 
+/// What was asked for beyond the capture's own choices, as part of a file's name: ".transparency-weighted,weight=w9".
+std::string choice_in_name(const ReplayArguments& options, const Request& request) {
+    std::vector<std::string> words = use_texts(request.choices);
+    for (const auto& more : {set_texts(request.choices), options.choices.force})
+        words.insert(words.end(), more.begin(), more.end());
+    if (options.choices.samples != 0) words.push_back(fmt::format("samples={}", options.choices.samples));
+    for (const std::string& more : {options.eye, options.until})
+        if (!more.empty()) words.push_back(more);
+    if (!options.shaders.empty()) words.push_back("shaders=" + options.shaders.filename().string());
+    if (words.empty()) return {};
+    std::string name = fmt::format(".{}", fmt::join(words, ","));
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return !std::isalnum(c) && !std::strchr("=_-+.,", c); }, '-');
+    constexpr std::size_t longest = 150;  // of the 255 bytes that a file's name may have; the rest is told by its hash
+    if (name.size() <= longest) return name;
+    return fmt::format("{}-{:016x}", name.substr(0, longest), std::hash<std::string>()(name));
+}
+
 /// The picture first: it is what a person waits for.
 Result<void> write_frame(const Request& request, const Replayed& replayed, const ReplayArguments& options) {
+    if (options.folder.empty()) return {};
     const Run& run = replayed.run;
-    const std::string base =
-        (options.folder / fmt::format("{}.f{:04}", options.open.capture.stem().string(), request.variant.frame)).string();
+    const std::string name =
+        fmt::format("{}.f{:04}{}", options.open.capture.stem().string(), request.variant.frame, choice_in_name(options, request));
+    const std::string base = (options.folder / name).string();
     if (const auto display = run.images.find("display"); display != run.images.end()) {
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
-        fmt::print(stderr, "wrote {}.png\n", base);
+        to_stderr("wrote {}.png\n", base);
     }
     if (!run.images.empty()) {
         if (const auto done = write_exr(base + ".exr", run.images, replayed.provenance); !done) return done;
-        fmt::print(stderr, "wrote {}.exr\n", base);
+        to_stderr("wrote {}.exr\n", base);
     }
-    if (const auto done = write_whole_file(base + ".json", replayed.json.dump(2) + "\n"); !done) return done;
-    fmt::print(stderr, "wrote {}.json\n", base);
+    if (const auto done = write_whole_file(base + ".json", json_text(replayed.json)); !done) return done;
+    to_stderr("wrote {}.json\n", base);
     return {};
 }
 
 /// Milliseconds by step, with their spread.
 void print_times(const Run& run) {
     for (const StepRecord& step : run.steps)
-        fmt::print("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, text_of(step.scope), step.name);
-    fmt::print("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
+        to_stdout("  {:>9.3f} ms +- {:<7.3f} {:<36} {}\n", step.ms->median, step.ms->mad, text_of(step.scope), step.name);
+    to_stdout("  {:>9.3f} ms +- {:<7.3f} frame\n", run.frame_ms->median, run.frame_ms->mad);
 }
 
 /// One run; or with --time as many as asked for after a warm-up, everything executed every time.
@@ -77,10 +104,19 @@ Result<Run> run_once(Session& session, const Request& request, const ReplayArgum
     return run;
 }
 
+/// Whether a comparison with what the capture expects must take place.
+bool demands_expectations(const ReplayArguments& options) { return options.expect || options.tolerance; }
+
+Result<void> check_options(const ReplayArguments& options, const CLI::App& app) {
+    if (!demands_expectations(options)) return {};
+    return check_not_given(app, {"--until", "--eye", "--shaders", "--no-expect"},
+                           "--expect and --tolerance compare whole frames, as they were recorded, with what is expected");
+}
+
 bool expects(const Session& session, const ReplayArguments& options) {
     const bool as_recorded = options.eye.empty() && options.shaders.empty();
     return as_recorded && !options.no_expect && options.until.empty() &&
-           (options.expect || !session.capture()->expectations().empty());
+           (demands_expectations(options) || !session.capture()->expectations().empty());
 }
 
 /// Compared with what is `known` to be expected, where that is not null.
@@ -89,14 +125,13 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
     auto run = run_once(session, request, options);
     if (!run) return run.error();
     Replayed replayed{.run = *std::move(run)};
-    for (const std::string& note : replayed.run.notes) fmt::print(stderr, "strata: {}\n", note);
+    for (const std::string& note : replayed.run.notes) to_stderr("strata: {}\n", note);
     if (const auto done = check_repeats(session, request, replayed.run, options.repeat); !done) return done.error();
     if (options.repeat > 1)
-        fmt::print(stderr, "frame {}: {} repeats, every image of every act bit for bit the same\n", request.variant.frame,
-                   options.repeat);
+        to_stderr("frame {}: {} repeats, every image of every act bit for bit the same\n", request.variant.frame, options.repeat);
     if (known) {
         replayed.got = expectation_of(session, request, replayed.run);
-        auto verdict = check_expectations(*session.capture(), *known, replayed.run, *replayed.got, options.tolerance);
+        auto verdict = check_expectations(*session.capture(), *known, replayed.run, *replayed.got, options.tolerance.value_or(0));
         if (!verdict) return verdict.error();
         replayed.verdict = *std::move(verdict);
     }
@@ -123,13 +158,13 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
     const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
     switch (verdict.agreement) {
         case Agreement::exact:
-            fmt::print(stderr, "frame {}: every image of every act is bit for bit as expected{}\n", request.variant.frame, where);
+            to_stderr("frame {}: every image of every act is bit for bit as expected{}\n", request.variant.frame, where);
             return {};
         case Agreement::within_tolerance:
             for (const ImageVerdict& image : verdict.images)
                 if (image.agreement == Agreement::within_tolerance)
-                    fmt::print(stderr, "frame {}: within tolerance of what is expected{}: {}\n", request.variant.frame, where,
-                               sentence(image));
+                    to_stderr("frame {}: within tolerance of what is expected{}: {}\n", request.variant.frame, where,
+                              sentence(image));
             return {};
         case Agreement::diverges:
             return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first act that diverges is {}",
@@ -160,16 +195,16 @@ std::string counters_of(const Run& run, std::string_view choice) {
 
 /// A line per stage, in the order of a frame, and what its technique counted below it.
 void print_summary(const Request& request, const Run& run) {
-    fmt::print("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.variant.frame,
-               plural(run.steps.size(), "step"), double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
+    to_stdout("frame {}: {}, {:.2f} MiB of images, {:.2f} MiB of buffers\n", request.variant.frame,
+              plural(run.steps.size(), "step"), double(run.image_bytes) / (1 << 20), double(run.buffer_bytes) / (1 << 20));
     for (const StageInfo& stage : stages()) {
         for (const SkippedStage& skipped : run.skipped)
-            if (skipped.stage == stage.stage) fmt::print("  {:<14} left out: {}\n", stage.name, skipped.reason);
+            if (skipped.stage == stage.stage) to_stdout("  {:<14} left out: {}\n", stage.name, skipped.reason);
         const auto choice = run.choices.find(std::string(stage.name));
         if (choice == run.choices.end()) continue;
-        fmt::print("  {:<14} {}\n", stage.name, choice->second);
+        to_stdout("  {:<14} {}\n", stage.name, choice->second);
         if (const std::string counters = counters_of(run, choice->second); !counters.empty())
-            fmt::print("  {:<14}   {}\n", "", counters);
+            to_stdout("  {:<14}   {}\n", "", counters);
     }
 }
 
@@ -187,7 +222,8 @@ Result<void> replay(const ReplayArguments& options) {
         if (const auto reloaded = (*session)->reload_shaders(options.shaders); !reloaded) return reloaded.error();
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
-    if (const auto made = make_folder(options.folder); !made) return made;
+    if (!options.folder.empty())
+        if (const auto made = make_folder(options.folder); !made) return made;
     std::optional<std::vector<Expectation>> known;
     if (expects(**session, options)) {
         auto parsed = expectations_of(*(*session)->capture());
@@ -200,8 +236,10 @@ Result<void> replay(const ReplayArguments& options) {
     request->acts = acts && options.until.empty() ? Acts::brought_back : Acts::left;
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
-    for (const std::size_t frame : *frames) {
-        request->variant.frame = frame;
+    const Progress progress = progress_line();
+    for (std::size_t i = 0; i < frames->size(); ++i) {
+        show_frame(progress, i, frames->size());
+        request->variant.frame = (*frames)[i];
         auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
         if (!replayed) return replayed.error();
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;
@@ -212,7 +250,7 @@ Result<void> replay(const ReplayArguments& options) {
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
     }
-    if (options.json) std::cout << all.dump(2) << "\n";
+    if (options.json) write_stdout(json_text(all));
     return judged;
 }
 
@@ -232,24 +270,24 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
         ->excludes(until);
     app.add_option("--time", options->timed, "time every step this many times after a warm-up: median and deviation")
         ->check(CLI::Range(1, 10000));
-    app.add_option("-o,--output", options->folder, "folder for the files, made when missing");
+    app.add_option(
+        "-o,--output", options->folder,
+        "folder for .exr, .png and .json of each frame, named for what --use and --set choose; without it nothing is written");
     app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_option("--tolerance", options->tolerance, "largest relative rmse to what is expected, where its images are kept")
+    app.add_option("--tolerance", options->tolerance,
+                   "largest relative rmse to what is expected, where its images are kept; fail (6) where nothing is")
         ->check(CLI::NonNegativeNumber);
-    auto* eye =
-        app.add_option("--eye", options->eye,
-                       "look from elsewhere: dolly, truck, pedestal (metres ahead, right, up), pan, tilt, roll (radians), "
-                       "like pan=0.5,dolly=1");
-    auto* shaders = app.add_option("--shaders", options->shaders,
-                                   "a folder whose passes/... hold shaders to use in place of those built in; needs "
-                                   "glslangValidator");
+    app.add_option("--eye", options->eye,
+                   "look from elsewhere: dolly, truck, pedestal (metres ahead, right, up), pan, tilt, roll (radians), "
+                   "like pan=0.5,dolly=1");
+    app.add_option("--shaders", options->shaders,
+                   "a folder whose passes/... hold shaders to use in place of those built in; needs "
+                   "glslangValidator");
     app.add_flag("--strict", options->strict,
                  "fail (1) when a technique cannot do what the frame has; without it that is a warning");
-    auto* expect = app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame")
-                       ->excludes(eye)
-                       ->excludes(shaders);
-    app.add_flag("--no-expect", options->no_expect, "do not compare with what the capture expects")->excludes(expect);
-    return [options] { return replay(*options); };
+    app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame");
+    app.add_flag("--no-expect", options->no_expect, "do not compare with what the capture expects");
+    return [options, &app] { return check_options(*options, app).and_then([&] { return replay(*options); }); };
 }
 
 }  // namespace strata

@@ -1,13 +1,13 @@
 // strata report: error against time for every technique of a stage.
-#include <unistd.h>
-
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
+#include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
 
@@ -37,16 +37,6 @@ Result<Sweep> parse_sweep(const std::string& text) {
         begin = end + 1;
     }
     return sweep;
-}
-
-/// One line that rewrites itself, on a terminal only.
-void show_progress(std::string_view what, double done) {
-    if (!isatty(STDERR_FILENO)) return;
-    constexpr int cells = 30;
-    const int full = static_cast<int>(done * cells);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {}", "", full, "", cells - full, what);
-    if (done >= 1) fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
 }
 
 std::string written(const ReportArguments& options, std::span<const Report> made) {
@@ -80,33 +70,39 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
 
 Result<void> write(const ReportArguments& options, const std::string& text) {
     if (!options.output.empty()) return write_whole_file(options.output, text);
-    fmt::print("{}", text);
+    to_stdout("{}", text);
     return {};
 }
 
 Result<void> report_hard_cases(const ReportArguments& options) {
-    if (options.csv) return fail(Fault::usage, "--hard-cases writes text or --json");
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
     if (!options.points) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
-    return measure_hard_cases(options.open.device, *rows, show_progress).and_then([&](auto& made) {
+    return measure_hard_cases(options.open.device, *rows, progress_line()).and_then([&](auto& made) {
         return write(options, options.json ? as_json(made) : as_text(made));
     });
 }
 
-Result<void> report(const ReportArguments& options) {
-    if (options.hard_cases) return report_hard_cases(options);
+Result<void> report(const ReportArguments& options, const CLI::App& app) {
+    if (options.hard_cases) {
+        const auto fits = check_not_given(app,
+                                          {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage",
+                                           "--sweep", "--frame", "--repeats", "--flicker"},
+                                          "--hard-cases brings frames and settings of its own and writes text or --json");
+        return fits ? report_hard_cases(options) : fits;
+    }
     if (options.captures.empty())
         return fail(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
+    const Progress progress = progress_line();
     std::vector<Report> made;
     for (const std::filesystem::path& capture : options.captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
-        auto report = make_report(**session, *wanted, show_progress);
+        auto report = make_report(**session, *wanted, progress);
         if (!report) return report.error();
         report->capture_name = capture.filename().string();
         made.push_back(*std::move(report));
@@ -146,10 +142,10 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "metres it walks in all; default a twentieth of the distance to the middle of what is transparent")
         ->needs("--flicker");
     app.add_option("--pan", options->pan, "degrees it turns to the right in all, default 5")->needs("--flicker");
-    app.add_flag("--json", options->json, "one JSON object");
-    app.add_flag("--csv", options->csv, "comma-separated values");
+    CLI::Option* json = app.add_flag("--json", options->json, "one JSON object");
+    app.add_flag("--csv", options->csv, "comma-separated values")->excludes(json);
     app.add_option("-o,--output", options->output, "write to a file instead of stdout")->type_name(output_file);
-    return [options] { return report(*options); };
+    return [options, &app] { return report(*options, app); };
 }
 
 }  // namespace strata

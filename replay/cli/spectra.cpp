@@ -10,8 +10,10 @@
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -69,6 +71,14 @@ std::string cost_of(const SpectraArguments& options) {
     return options.gpu_model.empty() ? "weights" : "isa";
 }
 
+/// Options of another source of costs than the one that is used.
+Result<void> check_options(const SpectraArguments& options, const CLI::App& app) {
+    const std::string cost = cost_of(options);
+    const auto why = fmt::format("--cost is {}", cost);
+    const auto models = cost == "isa" ? Result<void>() : check_not_given(app, {"--gpu-model"}, why);
+    return !models || cost == "measured" ? models : check_not_given(app, {"--repeats"}, why);
+}
+
 Result<const GpuModel*> gpu_of(const SpectraArguments& options) {
     if (options.gpu_model.empty()) return nullptr;
     const auto found = find_gpu_model(options.gpu_model);
@@ -93,7 +103,7 @@ Result<void> spectra(const SpectraArguments& options) {
                           .modes = modes_that_matter(*frames),
                           .open = [&](const std::string& capture) { return open_one(options, capture); },
                           .repeats = options.repeats,
-                          .progress = show_current,
+                          .progress = progress_line(),
                           .gpu = *gpu};
     if (*gpu)
         question.compile = [&](const std::vector<PipelineRequest>& pipelines) {
@@ -105,7 +115,7 @@ Result<void> spectra(const SpectraArguments& options) {
     if (!report) return report.error();
     report->technique = *technique;
     report->cost_source = *gpu ? fmt::format("isa, {}", (*gpu)->name) : cost_of(options);
-    fmt::print("{}", options.json ? as_json(*report) : as_text(*report));
+    to_stdout("{}", options.json ? as_json(*report) : as_text(*report));
     return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*report));
 }
 
@@ -138,7 +148,7 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
         ->check(CLI::Range(1, 1000));
     app.add_flag("--json", options->json, "one JSON object on stdout");
     app.add_option("-o,--output", options->output, "write the JSON to a file, too")->type_name(output_file);
-    return [options] { return spectra(*options); };
+    return [options, &app] { return check_options(*options, app).and_then([&] { return spectra(*options); }); };
 }
 
 }  // namespace strata

@@ -7,41 +7,55 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/file.h"
 #include "capture_format/container/kept_files.h"
+#include "capture_format/container/whole_file.h"
+#include "replay/cli/given_options.h"
 #include "replay/gpu/device.h"
 #include "replay/revision.h"
+#include "replay/standard_streams.h"
 
 namespace strata {
 namespace {
 
 constexpr const char* exit_codes =
     "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
-    "4 the device lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 130 interrupted";
-
-int report_error(const Error& error) {
-    fmt::print(stderr, "strata: {}\n", error.sentence);
-    return static_cast<int>(error.fault);
-}
+    "4 the device lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 8 a mistake of strata,\n"
+    "130 interrupted";
 
 Result<void> list_gpus() {
     const auto devices = list_devices();
     if (!devices) return devices.error();
     for (const DeviceInfo& device : *devices)
-        fmt::print("{}  {}  ({}, {} {}){}\n", device.index, device.name, device.kind, device.driver, device.driver_version,
-                   device.lacks.empty() ? "" : "  cannot replay: lacks " + device.lacks);
+        to_stdout("{}  {}  ({}, {} {}){}\n", device.index, device.name, device.kind, device.driver, device.driver_version,
+                  device.lacks.empty() ? "" : "  cannot replay: lacks " + device.lacks);
     return {};
 }
 
-/// A file may need more memory than there is and still be within every limit: 4 GiB for a frame. What is printed may be more than
-/// fits the disk it goes to.
-Result<void> within_this_machine(const std::function<Result<void>()>& verb) {
+/// What is thrown as what is returned. A file may need more memory than there is and still be within every limit: 4 GiB for a
+/// frame.
+Result<void> without_exceptions(const std::function<Result<void>()>& work) {
     try {
-        return verb();
+        return work();
     } catch (const std::bad_alloc&) {
         return fail(Fault::device_lacks, "this machine has not the memory that is needed");
     } catch (const std::system_error& refused) {
+        if (refused.code() == std::errc::resource_unavailable_try_again)
+            return fail(Fault::device_lacks, "this machine starts no further thread: {}", refused.what());
         return fail(Fault::usage, "{}", refused.what());
+    } catch (const std::exception& mistake) {
+        // oneTBB 2021.8 throws no system_error.
+        if (std::string_view(mistake.what()).starts_with("pthread_create"))
+            return fail(Fault::device_lacks, "this machine starts no further thread: {}", mistake.what());
+        return fail(Fault::internal, "this is a mistake of strata; please report it with the command: {}", mistake.what());
     }
+}
+
+/// A sentence quotes what is wrong, which may be a word of megabytes.
+std::string shortened(std::string sentence) {
+    constexpr std::size_t longest = 16384, end = 1024;  // what compilers say of shaders is some thousands
+    if (sentence.size() > longest) sentence.replace(longest - end, sentence.size() - longest, " ... ");
+    return sentence;
 }
 
 /// The files that options of this type name.
@@ -52,17 +66,39 @@ std::vector<std::filesystem::path> files_of(const CLI::App& verb, const std::str
     return files;
 }
 
-/// From now on no input of the verb is replaced. Outputs whose names are known are refused before any work is done.
+/// From now on no input of the verb is replaced. Inputs that are no files and outputs whose names are known are refused before
+/// any work is done.
 Result<void> keep_inputs(const CLI::App& verb) {
-    keep_files(files_of(verb, input_file));
+    const std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
+    for (const auto& files : {inputs, files_of(verb, extended_file)})
+        for (const std::filesystem::path& input : files)
+            if (const auto fine = check_is_file(input); !fine) return fine;
+    keep_files(inputs);
     for (const std::filesystem::path& output : files_of(verb, output_file))
         if (const auto free = check_not_kept(output); !free) return free;
     return {};
 }
 
-}  // namespace
+/// Whether a verb is to run: help and versions are printed here.
+Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
+    if (const auto known = check_names(app, arguments); !known) return known.error();
+    try {
+        std::ranges::reverse(arguments);  // CLI11 takes a vector from its back
+        app.parse(arguments);
+        return true;
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out, err;
+        const int code = app.exit(error, out, err);
+        write_stdout(out.str());
+        if (code != 0) {
+            const auto verb = app.get_subcommands();
+            return fail(Fault::usage, "{}; see strata help{}", error.what(), verb.empty() ? "" : " " + verb.front()->get_name());
+        }
+        return false;
+    }
+}
 
-int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
+Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs) {
     CLI::App app("Records the frames of a renderer once and replays every pass of them with any algorithm that does the job.",
                  "strata");
     app.footer(exit_codes);
@@ -79,31 +115,33 @@ int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
     for (const Verb& verb : verbs) {
         CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
         runs.emplace_back(sub, verb.declare(*sub));
+        refuse_what_is_no_number(*sub);
     }
-    try {
-        std::ranges::reverse(arguments);  // CLI11 takes a vector from its back
-        app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
-        const int code = app.exit(error, std::cout, std::cerr);
-        return code == 0 ? 0 : static_cast<int>(Fault::usage);
+    const auto goes_on = parse(app, std::move(arguments));
+    if (!goes_on) return goes_on.error();
+    if (!*goes_on) return {};
+    if (gpus) return list_gpus();
+    if (help->parsed() && !help_about.empty())
+        return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
+    for (const auto& [sub, verb] : runs)
+        if (sub->parsed()) return keep_inputs(*sub).and_then(verb);
+    write_stdout(app.help());
+    return {};
+}
+
+}  // namespace
+
+int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
+    const Result<void> done = without_exceptions(
+        [&] { return leave_nothing_half_written_when_stopped().and_then([&] { return run(std::move(arguments), verbs); }); });
+    const Result<void> written = finish_stdout();
+    int code = 0;
+    for (const Result<void>* each : {&written, &done}) {
+        if (*each) continue;
+        to_stderr("strata: {}\n", shortened(each->error().sentence));
+        code = static_cast<int>(each->error().fault);
     }
-    Result<void> done;
-    if (gpus) {
-        done = list_gpus();
-    } else if (help->parsed() && !help_about.empty()) {
-        return run_tool({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
-    } else if (help->parsed()) {
-        return run_tool({"--help"}, verbs);
-    } else if (app.get_subcommands().empty()) {
-        fmt::print("{}", app.help());
-    } else {
-        for (const auto& [sub, verb] : runs)
-            if (sub->parsed()) {
-                done = keep_inputs(*sub);
-                if (done) done = within_this_machine(verb);
-            }
-    }
-    return done ? 0 : report_error(done.error());
+    return code;
 }
 
 }  // namespace strata

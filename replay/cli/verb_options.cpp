@@ -1,7 +1,5 @@
 #include "replay/cli/verb_options.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 
@@ -40,7 +38,7 @@ Texture thumbnail_of(const HostImage& display) {
 }
 
 void say_what_is_left_out(const Capture& capture) {
-    for (const std::string& sentence : capture.summary().left_out) fmt::print(stderr, "strata: {}\n", sentence);
+    for (const std::string& sentence : capture.summary().left_out) to_stderr("strata: {}\n", sentence);
 }
 
 /// The frame at an extent that fits a thumbnail; an edge shorter than the divisor stays one pixel.
@@ -56,13 +54,16 @@ Frame small(Frame frame) {
 }  // namespace
 
 void add_options(CLI::App& app, DeviceChoice& device) {
-    app.add_option("--gpu", device.gpu, "device by index or part of its name; see strata --list-gpus");
+    constexpr const char* group = "Device";
+    app.add_option("--gpu", device.gpu, "device by index or part of its name; see strata --list-gpus")->group(group);
     app.add_option("--without", device.without, "treat the device as lacking this Vulkan feature or capability; repeatable")
-        ->allow_extra_args(false);
-    app.add_flag("--validation", device.validation, "validation layer on; any message is an error");
+        ->allow_extra_args(false)
+        ->group(group);
+    app.add_flag("--validation", device.validation, "validation layer on; any message is an error")->group(group);
     app.add_option("--memory-budget", device.memory_budget,
                    "most memory to take from the device, like 256MiB; what needs more is refused (4)")
-        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false))
+        ->group(group);
 }
 
 void add_options(CLI::App& app, OpenOptions& options) {
@@ -89,7 +90,7 @@ void add_options(CLI::App& app, ChoiceOptions& options) {
     app.add_option("--use", options.uses, "stage/technique; may be repeated")->allow_extra_args(false);
     app.add_option("--set", options.sets, "key=value or stage/technique:key=value; may be repeated")->allow_extra_args(false);
     app.add_option("--force", options.force, "feature or 'all': switch it on though the frame lacks it")->allow_extra_args(false);
-    app.add_option("--samples", options.samples, "samples per pixel instead of the recorded ones: 1 or 4");
+    app.add_option("--samples", options.samples, "samples per pixel instead of the recorded ones")->check(CLI::IsMember({1, 4}));
 }
 
 Result<Request> request_of(const ChoiceOptions& options) {
@@ -153,10 +154,6 @@ std::string command_line(const CLI::App& verb) {
     return line;
 }
 
-void show_current(std::string_view what, double done) {
-    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", done < 1 ? what : "");
-}
-
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text) {
     const std::size_t cross = text.find('x');
     std::pair<std::uint32_t, std::uint32_t> extent;
@@ -171,8 +168,9 @@ Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceC
     // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
     auto session = Session::open(std::vector<Frame>{small(frame)}, device);
     const auto run = session ? (*session)->run({.variant = {.samples = 1}}) : Result<Run>(session.error());
+    if (!run && run.error().fault == Fault::usage) return run.error();  // no such device
     if (!run) {
-        fmt::print(stderr, "strata: no thumbnail: {}\n", run.error().sentence);
+        to_stderr("strata: no thumbnail: {}\n", run.error().sentence);
         return {};
     }
     const auto display = run->images.find("display");

@@ -10,6 +10,7 @@
 #include "replay/cli/verb.h"
 #include "replay/session/session.h"
 #include "replay/shell_word.h"
+#include "replay/standard_streams.h"
 
 namespace strata {
 
@@ -40,8 +41,6 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
 Result<void> make_folder(const std::filesystem::path&);
 /// What was typed, as a line for a shell: a verb with its options in the order of the help.
 std::string command_line(const CLI::App& verb);
-/// A Progress: what is being done, on one line of stderr that rewrites itself; on a terminal only.
-void show_current(std::string_view what, double done);
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 

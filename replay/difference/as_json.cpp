@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/difference/comparison.h"
+#include "replay/json_text.h"
 
 namespace strata {
 namespace {
@@ -104,7 +105,7 @@ std::string as_json(const Comparison& comparison) {
                       {"rerun", comparison.rerun},
                       {"frames", ordered_json::array()}};
     for (const FrameComparison& frame : comparison.frames) json["frames"].push_back(json_of(frame, comparison.limits.flip));
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata

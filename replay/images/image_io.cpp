@@ -24,6 +24,7 @@
 #include <stb/stb_image.h>
 #include <xxhash.h>
 
+#include "capture_format/clean_text.h"
 #include "capture_format/container/whole_file.h"
 #include "capture_format/export/png.h"
 #include "capture_format/srgb.h"
@@ -169,7 +170,8 @@ std::pair<std::string, std::optional<std::uint32_t>> split_layer(const std::stri
 }
 
 /// Appends the layer, or puts the whole image in its place.
-Result<void> add_part(NamedImages& images, const std::string& part, HostImage read) {
+Result<void> add_part(NamedImages& images, const std::string& in_file, HostImage read) {
+    const std::string part = clean_text(in_file);
     const auto& [name, layer] = split_layer(part);
     const auto known = images.find(name);
     const std::uint32_t expected = known == images.end() ? 0 : known->second.shape.layers;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "replay/isa/isa_report.h"
+#include "replay/json_text.h"
 
 namespace strata {
 namespace {
@@ -105,7 +106,7 @@ std::string as_json(const IsaReport& report) {
         row["notes"] = gpu.notes;
         if (gpu.tiles) row["tiles"] = json_of(*gpu.tiles);
     }
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata

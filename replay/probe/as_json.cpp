@@ -76,7 +76,7 @@ std::string as_json(const Probe& probe) {
     json["curves"] = ordered_json::array();
     for (const ProbeCurve* curve : best_first(probe)) json["curves"].push_back(curve_json(*curve));
     // What is no number is null: JSON has no other way to say it.
-    return json.dump() + '\n';
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace strata

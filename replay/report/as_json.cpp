@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "replay/json_text.h"
 #include "replay/report/json_parts.h"
 #include "replay/report/pooled.h"
 
@@ -101,7 +102,7 @@ ordered_json json_of(const Report& report) {
 
 }  // namespace
 
-std::string as_json(const Report& report) { return json_of(report).dump(2) + "\n"; }
+std::string as_json(const Report& report) { return json_text(json_of(report)); }
 
 std::string as_json(std::span<const Report> reports, const Pool& pool) {
     ordered_json json{{"schema", "strata.reports"}, {"schema_version", 1}, {"stage", name(pool.stage)}};
@@ -113,7 +114,7 @@ std::string as_json(std::span<const Report> reports, const Pool& pool) {
                                                {"rows", ordered_json::array()}};
     for (const PooledRow& row : pool.rows) together["rows"].push_back(json_of(row));
     together["best_within"] = json_of_best(pool.rows, standings(pool), pool.time_unit);
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata

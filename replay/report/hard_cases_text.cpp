@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "replay/json_text.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/table.h"
 
@@ -83,7 +84,7 @@ std::string as_json(const HardCaseReport& report) {
         for (std::size_t c = 0; c < row.outcomes.size(); ++c)
             json["rows"].back()["cases"].push_back(json_of(hard_cases()[c], row.outcomes[c]));
     }
-    return json.dump(2) + '\n';
+    return json_text(json);
 }
 
 }  // namespace strata

@@ -2,8 +2,31 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "capture_format/nearest_name.h"
+#include "passes/registry.h"
+
 namespace strata {
 namespace {
+
+/// A technique as a user names it: with its stage, or without where no other stage has one of that name.
+Result<const Technique*> technique_of_word(std::string_view word) {
+    if (word.find('/') != word.npos) return find_technique(word);
+    std::vector<const Technique*> found;
+    std::vector<std::string_view> names, known;
+    for (const Technique& technique : techniques()) {
+        const std::string_view short_name = technique.name.substr(technique.name.find('/') + 1);
+        known.insert(known.end(), {technique.name, short_name});
+        if (short_name != word) continue;
+        found.push_back(&technique);
+        names.push_back(technique.name);
+    }
+    if (found.empty()) return fail(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
+    if (found.size() > 1)
+        return fail(Fault::usage, "{} stages have a technique {}: choose {}", found.size(), word, fmt::join(names, " or "));
+    return found.front();
+}
 
 /// "key=value" or "stage/technique:key=value".
 Result<SettingChange> parse_set(std::string_view set) {
@@ -13,8 +36,8 @@ Result<SettingChange> parse_set(std::string_view set) {
     const std::size_t colon = place.find(':');
     SettingChange change{nullptr, std::string(place.substr(colon == place.npos ? 0 : colon + 1)), std::string(value)};
     if (colon == place.npos) return change;
-    const auto technique = find_technique(place.substr(0, colon));
-    if (!technique) return fail(Fault::usage, "no chosen technique has a parameter '{}'", change.key);
+    const auto technique = technique_of_word(place.substr(0, colon));
+    if (!technique) return technique.error();
     change.technique = *technique;
     Settings settings((*technique)->params);
     // A value that the technique refuses stays text: choose() says what is wrong with it.
@@ -36,8 +59,11 @@ std::string text_of(const SettingChange& change) {
 Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span<const std::string> sets) {
     ChoiceChanges changes;
     for (const std::string& use : uses) {
-        const auto technique = find_technique(use);
+        const auto technique = technique_of_word(use);
         if (!technique) return technique.error();
+        const Technique* earlier = changes.techniques[static_cast<std::size_t>((*technique)->stage)];
+        if (earlier)
+            return fail(Fault::usage, "--use names two techniques of one stage: {} and {}", earlier->name, (*technique)->name);
         changes.use(**technique);
     }
     for (const std::string& set : sets) {

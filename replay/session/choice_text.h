@@ -10,8 +10,9 @@
 
 namespace strata {
 
-/// uses: "stage/technique"; sets: "key=value" for every chosen technique that has the key, or "stage/technique:key=value".
-/// Fails for a technique that does not exist. Whether the frame has the keys and they take the values is known to choose().
+/// uses: "stage/technique", at most one of a stage, or "technique" where one stage alone has it; sets: "key=value" for every
+/// chosen technique that has the key, or "stage/technique:key=value". Fails for a technique that does not exist. Whether the
+/// frame has the keys and they take the values is known to choose().
 Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span<const std::string> sets);
 
 /// "key=value", of this technique.

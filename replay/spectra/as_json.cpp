@@ -1,6 +1,7 @@
 // Feature spectra and their modes as JSON, for tools that build shaders.
 #include <nlohmann/json.hpp>
 
+#include "replay/json_text.h"
 #include "replay/spectra/spectra.h"
 
 namespace strata {
@@ -69,7 +70,7 @@ std::string as_json(const SpectraReport& report) {
     std::vector<std::uint32_t> modes;
     for (const lighting::Mode& mode : report.found.modes) modes.push_back(mode.features);
     for (const ModeSetting& setting : settings_of(*report.technique, modes)) json["settings"].push_back(setting.text());
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata

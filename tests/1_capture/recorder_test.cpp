@@ -52,6 +52,17 @@ TEST(Recorder, WhatWasRecordedIsWhatIsReadBitForBit) {
     }
 }
 
+TEST(Recorder, NamesAndNotesAreReadAsCleanText) {
+    Frame frame = triangle_frame();
+    frame.meshes.front().name = "\x1b[31mred\xff";
+    const TemporaryFile file;
+    auto recorder = Recorder::create(file.path(), "\x1b]0;mine\x07");
+    ASSERT_TRUE(recorder && recorder->record(frame) && recorder->finish());
+    const auto capture = Capture::open(file.path());
+    EXPECT_EQ(capture->frame(0)->meshes.front().name, "\xef\xbf\xbd[31mred\xef\xbf\xbd");
+    EXPECT_EQ(capture->summary().notes, "\xef\xbf\xbd]0;mine\xef\xbf\xbd");
+}
+
 TEST(Recorder, EveryFieldSurvivesEncodingWhateverItsBits) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         Frame frame;

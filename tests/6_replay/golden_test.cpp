@@ -129,7 +129,7 @@ TEST_P(Golden, TheWholeFrameIsAsAccepted) {
     must(write_png(std::filesystem::path(actual).replace_extension(".png"), got.at("display")));
     FAIL() << problem << "\nlook at " << actual << " and the .png beside it; if that is right, accept it with\n  "
            << command_that_accepts() << "\nreproduce: strata record " << frame.scenario << " --samples " << frame.samples
-           << " && strata replay " << frame.scenario << ".strata";
+           << " && strata replay " << frame.scenario << ".strata -o out";
 }
 
 INSTANTIATE_TEST_SUITE_P(WholeFrames, Golden, testing::ValuesIn(whole_frames),

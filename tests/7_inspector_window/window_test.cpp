@@ -45,7 +45,7 @@ public:
     /// The folder of files that a replay of the line writes; each line is replayed once.
     std::filesystem::path replayed(const std::string& command);
     std::filesystem::path headless_file(const std::string& command, const char* extension) {
-        return replayed(command) / fmt::format("{}.f0000.{}", shown, extension);
+        return only_file(replayed(command), fmt::format(".{}", extension));
     }
     HostImage headless_picture(const std::string& command) { return must(read_png(headless_file(command, "png"))); }
 

@@ -96,6 +96,16 @@ TEST_P(BadCapture, WithASectionOfTheFutureIsReadAndTheSectionNamed) {
     EXPECT_THAT(read.err, testing::AllOf(HasSubstr("(unknown) at offset"), HasSubstr("type 77 in version 3")));
 }
 
+TEST_P(BadCapture, WhoseTextIsNoUtf8OrCommandsATerminalIsShownWithoutThat) {
+    write_file(folder() / GetParam().file(), capture_with_hostile_text());
+    for (const std::string more : {"", " --json"}) {
+        const Finished read = strata(GetParam().command() + more);
+        if (read.code == 2 && !more.empty()) continue;  // a verb without --json
+        EXPECT_EQ(read.code, 0) << read.err;
+        EXPECT_EQ((read.out + read.err).find_first_of("\x1b\x07\x9b\xff"), std::string::npos) << read.out << read.err;
+    }
+}
+
 TEST_P(BadCapture, AFrameThatDoesNotExistIsAUsageError) {
     write_file(folder() / GetParam().file(), sound_capture());
     for (const char* option :

@@ -168,7 +168,18 @@ TEST(Expect, ACaptureWithoutExpectationsReplaysUnlessTheyAreDemanded) {
     record_panes();
     EXPECT_EQ(strata("replay panes.strata").code, 0);
     EXPECT_EQ(strata("replay panes.strata --expect").code, 6);
+    EXPECT_EQ(strata("replay panes.strata --tolerance 1").code, 6);
     EXPECT_EQ(strata("replay panes.strata --expect --no-expect").code, 2);
+}
+
+TEST(Expect, ExpectationsThatWereCutOffAreMissing) {
+    record_panes();
+    const auto recorded = std::filesystem::file_size(folder() / "panes.strata");
+    ASSERT_EQ(strata("accept panes.strata").code, 0);
+    std::filesystem::resize_file(folder() / "panes.strata", recorded + 100);  // within the expectation, which stands behind
+    const Finished cut = strata("replay panes.strata --allow-partial --tolerance 1");
+    EXPECT_EQ(cut.code, 6);
+    EXPECT_THAT(cut.err, HasSubstr("what follows is left out"));
 }
 
 TEST(Expect, AnExpectationThatIsNoneIsExitThree) {

@@ -23,9 +23,14 @@ constexpr FileVerb table[] = {
     {"import_deep", "import --deep", "-o made.strata", ".exr", false},
 };
 
+constexpr const char* names[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
+                                 "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
+
 }  // namespace
 
 std::span<const FileVerb> file_verbs() { return table; }
+
+std::span<const char* const> verb_names() { return names; }
 
 std::vector<FileVerb> capture_verbs() {
     std::vector<FileVerb> found;

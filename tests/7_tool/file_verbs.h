@@ -23,6 +23,8 @@ struct FileVerb {
 inline void PrintTo(const FileVerb& verb, std::ostream* out) { *out << verb.command(); }
 
 std::span<const FileVerb> file_verbs();
+/// Every verb of the help.
+std::span<const char* const> verb_names();
 /// Those that read captures.
 std::vector<FileVerb> capture_verbs();
 

@@ -151,9 +151,11 @@ std::vector<ForgedCapture> forged_captures() {
     return forged;
 }
 
-Bytes sound_capture() {
+namespace {
+
+Bytes small_capture(const std::string& notes, const std::function<void(Frame&)>& change) {
     const TemporaryFile file("sound.strata");
-    auto recorder = Recorder::create(file.path(), "three panes");
+    auto recorder = Recorder::create(file.path(), notes);
     const auto scenario = find_scenario("three_panes");
     ScenarioOptions options{.frames = 4};
     options.width = 16;
@@ -162,10 +164,28 @@ Bytes sound_capture() {
         Frame frame = (*scenario)->build(i, options);
         frame.materials[frame.draws.front().material].lighting_model = LightingModel::lambert;  // the wall behind the panes
         frame.lights.push_back({.position = frame.view.origin, .range = 100});
+        change(frame);
         EXPECT_TRUE(recorder->record(frame));
     }
     EXPECT_TRUE(recorder->finish());
     return read_file(file.path());
+}
+
+}  // namespace
+
+Bytes sound_capture() {
+    return small_capture("three panes", [](Frame&) {});
+}
+
+Bytes capture_with_hostile_text() {
+    return small_capture("\x1b]0;mine\x07 \xff", [](Frame& frame) {
+        for (Mesh& mesh : frame.meshes) mesh.name = "\x1b[31mmesh\xc3";
+        for (Material& material : frame.materials)
+            material.name =
+                "material\x9b"
+                "2J\xe2\x82";
+        frame.recorded_with.push_back({.stage = "\x1b[2J", .technique = "\xff\x1b[2J"});
+    });
 }
 
 Bytes vast_capture() {

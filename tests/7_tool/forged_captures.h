@@ -19,6 +19,8 @@ std::vector<ForgedCapture> forged_captures();
 /// and with a section of a type that does not exist.
 std::vector<std::byte> sound_capture();
 std::vector<std::byte> capture_with_unknown_section();
+/// The same frames with names and notes that are not UTF-8 and that command a terminal.
+std::vector<std::byte> capture_with_hostile_text();
 /// A few kilobytes within every limit whose one texture takes 1 GiB.
 std::vector<std::byte> vast_capture();
 

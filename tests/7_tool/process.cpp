@@ -9,13 +9,23 @@
 #include <cstdlib>
 #include <sstream>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/file_text.h"
 
 namespace strata {
-namespace {}  // namespace
+namespace {
+
+/// A line of the shell after "cd" into the folder.
+Finished run_line(const std::string& line) {
+    for (const char* old : {"stdout.txt", "stderr.txt"}) std::filesystem::remove(folder() / old);
+    const int status = std::system(fmt::format("cd {} && {}", folder().string(), line).c_str());
+    return {WEXITSTATUS(status), file_text(folder() / "stdout.txt"), file_text(folder() / "stderr.txt")};
+}
+
+}  // namespace
 
 std::filesystem::path folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -30,13 +40,22 @@ std::filesystem::path folder() {
     return path;
 }
 
+std::filesystem::path only_file(const std::filesystem::path& in, const std::string& extension) {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(in))
+        if (entry.path().extension() == extension) found.push_back(entry.path());
+    EXPECT_EQ(found.size(), 1u) << in;
+    return found.empty() ? std::filesystem::path() : found.front();
+}
+
 Finished strata(const std::string& arguments) { return strata_after("true", arguments); }
 
 Finished strata_after(const std::string& line, const std::string& arguments) {
-    const std::string in = folder().string();
-    const int status = std::system(
-        ("cd " + in + " && " + line + " && " STRATA_BINARY_DIR "/strata " + arguments + " >stdout.txt 2>stderr.txt").c_str());
-    return {WEXITSTATUS(status), file_text(folder() / "stdout.txt"), file_text(folder() / "stderr.txt")};
+    return run_line(fmt::format("{} && " STRATA_BINARY_DIR "/strata {} >stdout.txt 2>stderr.txt", line, arguments));
+}
+
+Finished strata_into(const std::string& redirections, const std::string& arguments) {
+    return run_line(fmt::format(STRATA_BINARY_DIR "/strata {} {}", arguments, redirections));
 }
 
 pid_t start(const std::string& program, const std::string& arguments, const std::string& output) {

@@ -20,6 +20,9 @@ Finished strata(const std::string& arguments);
 /// The same after a line of the shell's own in the same process: "ulimit -f 1", "export NAME=value".
 Finished strata_after(const std::string& line, const std::string& arguments);
 
+/// The same with other redirections than ">stdout.txt 2>stderr.txt", the files in which what it said is looked for.
+Finished strata_into(const std::string& redirections, const std::string& arguments);
+
 /// A program in the background, without a shell (whose children there ignore SIGINT); arguments are parted by spaces. What it
 /// prints goes to the file of the folder.
 pid_t start(const std::string& program, const std::string& arguments, const std::string& output = "/dev/null");
@@ -32,6 +35,9 @@ struct Refusal {
     std::string sentence;  ///< on the error output, which is all that is printed
 };
 void expect_refusals(const std::string& verb, std::span<const Refusal>);
+
+/// The one file of that extension in a folder; fails the test where there are more or none.
+std::filesystem::path only_file(const std::filesystem::path& in, const std::string& extension);
 
 /// The folder; made for the running test.
 std::filesystem::path folder();

@@ -9,6 +9,9 @@
 
 #include "capture_format/reader.h"
 #include "passes/registry.h"
+#include "tests/1_capture/temporary_file.h"
+#include "tests/7_tool/file_verbs.h"
+#include "tests/7_tool/forged_captures.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/gltf_text.h"
 
@@ -18,13 +21,10 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* verb_names[] = {"list",  "record", "import", "info",  "validate", "replay",  "accept", "export",
-                                      "graph", "diff",   "report", "probe", "bench",    "spectra", "isa",    "inspect"};
-
 void record_panes(const std::string& options = "") { ASSERT_EQ(strata("record three_panes -o panes.strata " + options).code, 0); }
 
 TEST(Tool, EveryVerbHasHelpInBothForms) {
-    for (const char* verb : verb_names) {
+    for (const char* verb : verb_names()) {
         const Finished help = strata(std::string("help ") + verb), flag = strata(std::string(verb) + " --help");
         EXPECT_EQ(help.code, 0) << verb;
         EXPECT_EQ(help.out, flag.out) << verb;
@@ -32,13 +32,53 @@ TEST(Tool, EveryVerbHasHelpInBothForms) {
     }
 }
 
+TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
+    write_file(folder() / "sound.strata", sound_capture());
+    for (const char* command :
+         {"list", "list --scenarios", "info sound.strata", "validate sound.strata", "replay sound.strata",
+          "accept sound.strata --dry-run", "graph sound.strata", "report sound.strata --repeats 1 --sweep pool=2",
+          "bench voxel sound.strata --repeats 1 --only wrap", "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
+          "probe sound.strata --at 8,4 --methods sorted_lists -o probed"}) {
+        const Finished printed = strata(fmt::format("{} --json", command));
+        ASSERT_EQ(printed.code, 0) << command << printed.err;
+        EXPECT_THAT(json::parse(printed.out)["schema"].get<std::string>(), HasSubstr("strata.")) << command;
+    }
+}
+
 TEST(Tool, WithoutAVerbItListsThem) {
     const Finished bare = strata("");
     EXPECT_EQ(bare.code, 0);
-    for (const char* verb : verb_names) EXPECT_THAT(bare.out, HasSubstr(verb));
+    for (const char* verb : verb_names()) EXPECT_THAT(bare.out, HasSubstr(verb));
 }
 
-TEST(Tool, AnUnknownVerbIsAUsageError) { EXPECT_EQ(strata("reply x").code, 2); }
+TEST(Tool, AnUnknownVerbOrOptionIsAUsageErrorThatNamesTheNearestAndNothingElse) {
+    const std::pair<std::string, const char*> wrongs[] = {
+        {"reply", "there is no verb 'reply'; did you mean replay?"},
+        {"help reply", "there is no verb 'reply'; did you mean replay?"},
+        {"help nosuch", "there is no verb 'nosuch'"},
+        {"--list-gpu", "strata has no option --list-gpu; did you mean --list-gpus?"},
+    };
+    for (const auto& [wrong, sentence] : wrongs) {
+        const Finished refused = strata(wrong);
+        EXPECT_EQ(refused.code, 2) << wrong;
+        EXPECT_EQ(refused.err, fmt::format("strata: {}\n", sentence));
+    }
+    for (const std::string verb : verb_names()) {
+        const Finished refused = strata(verb + " --halp");
+        EXPECT_EQ(refused.code, 2) << verb;
+        EXPECT_EQ(refused.err, fmt::format("strata: strata {} has no option --halp; did you mean --help?\n", verb));
+    }
+}
+
+// The device is the last thing that a reader of a verb's help looks for.
+TEST(Tool, TheOptionsOfADeviceStandBehindThoseOfTheVerb) {
+    for (const std::string verb : verb_names()) {
+        const std::string help = strata("help " + verb).out;
+        const std::size_t device = help.find("Device:"), gpu = help.find("--without");
+        EXPECT_EQ(device == help.npos, gpu == help.npos) << verb;
+        EXPECT_TRUE(device == help.npos || (help.find("Options:") < device && device < gpu)) << help;
+    }
+}
 
 TEST(List, ShowsEveryTechniqueAndItsParameters) {
     const Finished listed = strata("list --json");
@@ -91,6 +131,31 @@ TEST(Replay, WritesExrPngAndJsonAndMakesTheFolder) {
     ASSERT_EQ(replayed.code, 0) << replayed.err;
     for (const char* file : {"panes.f0000.exr", "panes.f0000.png", "panes.f0000.json"})
         EXPECT_TRUE(std::filesystem::exists(folder() / "deep/er" / file)) << file;
+}
+
+std::size_t files_in(const std::filesystem::path& in) {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(in), std::filesystem::directory_iterator()));
+}
+
+TEST(Replay, WritesNothingWithoutAFolder) {
+    record_panes();
+    ASSERT_EQ(strata("replay panes.strata").code, 0);
+    EXPECT_EQ(files_in(folder()), 3u);  // the capture and what was printed
+}
+
+TEST(Replay, OfAnotherChoiceIntoTheSameFolderWritesOtherFiles) {
+    record_panes();
+    const char* choices[] = {"",
+                             "--use weighted",
+                             "--use weighted --set weight=w9",
+                             "--set weight=w9 --use transparency/weighted",
+                             "--samples 4",
+                             "--force rain",
+                             "--eye pan=0.1"};
+    for (const char* choice : choices) ASSERT_EQ(strata(fmt::format("replay panes.strata -o out {}", choice)).code, 0) << choice;
+    EXPECT_EQ(files_in(folder() / "out"), 3 * 6u);  // two of the choices are one
+    EXPECT_TRUE(std::filesystem::exists(folder() / "out/panes.f0000.transparency-weighted,weight=w9.png"));
 }
 
 TEST(Replay, EqualRunsWriteEqualFiles) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "replay/json_text.h"
 #include "ui/picture/look_bytes.h"
 
 namespace strata::ui {
@@ -56,7 +57,7 @@ Result<std::filesystem::path> save(const std::filesystem::path& folder, const st
     if (const auto done = write_exr(path.string() + ".exr", {{shown.name, *shown.image}}, provenance); !done) return done.error();
     if (const auto done = write_png(path.string() + ".png", shown.image->shape.extent, bytes_of(shown)); !done)
         return done.error();
-    const std::string json = nlohmann::ordered_json(provenance).dump(2) + "\n";
+    const std::string json = json_text(nlohmann::ordered_json(provenance));
     if (const auto done = write_whole_file(path.string() + ".json", json); !done) return done.error();
     return path;
 }

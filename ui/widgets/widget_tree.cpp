@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "replay/json_text.h"
+
 namespace strata::ui {
 
 std::string widget_tree(const Inspector& inspector) {
@@ -27,7 +29,7 @@ std::string widget_tree(const Inspector& inspector) {
                     {"frames_per_second", tenths(rate.per_second())},
                     {"slowest_frame_ms", tenths(rate.slowest_ms())},
                     {"widgets", std::move(widgets)}};
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace strata::ui

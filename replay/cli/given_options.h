@@ -1,0 +1,23 @@
+// What a command line says, judged before its verb runs: names that exist, numbers that are numbers, options that apply.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "replay/cli/verb.h"
+
+namespace strata {
+
+/// Fails where an argument names a verb or an option that does not exist, and says which one is nearest.
+Result<void> check_names(const CLI::App& program, std::span<const std::string> arguments);
+
+/// From now on the verb's options for numbers refuse what is no finite decimal number or does not fit (nan, inf, 0x10, 2^64, -1
+/// where nothing is below 0), which CLI11 2.1 takes or wraps around. To be called when all options are declared.
+void refuse_what_is_no_number(CLI::App& verb);
+
+/// Fails where one of these options was given: it would be ignored, and `why` says why.
+Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why);
+
+}  // namespace strata

@@ -1,0 +1,70 @@
+#include "replay/standard_streams.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <system_error>
+
+#include "capture_format/clean_text.h"
+
+namespace strata {
+namespace {
+
+// Why standard output lost something, or 0. stdio remembers that it did and not why; the stream itself is as global.
+constinit std::atomic<int> stdout_problem = 0;
+
+void note_problem(bool written) {
+    if (!written && stdout_problem == 0) stdout_problem = errno;
+}
+
+// Whether the terminal's last line is to be rewritten.
+constinit std::atomic<bool> is_rewritable = false;
+
+bool put(std::FILE* stream, std::string_view text) { return std::fwrite(text.data(), 1, text.size(), stream) == text.size(); }
+
+void clear_line() {
+    if (is_rewritable.exchange(false)) put(stderr, "\r\033[K");
+}
+
+}  // namespace
+
+void open_standard_streams() {
+    for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+        if (::fcntl(number, F_GETFD) >= 0 || errno != EBADF) continue;
+        [[maybe_unused]] const int lowest = ::open("/", O_RDONLY | O_DIRECTORY);  // the lowest free number: this one
+    }
+}
+
+void write_stdout(std::string_view text) {
+    clear_line();
+    note_problem(put(stdout, clean_text(text)));
+}
+
+void write_stderr(std::string_view text) {
+    clear_line();
+    put(stderr, clean_text(text));
+}
+
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+void rewrite_line(std::string_view text) {
+    clear_line();
+    put(stderr, clean_text(text));
+    is_rewritable = !text.empty();
+}
+
+Result<void> finish_stdout() {
+    note_problem(std::fflush(stdout) == 0);
+    if (stdout_problem == 0) return {};
+    if (stdout_problem == EPIPE) {
+        std::signal(SIGPIPE, SIG_DFL);
+        std::raise(SIGPIPE);
+    }
+    return fail(Fault::usage, "cannot write to standard output: {}", std::generic_category().message(stdout_problem));
+}
+
+}  // namespace strata

@@ -1,0 +1,145 @@
+// What the command line refuses: numbers that are none, and options that would be ignored.
+#include <regex>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/1_capture/temporary_file.h"
+#include "tests/7_tool/file_verbs.h"
+#include "tests/7_tool/forged_captures.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+struct NumericOption {
+    std::string name, type;
+};
+
+/// Of a verb, as its help names them.
+std::vector<NumericOption> numeric_options(const std::string& verb) {
+    const std::string help = strata("help " + verb).out;
+    const std::regex pattern("(--[a-z-]+) (FLOAT|UINT:SIZE|UINT|INT)");
+    std::vector<NumericOption> found;
+    for (auto match = std::sregex_iterator(help.begin(), help.end(), pattern); match != std::sregex_iterator(); ++match)
+        found.push_back({(*match)[1], (*match)[2]});
+    return found;
+}
+
+std::vector<std::string> some_no_numbers(const std::string& type) {
+    if (type == "FLOAT") return {"nan", "inf"};
+    return {type == "INT" ? "nan" : "-1", "18446744073709551616"};
+}
+
+std::vector<std::string> no_numbers(const std::string& type) {
+    if (type == "FLOAT") return {"nan", "-nan", "NaN", "inf", "-inf", "infinity", "1e999", "0x1p3", "1x", "''", "true"};
+    std::vector<std::string> none = {"nan",  "inf", "18446744073709551616", "99999999999999999999", "0x10", "1.5", "1e3",
+                                     "true", "''"};
+    if (type != "INT") none.push_back("-1");
+    if (type == "UINT:SIZE")
+        none.insert(none.end(), {"0", "0MiB", "-1MiB", "16777216TiB", "18446744073709551615KiB", "MiB", "1xB"});
+    return none;
+}
+
+void expect_no_number(const std::string& verb, const std::string& option, const std::string& value) {
+    const Finished refused = strata(fmt::format("{} {}={}", verb, option, value));
+    EXPECT_EQ(refused.code, 2) << verb << " " << option << "=" << value;
+    EXPECT_THAT(refused.err, HasSubstr("strata: " + option)) << verb << " " << value;
+}
+
+TEST(Numbers, EveryNumericOptionOfEveryVerbRefusesWhatIsNoNumber) {
+    std::size_t options = 0;
+    for (const std::string verb : verb_names())
+        for (const NumericOption& option : numeric_options(verb)) {
+            ++options;
+            for (const std::string& value : some_no_numbers(option.type)) expect_no_number(verb, option.name, value);
+        }
+    EXPECT_GT(options, 40u);
+}
+
+TEST(Numbers, AreWrittenInDecimals) {
+    const std::pair<const char*, NumericOption> of_every_type[] = {{"diff", {"--limit", "FLOAT"}},
+                                                                   {"record", {"--seed", "UINT"}},
+                                                                   {"import", {"--camera", "INT"}},
+                                                                   {"replay", {"--memory-budget", "UINT:SIZE"}}};
+    for (const auto& [verb, option] : of_every_type)
+        for (const std::string& value : no_numbers(option.type)) expect_no_number(verb, option.name, value);
+}
+
+TEST(Numbers, ASizeMayHaveAUnitAndANumberZerosBeforeIt) {
+    write_file(folder() / "sound.strata", sound_capture());
+    for (const char* size : {"268435456", "256MiB", "256mb", "'256 MiB'", "0256MiB", "1GiB"}) {
+        const Finished replayed =
+            strata(fmt::format("replay sound.strata --frames 00 --outputs color -o out --memory-budget {}", size));
+        EXPECT_EQ(replayed.code, 0) << size << replayed.err;
+    }
+    ASSERT_EQ(strata("record three_panes --seed 010 -o ten.strata").code, 0);
+    EXPECT_THAT(strata("info ten.strata").out, HasSubstr("seed 10"));
+}
+
+/// A command and what its sentence names.
+struct Ignored {
+    std::string command;
+    const char* says;
+};
+
+TEST(Options, ThatWouldBeIgnoredAreRefused) {
+    write_file(folder() / "sound.strata", sound_capture());
+    write_file(folder() / "x.exr", {});
+    ASSERT_EQ(strata("replay sound.strata --frames 0 -o out").code, 0);
+    const std::string images = "diff out/sound.f0000.exr out/sound.f0000.exr",
+                      mixed = "diff sound.strata out/sound.f0000.exr --frames 0";
+    const Ignored all[] = {
+        {"record three_panes --gpu nosuch", "no device is called 'nosuch'"},
+        {"replay sound.strata --use weighted --use transparency/voxel", "two techniques of one stage"},
+        {"diff sound.strata --use weighted --use-b voxel", "two techniques of one stage"},
+        {"report sound.strata --csv --json", "--csv"},
+        {"report --hard-cases --csv", "--csv"},
+        {"report --hard-cases --stage shadows", "--stage"},
+        {"report --hard-cases --use weighted", "--use"},
+        {"report sound.strata --points", "--points"},
+        {"list --scenarios shadows", "--scenarios"},
+        {"list --names --json", "--names"},
+        {"bench voxel --allow-partial", "--allow-partial"},
+        {"export sound.strata --json --sample 0 -o x.json", "--sample"},
+        {"export sound.strata --image color --transmittance mean -o x.exr", "--transmittance"},
+        {"export sound.strata --gltf --use weighted -o x.glb",
+         "--use does not apply: --gltf exports the frame as it was recorded"},
+        {"export sound.strata --json --samples 1 -o x.json", "--samples does not apply"},
+        {"import x.exr --deep --fps 3", "--fps"},
+        {"import x.gltf --window 0,0,4,4", "--window"},
+        {"import x.exr --deep --window 0,0,-4,4", "--window"},
+        {images + " --frames 0", "--frames does not apply"},
+        {images + " --use-a weighted", "--use-a does not apply"},
+        {images + " --gpu nosuch", "--gpu does not apply"},
+        {mixed + " --use weighted", "--use does not apply: B is an image"},
+        {"diff sound.strata sound.strata --warn-percent 3", "--warn-percent"},
+        {"isa --json", "--json does not apply"},
+        {"spectra sound.strata --repeats 3", "--repeats does not apply: --cost is weights"},
+        {"spectra sound.strata --cost measured --gpu-model navi21", "--gpu-model does not apply"},
+        {"replay sound.strata --samples 0", "--samples"},
+        {"replay sound.strata --expect --until combine", "--until does not apply"},
+        {"replay sound.strata --tolerance 1 --until combine", "--until does not apply"},
+        {"replay sound.strata --tolerance 1 --no-expect", "--no-expect does not apply"},
+        {"replay sound.strata --tolerance 1 --eye pan=1", "--eye does not apply"},
+    };
+    for (const auto& [command, says] : all) {
+        const Finished refused = strata(command);
+        EXPECT_EQ(refused.code, 2) << command << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr(says)) << command;
+    }
+    EXPECT_EQ(strata(mixed).code, 0);
+}
+
+TEST(Techniques, NeedTheirStageOnlyWhereSeveralHaveOneOfThatName) {
+    write_file(folder() / "sound.strata", sound_capture());
+    const std::string replay = "replay sound.strata --frames 0 --outputs color -o out ";
+    EXPECT_THAT(strata(replay + "--use weighted --set weighted:scale=2").out, HasSubstr("transparency   transparency/weighted"));
+    EXPECT_THAT(strata(replay + "--use weigthed").err, HasSubstr("no technique weigthed; did you mean weighted?"));
+}
+
+}  // namespace
+}  // namespace strata

@@ -1,0 +1,173 @@
+// Standard streams that are closed or full, pipes that nobody reads, signals, machines that start no thread: every verb.
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/1_capture/temporary_file.h"
+#include "tests/7_tool/file_verbs.h"
+#include "tests/7_tool/forged_captures.h"
+#include "tests/7_tool/process.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+void write_sound() { write_file(folder() / "sound.strata", sound_capture()); }
+
+/// What verbs print, by more than their help.
+constexpr const char* printing[] = {
+    "list",
+    "list --json",
+    "list --scenarios",
+    "list --names",
+    "info sound.strata",
+    "info sound.strata --json",
+    "validate sound.strata",
+    "graph sound.strata",
+    "graph sound.strata --dot",
+    "replay sound.strata --frames 0 --outputs color -o out",
+    "replay sound.strata --frames 0 --outputs color -o out --json",
+    "accept sound.strata --frames 0 --dry-run",
+    "diff sound.strata --frames 0 --use transparency/weighted --limit 1000",
+    "probe sound.strata --at 8,4 --methods sorted_lists --depths 16 -o probed",
+    "isa",
+    "--list-gpus",
+    "--version",
+    "",
+};
+
+void expect_lost_output(const std::string& arguments) {
+    const Finished full = strata_into(">/dev/full 2>stderr.txt", arguments), closed = strata_into(">&- 2>stderr.txt", arguments);
+    EXPECT_EQ(full.code, 2) << arguments;
+    EXPECT_THAT(full.err, HasSubstr("strata: cannot write to standard output: No space left on device\n")) << arguments;
+    EXPECT_EQ(closed.code, 2) << arguments;
+    EXPECT_THAT(closed.err, HasSubstr("strata: cannot write to standard output: Bad file descriptor\n")) << arguments;
+}
+
+TEST(StandardOutput, ThatTakesNothingIsAnOutputThatCannotBeWrittenForEveryVerb) {
+    write_sound();
+    for (const char* arguments : printing) expect_lost_output(arguments);
+    for (const std::string verb : verb_names()) expect_lost_output(verb + " --help");
+}
+
+// What the verb found counts, too.
+TEST(StandardOutput, ThatTakesNothingDoesNotHideWhatDiffers) {
+    write_sound();
+    EXPECT_EQ(strata_into(">/dev/full 2>stderr.txt", "diff sound.strata --frames 0 --use transparency/weighted").code, 1);
+}
+
+TEST(StandardOutput, ByItsNameIsNoFileWhereItIsClosed) {
+    const Finished closed = strata_into(">&- 2>stderr.txt", "record three_panes -o /dev/stdout");
+    EXPECT_EQ(closed.code, 2);
+    EXPECT_THAT(closed.err, HasSubstr("cannot write /dev/stdout"));
+}
+
+// Like every program in a pipeline: 141 is SIGPIPE's.
+TEST(StandardOutput, ThatNobodyReadsEndsTheProgramWithoutAWord) {
+    const std::string line = "(sleep .2; " STRATA_BINARY_DIR "/strata list 2>stderr.txt; echo $? >code.txt) | true";
+    ASSERT_EQ(std::system(fmt::format("cd {} && {}; sleep .1", folder().string(), line).c_str()), 0);
+    while (!std::filesystem::exists(folder() / "code.txt")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::ifstream code(folder() / "code.txt");
+    int number = 0;
+    code >> number;
+    EXPECT_EQ(number, 141);
+    EXPECT_EQ(std::filesystem::file_size(folder() / "stderr.txt"), 0u);
+}
+
+TEST(StandardError, ThatTakesNothingChangesNoExitCodeOfAnyVerb) {
+    for (const FileVerb& verb : file_verbs())
+        for (const char* lost : {">stdout.txt 2>/dev/full", ">stdout.txt 2>&-", "<&- >stdout.txt 2>&-"})
+            EXPECT_EQ(strata_into(lost, verb.command()).code, 3) << verb.command() << " " << lost;
+    for (const std::string verb : verb_names())
+        EXPECT_EQ(strata_into(">stdout.txt 2>/dev/full", verb + " --nonsense").code, 2) << verb;
+}
+
+/// Of the messages, none is in a file, and no file is left out.
+TEST(StandardError, ThatTakesNothingChangesNoFile) {
+    write_sound();
+    ASSERT_EQ(strata("record three_panes -o with.strata").code, 0);
+    ASSERT_EQ(strata("replay sound.strata --outputs color -o with").code, 0);
+    for (const char* lost : {">stdout.txt 2>&-", ">stdout.txt 2>/dev/full", "<&- >&- 2>&-"}) {
+        const bool prints = std::string(lost).find(">&- 2") == std::string::npos;
+        ASSERT_EQ(strata_into(lost, "record three_panes -o without.strata").code, 0) << lost;
+        EXPECT_EQ(read_file(folder() / "with.strata"), read_file(folder() / "without.strata")) << lost;
+        ASSERT_EQ(strata_into(lost, "replay sound.strata --outputs color -o without").code, prints ? 0 : 2) << lost;
+        for (const auto& entry : std::filesystem::directory_iterator(folder() / "with")) {
+            if (entry.path().extension() == ".json") continue;  // holds times
+            EXPECT_EQ(read_file(entry.path()), read_file(folder() / "without" / entry.path().filename())) << lost << entry.path();
+        }
+        std::filesystem::remove_all(folder() / "without");
+    }
+}
+
+TEST(Signals, ThatEndTheProgramLeaveNoTemporary) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
+        const pid_t process = start(STRATA_BINARY_DIR "/strata", "record three_panes --frames 100000 -o made.strata");
+        while (std::filesystem::is_empty(folder())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        kill(process, signal);
+        EXPECT_EQ(code_of(process), 128 + signal);
+        EXPECT_TRUE(std::filesystem::is_empty(folder())) << signal;
+    }
+}
+
+TEST(Signals, OfAPipeThatNobodyReadsAreFailedWrites) {
+    const pid_t process = start(STRATA_BINARY_DIR "/strata", "record three_panes --frames 20 -o made.strata");
+    while (std::filesystem::is_empty(folder())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(process, SIGPIPE);
+    EXPECT_EQ(code_of(process), 0);
+    const Finished into_pipe = strata_into(">/dev/null 2>&1 | true", "record three_panes --frames 20 -o other.strata 2>&1");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder()), std::filesystem::directory_iterator()), 2);
+}
+
+// A thread's stack takes what the limit of the main thread's says: no machine has 256 TiB of addresses.
+TEST(Threads, ThatCannotBeStartedAreASentenceOfEveryVerb) {
+    const std::string none = "ulimit -s 274877906944";
+    if (std::system((none + " 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "the size of stacks is limited";
+    for (const std::string verb : verb_names()) {
+        const Finished refused = strata_after(none, verb + " --help");
+        EXPECT_EQ(refused.code, 4) << verb;
+        EXPECT_THAT(refused.err, HasSubstr("starts no thread")) << verb;
+    }
+}
+
+// Its distance to the names of commands took 28 s.
+TEST(Files, WithAWordOfMegabytesAreRefusedInASentence) {
+    write_sound();
+    std::ofstream(folder() / "long.script") << std::string(5'000'000, 'x') << "\n";
+    const Finished refused = strata("inspect sound.strata --script long.script");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("long.script:1: there is no command 'xxx"));
+    EXPECT_LT(refused.err.size(), 20'000u);
+}
+
+TEST(Files, ThatArePipesOrFoldersAreRefusedByEveryVerbBeforeTheyAreOpened) {
+    for (const FileVerb& verb : file_verbs()) {
+        ASSERT_EQ(mkfifo((folder() / verb.file()).c_str(), 0600), 0);
+        const Finished refused =
+            strata_after("true", "--version >/dev/null; timeout 5 " STRATA_BINARY_DIR "/strata " + verb.command());
+        EXPECT_EQ(refused.code, 3) << verb.command() << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr(verb.file() + " is not a file")) << verb.command();
+        std::filesystem::remove(folder() / verb.file());
+    }
+    write_sound();
+    std::filesystem::create_directory(folder() / "folder");
+    ASSERT_EQ(mkfifo((folder() / "pipe").c_str(), 0600), 0);
+    for (const char* script : {"folder", "pipe", "nowhere"}) {
+        const Finished refused = strata(fmt::format("inspect sound.strata --script {}", script));
+        EXPECT_EQ(refused.code, 3) << script;
+        EXPECT_THAT(refused.err, HasSubstr(script));
+    }
+    for (const char* second : {"diff sound.strata pipe", "diff a.exr pipe.exr", "diff pipe sound.strata"})
+        EXPECT_EQ(strata(second).code, 3) << second;
+}
+
+}  // namespace
+}  // namespace strata
