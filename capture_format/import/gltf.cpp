@@ -27,7 +27,7 @@ Result<void> check(const GltfOptions& options) {
 }  // namespace
 
 struct GltfScene::Contents {
-    Contents(std::string from, gltf::Document document, const GltfOptions& options, gltf::Budget budget)
+    Contents(std::string from, gltf::Document document, const GltfOptions& options, MemoryBudget budget)
         : name(std::move(from)), source(std::move(document), options, budget) {}
 
     std::string name;
@@ -42,10 +42,10 @@ GltfScene::~GltfScene() = default;
 Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Folder& folder, std::string name,
                                   const GltfOptions& options) {
     if (const auto good = check(options); !good) return good.error();
-    gltf::Budget budget(options.memory_budget);
+    MemoryBudget budget(options.memory_budget);
     if (const auto room = budget.take(bytes.size(), 1, "the file"); !room) return room.error();
     auto document = gltf::load_document(std::move(bytes), folder, budget);
-    if (!document) return fail(Fault::bad_input, "{} is no readable glTF: {}", name, document.error().sentence);
+    if (!document) return fail(document.error().fault, "{} is no readable glTF: {}", name, document.error().sentence);
     auto contents = std::make_unique<Contents>(std::move(name), *std::move(document), options, budget);
     if (const auto read = contents->source.read(); !read) {
         return fail(read.error().fault, "{}: {}", contents->name, read.error().sentence);
@@ -54,7 +54,7 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
 }
 
 Result<GltfScene> GltfScene::open(const std::filesystem::path& path, const GltfOptions& options) {
-    gltf::Budget budget(options.memory_budget);
+    MemoryBudget budget(options.memory_budget);
     return gltf::read_file(path, budget).and_then([&](auto& bytes) {
         return read(std::move(bytes), gltf::Folder(path), path.string(), options);
     });

@@ -25,8 +25,9 @@ struct GltfOptions {
     double azimuth = 22, elevation = 16;
     double fps = 30;        ///< frames per second of the animation
     std::string animation;  ///< by name or index; empty: the first one, if there is one
-    /// What the file, its buffers, vertices and pictures may take in memory together; hostile files claim more.
-    std::uint64_t memory_budget = std::uint64_t{4} << 30;
+    /// Bytes that the file, its buffers, vertices and pictures may take in memory together, frames and what becomes of them until
+    /// they are recorded among them; hostile files claim more. 0: half of the machine's memory.
+    std::uint64_t memory_budget = 0;
 };
 
 class GltfScene {

@@ -26,11 +26,12 @@ glm::dvec3 attenuation(const MaterialSource& source, double mean_thickness) {
 /// Turns the materials of one document; textures are shared among them.
 class MaterialImport {
 public:
-    MaterialImport(const Document& document, Budget& budget) : document_(document), textures_(document, budget) {}
+    MaterialImport(const Document& document, MemoryBudget& budget) : document_(document), textures_(document, budget) {}
 
-    ImportedMaterials run() {
+    Result<ImportedMaterials> run() {
         ImportedMaterials result;
         for (const MaterialSource& source : document_.materials) result.materials.push_back(convert(source));
+        if (textures_.problem()) return *textures_.problem();
         Material plain;  // glTF 2.0, 3.7.2.1: the default material is white and fully metallic
         plain.name = "default";
         plain.metallic = 1;
@@ -132,7 +133,9 @@ private:
 
 }  // namespace
 
-ImportedMaterials import_materials(const Document& document, Budget& budget) { return MaterialImport(document, budget).run(); }
+Result<ImportedMaterials> import_materials(const Document& document, MemoryBudget& budget) {
+    return MaterialImport(document, budget).run();
+}
 
 double head_on_reflectance(double ior) { return std::pow((ior - 1) / (ior + 1), 2); }
 

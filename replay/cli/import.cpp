@@ -21,6 +21,7 @@ struct ImportArguments {
     GltfOptions gltf;
     bool deep = false;
     DeepOptions of_deep;
+    std::uint64_t memory_budget = 0;
     std::vector<std::int32_t> window;  ///< of a deep image: x, y, width, height
     DeviceChoice device;
 };
@@ -29,24 +30,38 @@ std::filesystem::path output_of(const ImportArguments& options) {
     return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
 }
 
-/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns the last one.
-Result<Frame> record_frames(const ImportArguments& options, std::uint32_t count,
-                            const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
+/// What an imported frame holds.
+struct Counts {
+    std::size_t draws = 0, materials = 0, textures = 0, lights = 0;
+};
+
+/// Room for a frame that is being written and the next one, however large they are.
+RecorderOptions room_for(const Frame& frame) {
+    RecorderOptions options;
+    options.budget_bytes = std::max(options.budget_bytes, 2 * recorded_bytes(frame));
+    return options;
+}
+
+/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
+Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count,
+                             const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
     auto frame = frame_at(0);
-    if (!frame) return frame;
+    if (!frame) return frame.error();
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), room_for(*frame));
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
+    Counts counts;
     for (std::uint32_t index = 0; index < count; ++index) {
         if (index > 0) frame = frame_at(index);
-        if (!frame) return frame;
-        if (const auto done = recorder->record(*frame); !done) return done.error();
+        if (!frame) return frame.error();
+        counts = {frame->draws.size(), frame->materials.size(), frame->textures.size(), frame->lights.size()};
+        if (const auto done = recorder->record(*std::move(frame)); !done) return done.error();
     }
     if (const auto done = recorder->finish(); !done) return done.error();
     if (const auto done = file->commit(); !done) return done.error();
-    return frame;
+    return counts;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -55,6 +70,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 Result<void> import_deep_image(const ImportArguments& options) {
     DeepOptions of_deep = options.of_deep;
+    of_deep.memory_budget = options.memory_budget;
     if (!options.window.empty())
         of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
                                     static_cast<std::uint32_t>(options.window[3])};
@@ -75,6 +91,7 @@ Result<void> import(const ImportArguments& options) {
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
+    gltf.memory_budget = options.memory_budget;
     std::tie(gltf.width, gltf.height) = *extent;
     if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
     auto scene = GltfScene::open(options.scene, gltf);
@@ -82,9 +99,9 @@ Result<void> import(const ImportArguments& options) {
     const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
     print_warnings(scene->warnings());
     if (!last) return last.error();
-    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"),
-               plural(last->draws.size(), "draw"), plural(last->materials.size(), "material"),
-               plural(last->textures.size(), "texture"), plural(last->lights.size(), "light"), output_of(options).string());
+    fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws, "draw"),
+               plural(last->materials, "material"), plural(last->textures, "texture"), plural(last->lights, "light"),
+               output_of(options).string());
     return {};
 }
 
@@ -113,6 +130,9 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
         ->check(CLI::Range(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");
     app.add_option("--animation", options->gltf.animation, "name or index of the animation; default the first");
+    app.add_option("--budget,--memory-budget", options->memory_budget,
+                   "most memory for the scene, like 4GiB; default half of the machine's; more is refused (4)")
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options] { return import(*options); };
 }
