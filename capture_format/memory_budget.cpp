@@ -13,7 +13,7 @@ namespace {
 
 std::string readable(double bytes) {
     constexpr double mebibyte = 1 << 20;
-    return bytes < mebibyte ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.1f} MiB", bytes / mebibyte);
+    return bytes < mebibyte / 20 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.1f} MiB", bytes / mebibyte);
 }
 
 /// The limit of the control group; the largest number where there is none ("max") or no such file.

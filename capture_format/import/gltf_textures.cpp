@@ -16,8 +16,11 @@ namespace {
 
 /// A texel and its share of the mips take 4 + 4 / 3 bytes. They are there four times while a frame is recorded: kept for the next
 /// frame, in the frame, in the recorder's blobs, compressed (or on the device that makes the thumbnail). While an image is
-/// decoded its texels are there four times and its mips in floats, which is less.
-constexpr std::uint64_t bytes_per_texel = 22;
+/// decoded its texels are there four times and its mips in floats, which is less. Four textures of 4096 x 4096 took 24 bytes per
+/// texel.
+constexpr std::uint64_t recorded_bytes_per_texel = 24;
+/// While an image is decoded for the import alone: as it is stored, with four channels, the texture's own.
+constexpr std::uint64_t decoded_bytes_per_texel = 12;
 
 /// The two formats of glTF. stb reads others, too, with decoders that a hostile file should not reach.
 bool is_png_or_jpeg(std::span<const std::byte> bytes) {
@@ -27,7 +30,7 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Result<Texture> TextureImport::decode(int index) {
+Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
     if (index < 0) return fail(Fault::bad_input, "it has no image that is PNG or JPEG");
     const Image& image = document_.images[static_cast<std::size_t>(index)];
     if (!image.content.fault.empty()) return fail(Fault::bad_input, "image {}: {}", index, image.content.fault);
@@ -73,9 +76,13 @@ std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {
     if (!fresh) return known->second;
     const auto made = convert(document_.textures[static_cast<std::size_t>(index)], encoding, alpha);
     if (made) return known->second = *made;
-    if (made.error().fault == Fault::device_lacks && !problem_) problem_ = made.error();
-    warnings_.push_back(fmt::format("texture {} is left out: {}", index, made.error().sentence));
+    leave_out(index, made.error());
     return no_index;
+}
+
+void TextureImport::leave_out(int index, const Error& why) {
+    if (why.fault == Fault::device_lacks && !problem_) problem_ = why;
+    warnings_.push_back(fmt::format("texture {} is left out: {}", index, why.sentence));
 }
 
 Result<std::uint32_t> TextureImport::convert(const TextureSource& source, Encoding encoding, AlphaUse alpha) {
@@ -83,7 +90,7 @@ Result<std::uint32_t> TextureImport::convert(const TextureSource& source, Encodi
     const AddressMode address = address_mode(source);
     const BlobHash content = source.image >= 0 ? blob_hash(document_.images[image].content.bytes) : BlobHash();
     if (const auto same = converted_.find({content, address, encoding, alpha}); same != converted_.end()) return same->second;
-    auto decoded = decode(source.image);
+    auto decoded = decode(source.image, recorded_bytes_per_texel);
     if (!decoded) return decoded.error();
     decoded->format = encoding == Encoding::srgb ? TextureFormat::rgba8_srgb : TextureFormat::rgba8_unorm;
     decoded->address = address;
@@ -96,8 +103,20 @@ Result<std::uint32_t> TextureImport::convert(const TextureSource& source, Encodi
     return made;
 }
 
-glm::vec4 TextureImport::mean(std::uint32_t index) const {
-    return index == no_index ? glm::vec4(1) : mean_color(textures_[index]);
+const Texture* TextureImport::data(int index) {
+    if (index < 0) return nullptr;
+    const auto [known, fresh] = data_.try_emplace(index);
+    if (fresh) {
+        const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
+        auto decoded = decode(source.image, decoded_bytes_per_texel);
+        if (!decoded) {
+            leave_out(index, decoded.error());
+        } else {
+            decoded->address = address_mode(source);
+            known->second = *std::move(decoded);
+        }
+    }
+    return known->second ? &*known->second : nullptr;
 }
 
 }  // namespace strata::gltf

@@ -30,8 +30,8 @@ public:
 
     /// The index of a texture in textures(); no_index, with a warning, when it cannot be read.
     std::uint32_t add(int gltf_texture, Encoding, AlphaUse = AlphaUse::ignored);
-    /// The mean over all texels, linear. 1 for no_index.
-    glm::vec4 mean(std::uint32_t texture) const;
+    /// The texels of a texture as they are, for the import itself; null when there is none or it cannot be read.
+    const Texture* data(int gltf_texture);
 
     std::vector<Texture>& textures() { return textures_; }
     const std::vector<std::string>& warnings() const { return warnings_; }
@@ -41,7 +41,8 @@ public:
 private:
     using Use = std::tuple<BlobHash, AddressMode, Encoding, AlphaUse>;
 
-    Result<Texture> decode(int image);
+    Result<Texture> decode(int image, std::uint64_t bytes_per_texel);
+    void leave_out(int gltf_texture, const Error&);
     Result<std::uint32_t> convert(const TextureSource&, Encoding, AlphaUse);
     AddressMode address_mode(const TextureSource&);
 
@@ -49,6 +50,7 @@ private:
     MemoryBudget& budget_;
     std::map<std::tuple<int, Encoding, AlphaUse>, std::uint32_t> known_;
     std::map<Use, std::uint32_t> converted_;
+    std::map<int, std::optional<Texture>> data_;  ///< by texture
     std::vector<Texture> textures_;
     std::vector<std::string> warnings_;
     std::optional<Error> problem_;

@@ -109,7 +109,7 @@ TEST(GltfAccessor, ManyUsesOfOneAccessorStayWithinTheBudget) {
     const std::string text = Gltf().with_triangle().text(showing(primitives));
     const auto scene = import_text(text, {.memory_budget = 200000});
     ASSERT_FALSE(scene);
-    EXPECT_THAT(scene.error().sentence, HasSubstr("the memory budget is 200000 bytes"));
+    EXPECT_THAT(scene.error().sentence, HasSubstr("the memory budget is 0.2 MiB"));
     EXPECT_TRUE(import_text(text, {.memory_budget = 2000000}));
 }
 

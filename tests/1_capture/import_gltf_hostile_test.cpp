@@ -150,7 +150,7 @@ TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {
     const auto scene = import_text(text, {.memory_budget = 1 << 20});
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().fault, Fault::device_lacks);
-    EXPECT_THAT(scene.error().sentence, HasSubstr("image 0 would take 5632.0 MiB (268435456 x 22 bytes)"));
+    EXPECT_THAT(scene.error().sentence, HasSubstr("image 0 would take 6144.0 MiB (268435456 x 24 bytes)"));
 }
 
 TEST(HostileGltf, OtherPicturesThanPngAndJpegNeverReachADecoder) {
