@@ -14,6 +14,14 @@ Result<void> check(const GltfOptions& options) {
         return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
                     options.azimuth, options.elevation);
     }
+    if (options.target && !options.eye) return fail(Fault::usage, "a target needs an eye to be looked at from (--eye)");
+    if (options.eye && (options.inside || options.camera >= 0))
+        return fail(Fault::usage, "--eye places the camera; --inside and --camera do so, too: choose one");
+    if (options.inside && options.camera >= 0) return fail(Fault::usage, "choose a camera of the file or --inside");
+    if (options.eye && options.target && *options.eye == *options.target)
+        return fail(Fault::usage, "the eye cannot look at the place where it is");
+    if (options.fov != 0 && !(options.fov >= 1 && options.fov <= 170))
+        return fail(Fault::usage, "a field of view has 1 to 170 degrees, not {}", options.fov);
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
         return fail(Fault::usage, "{} x {} pixels with {} samples cannot be rendered", options.width, options.height,
                     options.samples);

@@ -267,7 +267,9 @@ Result<void> FrameSource::frame_everything() {
         corners.insert(corners.end(), making.corners.begin(), making.corners.end());
     }
     if (corners.empty()) corners = {glm::dvec3(-1), glm::dvec3(1)};
-    framing_ = framing_view(corners, scene, options_);
+    framing_ = options_.eye      ? placed_view(scene, options_)
+               : options_.inside ? inside_view(scene, options_)
+                                 : framing_view(corners, scene, options_);
     return {};
 }
 
@@ -276,7 +278,8 @@ Result<void> FrameSource::set_view(Making& making) {
     if (options_.camera >= 0 && static_cast<std::size_t>(options_.camera) >= cameras) {
         return fail(Fault::usage, "there is no camera {}; the glTF has {}", options_.camera, cameras);
     }
-    const auto seen = cameras > 0 ? seen_by_camera(making.to_world) : std::nullopt;
+    const bool is_placed = options_.eye || options_.inside;
+    const auto seen = cameras > 0 && !is_placed ? seen_by_camera(making.to_world) : std::nullopt;
     if (!seen && !framing_) {
         if (const auto framed = frame_everything(); !framed) return framed;
     }

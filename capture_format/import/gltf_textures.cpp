@@ -62,12 +62,13 @@ Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) 
 AddressMode TextureImport::address_mode(const TextureSource& texture) {
     if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= document_.samplers.size()) return AddressMode::repeat;
     const Sampler& sampler = document_.samplers[static_cast<std::size_t>(texture.sampler)];
-    if (sampler.wrap_s != sampler.wrap_t) warnings_.push_back("a sampler wraps its axes differently; both wrap as u does");
     if (sampler.mag_filter == nearest_filter) {
         warnings_.push_back("a sampler asks for nearest filtering; all textures are filtered trilinearly");
     }
-    if (sampler.wrap_s == clamp_to_edge) return AddressMode::clamp;
-    return sampler.wrap_s == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
+    const auto along = [](std::uint64_t wrap) {
+        return wrap == clamp_to_edge ? AddressMode::clamp : wrap == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
+    };
+    return strata::address_mode({along(sampler.wrap_s), along(sampler.wrap_t)});
 }
 
 std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {

@@ -7,6 +7,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
+#include "capture_format/import/seen_share.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
@@ -19,6 +20,7 @@ struct ImportArguments {
     std::string size = "640x360";
     std::uint32_t frames = 1;
     GltfOptions gltf;
+    std::vector<double> eye, target;  ///< x, y, z or nothing
     bool deep = false;
     DeepOptions of_deep;
     std::uint64_t memory_budget = 0;
@@ -86,18 +88,35 @@ Result<void> import_deep_image(const ImportArguments& options) {
     return {};
 }
 
+/// Whether a picture is black only a render can tell; whether anything is in it, the triangles can.
+std::vector<std::string> notes_on_view(const Frame& frame) {
+    constexpr double little = 0.03;  // of the picture
+    const double share = frame.draws.empty() ? 0 : seen_share(frame);
+    if (share >= little) return {};
+    return {fmt::format("the scene covers {:.1f} % of the picture; place the camera with --eye and --target, or with --inside",
+                        100 * share)};
+}
+
 Result<void> import(const ImportArguments& options) {
     if (options.deep) return import_deep_image(options);
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
     gltf.memory_budget = options.memory_budget;
+    if (!options.eye.empty()) gltf.eye = glm::dvec3(options.eye[0], options.eye[1], options.eye[2]);
+    if (!options.target.empty()) gltf.target = glm::dvec3(options.target[0], options.target[1], options.target[2]);
     std::tie(gltf.width, gltf.height) = *extent;
     if (gltf.samples != 1 && gltf.samples != 4) return fail(Fault::usage, "--samples is 1 or 4, not {}", gltf.samples);
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
-    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
+    std::vector<std::string> notes;
+    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) {
+        auto frame = scene->frame(index);
+        if (index == 0 && frame) notes = notes_on_view(*frame);
+        return frame;
+    });
     print_warnings(scene->warnings());
+    print_warnings(notes);
     if (!last) return last.error();
     fmt::print(stderr, "imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws, "draw"),
                plural(last->materials, "material"), plural(last->textures, "texture"), plural(last->lights, "light"),
@@ -126,6 +145,13 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--azimuth", options->gltf.azimuth,
                    "degrees from the front towards the right of a framing camera, default 22");
     app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
+    const auto point = [&](const char* name, std::vector<double>& to, const char* help) {
+        app.add_option(name, to, help)->delimiter(',')->expected(3);
+    };
+    point("--eye", options->eye, "X,Y,Z in meters: where the camera is, instead of the scene's");
+    point("--target", options->target, "X,Y,Z: what the camera of --eye looks at; default the middle of the scene");
+    app.add_option("--fov", options->gltf.fov, "vertical degrees of a camera that is not the scene's");
+    app.add_flag("--inside", options->gltf.inside, "camera within the scene's box, for closed rooms; --azimuth chooses the side");
     app.add_option("--frames", options->frames, "how many frames; an animation begins again after its end")
         ->check(CLI::Range(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");

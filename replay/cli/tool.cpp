@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* exit_codes =
     "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
-    "4 the device lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 130 interrupted";
+    "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 130 interrupted";
 
 int report_error(const Error& error) {
     fmt::print(stderr, "strata: {}\n", error.sentence);
