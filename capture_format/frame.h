@@ -21,7 +21,7 @@ static_assert(alignof(glm::vec4) == alignof(float) && alignof(glm::dmat4) == ali
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
 enum class TextureFormat : std::uint32_t { rgba8_unorm, rgba8_srgb, rgba16f, rgba32f };
-/// What lies beyond a texture's edges: beyond all of them, or along u and along v.
+/// What lies beyond a texture's edges: of both axes, or of u and then of v, which address_u() and address_v() give alone.
 enum class AddressMode : std::uint32_t {
     repeat,
     clamp,
@@ -33,32 +33,7 @@ enum class AddressMode : std::uint32_t {
     mirror_repeat,
     mirror_clamp
 };
-inline constexpr AddressMode last_address_mode = AddressMode::mirror_clamp;
-
-/// An address mode by axis; both are repeat, clamp or mirror.
-struct AxisModes {
-    AddressMode u = AddressMode::repeat, v = AddressMode::repeat;
-    bool operator==(const AxisModes&) const = default;
-};
-constexpr AxisModes axis_modes(AddressMode mode) {
-    using enum AddressMode;
-    constexpr std::array<AxisModes, 9> by_mode = {{{repeat, repeat},
-                                                   {clamp, clamp},
-                                                   {mirror, mirror},
-                                                   {repeat, clamp},
-                                                   {repeat, mirror},
-                                                   {clamp, repeat},
-                                                   {clamp, mirror},
-                                                   {mirror, repeat},
-                                                   {mirror, clamp}}};
-    return by_mode[static_cast<std::size_t>(mode)];
-}
-/// The other way round.
-constexpr AddressMode address_mode(const AxisModes& axes) {
-    std::uint32_t mode = 0;
-    while (axis_modes(AddressMode{mode}) != axes) ++mode;
-    return AddressMode{mode};
-}
+AddressMode address_u(AddressMode), address_v(AddressMode);
 
 /// Texels of every mip, finest first, rows top to bottom, tightly packed. Mip n is max(1, extent >> n).
 struct Texture {

@@ -73,11 +73,11 @@ std::size_t Surfaces::texture(std::uint32_t index, Encoding encoding) {
         "images", {{"name", source.name},
                    {"mimeType", "image/png"},
                    {"bufferView", parts_.add_view(encode_png(source.width, source.height, 4, finest_texels(source, wanted)))}});
-    const AxisModes wrap = axis_modes(source.address);
     constexpr int linear = 9729, linear_mipmap_linear = 9987;
-    const std::size_t sampler = parts_.add(
-        "samplers",
-        {{"magFilter", linear}, {"minFilter", linear_mipmap_linear}, {"wrapS", wrap_mode(wrap.u)}, {"wrapT", wrap_mode(wrap.v)}});
+    const std::size_t sampler = parts_.add("samplers", {{"magFilter", linear},
+                                                        {"minFilter", linear_mipmap_linear},
+                                                        {"wrapS", wrap_mode(address_u(source.address))},
+                                                        {"wrapT", wrap_mode(address_v(source.address))}});
     known->second = parts_.add("textures", {{"source", image}, {"sampler", sampler}});
     return known->second;
 }

@@ -87,8 +87,8 @@ glm::dvec4 TexelLookup::at(const SurfacePoint& point) const {
     const glm::dvec2& uv = uv_set == 1 ? point.uv1 : point.uv0;
     const glm::dmat3x2 m(transform[0], transform[3], transform[1], transform[4], transform[2], transform[5]);
     const glm::dvec2 moved = m * glm::dvec3(uv, 1);
-    const AxisModes modes = axis_modes(texture->address);
-    const std::size_t x = wrapped(moved.x, texture->width, modes.u), y = wrapped(moved.y, texture->height, modes.v);
+    const std::size_t x = wrapped(moved.x, texture->width, address_u(texture->address)),
+                      y = wrapped(moved.y, texture->height, address_v(texture->address));
     const std::byte* texel = &texture->texels[(y * texture->width + x) * 4];
     glm::dvec4 value;
     for (int c = 0; c < 4; ++c) {

@@ -68,7 +68,9 @@ AddressMode TextureImport::address_mode(const TextureSource& texture) {
     const auto along = [](std::uint64_t wrap) {
         return wrap == clamp_to_edge ? AddressMode::clamp : wrap == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
     };
-    return strata::address_mode({along(sampler.wrap_s), along(sampler.wrap_t)});
+    std::uint32_t mode = 0;
+    while (address_u(AddressMode{mode}) != along(sampler.wrap_s) || address_v(AddressMode{mode}) != along(sampler.wrap_t)) ++mode;
+    return AddressMode{mode};
 }
 
 std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {
