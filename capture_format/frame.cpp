@@ -1,9 +1,22 @@
-// The projection of View, the one computation a plain frame brings along.
+// The computations a plain frame brings along: the projection of View, the axes of AddressMode.
 #include "capture_format/frame.h"
 
+#include <array>
 #include <cmath>
 
 namespace strata {
+
+AddressMode address_u(AddressMode mode) {
+    using enum AddressMode;
+    constexpr std::array by_mode = {repeat, clamp, mirror, repeat, repeat, clamp, clamp, mirror, mirror};
+    return by_mode[static_cast<std::size_t>(mode)];
+}
+
+AddressMode address_v(AddressMode mode) {
+    using enum AddressMode;
+    constexpr std::array by_mode = {repeat, clamp, mirror, clamp, mirror, repeat, mirror, repeat, clamp};
+    return by_mode[static_cast<std::size_t>(mode)];
+}
 
 glm::mat4 perspective(double vertical_fov, double width_over_height, double near) {
     const double scale_y = 1 / std::tan(vertical_fov / 2);

@@ -21,7 +21,19 @@ static_assert(alignof(glm::vec4) == alignof(float) && alignof(glm::dmat4) == ali
 inline constexpr std::uint32_t no_index = 0xffffffffu;
 
 enum class TextureFormat : std::uint32_t { rgba8_unorm, rgba8_srgb, rgba16f, rgba32f };
-enum class AddressMode : std::uint32_t { repeat, clamp, mirror };
+/// What lies beyond a texture's edges: of both axes, or of u and then of v, which address_u() and address_v() give alone.
+enum class AddressMode : std::uint32_t {
+    repeat,
+    clamp,
+    mirror,
+    repeat_clamp,
+    repeat_mirror,
+    clamp_repeat,
+    clamp_mirror,
+    mirror_repeat,
+    mirror_clamp
+};
+AddressMode address_u(AddressMode), address_v(AddressMode);
 
 /// Texels of every mip, finest first, rows top to bottom, tightly packed. Mip n is max(1, extent >> n).
 struct Texture {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include <xxhash.h>
 
@@ -19,10 +20,12 @@ namespace strata {
 
 struct Capture::Contents {
     Container container;
-    std::optional<BlobStore> blobs;   ///< refers to the container, so it opens when that has its place
+    MemoryBudget budget;
+    std::optional<BlobStore> blobs;   ///< refers to container and budget, so it opens when these have their place
     std::optional<BlobStore> images;  ///< of the expectations, opened when the first is asked for
     std::mutex decoding;              ///< frame() fills and empties what follows and the blob store
     FrameChain chain;
+    std::uint64_t chain_bytes = 0;        ///< of the budget
     std::optional<std::size_t> unpacked;  ///< the frame the chain ends with
     std::vector<std::byte> plain;         ///< the frame of version 1 that was asked for last
     std::vector<std::size_t> frames;      ///< section numbers
@@ -31,7 +34,7 @@ struct Capture::Contents {
     Texture thumbnail;
     std::vector<std::string> expectations;
 
-    explicit Contents(Container opened) : container(std::move(opened)) {}
+    Contents(Container opened, std::uint64_t memory_budget) : container(std::move(opened)), budget(memory_budget) {}
     Result<void> read(Partial);
     void summarize();
     static bool is_known(const Section&);
@@ -125,9 +128,16 @@ Result<void> Capture::Contents::unpack(std::size_t frame) {
     const std::size_t number = frames[frame];
     const Section& section = container.sections()[number];
     unpacked.reset();
+    if (section.raw_bytes > largest_frame_section)
+        return fail(Fault::bad_input, "{} claims {} bytes; frames have up to {}", container.whereabouts(number),
+                    section.raw_bytes, largest_frame_section);
+    const std::uint64_t needed = section.raw_bytes * chain_bytes_per_byte;
+    if (const auto room = budget.has_room(needed + section.stored_bytes, 1, container.whereabouts(number)); !room) return room;
     const auto stored = container.stored(number);
     if (!stored) return stored.error();
     if (section.version == 1) return fail(Fault::bad_input, "{} cannot be built on", container.whereabouts(number));
+    budget.give_back(std::exchange(chain_bytes, needed));
+    if (const auto taken = budget.take(needed, 1, container.whereabouts(number)); !taken) return taken;
     const auto raw = chain.unpack(*stored, section.raw_bytes);
     if (!raw) return at(container, number, raw.error());
     unpacked = frame;
@@ -171,7 +181,7 @@ void Capture::Contents::summarize() {
 }
 
 Result<void> Capture::Contents::read(Partial partial) {
-    Result<BlobStore> opened = BlobStore::open(container);
+    Result<BlobStore> opened = BlobStore::open(container, budget);
     if (!opened) return opened.error();
     blobs = *std::move(opened);
     for (std::size_t i = 0; i < container.sections().size(); ++i) {
@@ -194,19 +204,21 @@ Result<void> Capture::Contents::read(Partial partial) {
     return {};
 }
 
-Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial) { return read(Container::open(path), partial); }
-
-Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name, Partial partial) {
-    return read(Container::open(bytes, std::move(name)), partial);
+Result<Capture> Capture::open(const std::filesystem::path& path, Partial partial, std::uint64_t memory_budget) {
+    return read(Container::open(path), partial, memory_budget);
 }
 
-Result<Capture> Capture::read(Result<Container> container, Partial partial) {
+Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name, Partial partial, std::uint64_t memory_budget) {
+    return read(Container::open(bytes, std::move(name)), partial, memory_budget);
+}
+
+Result<Capture> Capture::read(Result<Container> container, Partial partial, std::uint64_t memory_budget) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
         return fail(Fault::bad_input, "{}; what is whole before it can be read if partial captures are allowed",
                     container->damage()->sentence);
     }
-    auto contents = std::make_unique<Contents>(*std::move(container));
+    auto contents = std::make_unique<Contents>(*std::move(container), memory_budget);
     if (const Result<void> read = contents->read(partial); !read) return read.error();
     return Capture(std::move(contents));
 }
@@ -228,7 +240,7 @@ Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, st
     if (!hash) return fail(Fault::bad_input, "an expectation names the image '{}', which is no hash", name);
     const std::lock_guard lock(contents.decoding);
     if (!contents.images) {
-        Result<BlobStore> opened = BlobStore::open(contents.container, SectionType::expect);
+        Result<BlobStore> opened = BlobStore::open(contents.container, contents.budget, SectionType::expect);
         if (!opened) return opened.error();
         contents.images = *std::move(opened);
     }
@@ -247,7 +259,7 @@ Result<Frame> Capture::frame(std::size_t index) const {
     const std::lock_guard lock(contents.decoding);
     const auto flatbuffer = contents.flatbuffer(index);
     if (!flatbuffer) return flatbuffer.error();
-    Result<Frame> decoded = decode_frame(*flatbuffer, *contents.blobs);
+    Result<Frame> decoded = decode_frame(*flatbuffer, *contents.blobs, contents.budget);
     contents.blobs->keep_only_used();
     if (!decoded) return at(contents.container, number, decoded.error());
     Frame frame = upgrade(*std::move(decoded), contents.container.sections()[number].version);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -31,9 +32,12 @@ struct CaptureSummary {
 
 class Capture {
 public:
-    static Result<Capture> open(const std::filesystem::path&, Partial = Partial::refused);
+    /// The memory budget bounds in bytes what is unpacked of the file at a time, the frame that is being read among it; frames
+    /// that were returned are the caller's. 0: half of the machine's memory. What needs more fails with Fault::device_lacks.
+    static Result<Capture> open(const std::filesystem::path&, Partial = Partial::refused, std::uint64_t memory_budget = 0);
     /// A capture in memory, copied; `name` stands for the path in sentences.
-    static Result<Capture> open(std::span<const std::byte>, std::string name, Partial = Partial::refused);
+    static Result<Capture> open(std::span<const std::byte>, std::string name, Partial = Partial::refused,
+                                std::uint64_t memory_budget = 0);
     Capture(Capture&&) noexcept;
     Capture& operator=(Capture&&) noexcept;
     ~Capture();
@@ -58,7 +62,7 @@ public:
 private:
     struct Contents;
     explicit Capture(std::unique_ptr<Contents>);
-    static Result<Capture> read(Result<Container>, Partial);
+    static Result<Capture> read(Result<Container>, Partial, std::uint64_t memory_budget);
     std::unique_ptr<Contents> contents_;
 };
 

@@ -54,6 +54,8 @@ std::uint64_t footprint(const Frame& frame) {
 
 }  // namespace
 
+std::uint64_t recorded_bytes(const Frame& frame) { return footprint(frame); }
+
 struct Recorder::Stream {
     Stream(FrameWriter opened, std::uint64_t budget) : writer(std::move(opened)), queue(budget) {
         thread = std::thread([this] { work(); });
@@ -308,7 +310,7 @@ Result<void> Recorder::record(Frame frame) {
     const std::lock_guard lock(stream_->calls);
     if (const Result<void> ready = stream_->usable(); !ready) return ready;
     if (stream_->frame) return stream_->misused(fail(Fault::usage, "record() was called within begin_frame() and end_frame()"));
-    const std::uint64_t number = stream_->frames++, bytes = footprint(frame);
+    const std::uint64_t number = stream_->frames++, bytes = recorded_bytes(frame);
     const Result<void> pushed = stream_->queue.push(WholeFrame{std::make_unique<Frame>(std::move(frame)), number}, bytes,
                                                     fmt::format("frame {}", number));
     return pushed ? stream_->report() : pushed;

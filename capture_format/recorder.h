@@ -34,6 +34,9 @@ struct RecorderLoad {
     double waited_s = 0;                                ///< how long the application's calls have waited for room
 };
 
+/// What Recorder::record() takes of its budget for a frame.
+std::uint64_t recorded_bytes(const Frame&);
+
 class Recorder {
 public:
     /// A new file; `notes` is free text for whoever opens it. Fails when it cannot be written.

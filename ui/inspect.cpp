@@ -81,7 +81,7 @@ Result<void> show_window(const InspectOptions& options) {
         if (inspector->is_closing()) break;
         const std::filesystem::path dropped = (*window)->take_dropped();
         if (dropped.empty()) continue;
-        if (const auto capture = Capture::open(dropped, options.partial); !capture) {
+        if (const auto capture = Capture::open(dropped, options.partial, options.device.memory_budget); !capture) {
             inspector->refuse(capture.error());
             continue;
         }

@@ -6,17 +6,18 @@
 
 namespace strata {
 
-Result<void> check_capture(const std::filesystem::path& path) {
+Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memory_budget) {
+    MemoryBudget budget(memory_budget);
     const auto container = Container::open(path);
     if (!container) return container.error();
     if (container->damage()) return *container->damage();
     if (const auto sound = container->check_bytes(); !sound) return sound;
     for (const SectionType type : {SectionType::blobs, SectionType::expect}) {
-        auto blobs = BlobStore::open(*container, type);
+        auto blobs = BlobStore::open(*container, budget, type);
         if (!blobs) return blobs.error();
         if (const auto sound = blobs->check_all(); !sound) return sound;
     }
-    const auto capture = Capture::open(path);
+    const auto capture = Capture::open(path, Partial::refused, memory_budget);
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
         if (const auto frame = capture->frame(i); !frame)

@@ -130,7 +130,7 @@ void inspect_texture(Inspection& inspection, const Texture& texture) {
                         inspection.expect(within(texture.width, 1, largest_extent) && within(texture.height, 1, largest_extent),
                                           "the extent must be 1 to {} texels each way, not {} x {}", largest_extent,
                                           texture.width, texture.height);
-    inspection.expect(known(texture.address, AddressMode::mirror), "there is no address mode {}",
+    inspection.expect(known(texture.address, AddressMode::mirror_clamp), "there is no address mode {}",
                       static_cast<std::uint32_t>(texture.address));
     if (!shaped) return;
     const auto most_mips = static_cast<std::uint32_t>(std::bit_width(std::max(texture.width, texture.height)));

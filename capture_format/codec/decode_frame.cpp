@@ -350,6 +350,20 @@ std::uint64_t bulk_bytes(const schema::Frame& table) {
     return sum;
 }
 
+/// What decoding allocates for tables, names among them: hostile files name one table a million times.
+std::uint64_t table_bytes(const schema::Frame& table) {
+    const auto each = [](const auto* list, std::size_t bytes) { return list->size() * (bytes + longest_text); };
+    constexpr std::size_t light_lists = 2 * longest_light_list * sizeof(std::uint32_t) + 6 * sizeof(ClipPlane);
+    std::uint64_t choices = each(table.recorded_with(), sizeof(StageChoice) + longest_text);
+    for (const schema::StageChoice* choice : *table.recorded_with())
+        choices += each(choice->settings(), sizeof(Setting) + longest_text);
+    return choices + each(table.textures(), sizeof(Texture)) + each(table.meshes(), sizeof(Mesh)) +
+           each(table.materials(), sizeof(Material)) + each(table.draws(), sizeof(Draw)) +
+           each(table.emitters(), sizeof(Emitter)) + each(table.lights(), sizeof(Light) + light_lists) +
+           each(table.blockers(), sizeof(Blocker)) + each(table.portals(), sizeof(Portal)) +
+           each(table.light_volumes(), sizeof(LightVolume));
+}
+
 }  // namespace
 
 Result<void> verify_frame(std::span<const std::byte> section) {
@@ -365,10 +379,14 @@ Result<void> verify_frame(std::span<const std::byte> section) {
     return {};
 }
 
-Result<Frame> decode_frame(std::span<const std::byte> section, BlobStore& blobs) {
+Result<Frame> decode_frame(std::span<const std::byte> section, BlobStore& blobs, MemoryBudget& budget) {
     if (const Result<void> verified = verify_frame(section); !verified) return verified.error();
+    const schema::Frame& table = *schema::GetFrame(section.data());
+    const std::uint64_t bytes = bulk_bytes(table) + table_bytes(table);
+    if (const auto room = budget.take(bytes, 1, "the frame"); !room) return room.error();
     Decoder decoder(blobs);
-    Frame frame = decoder.decode(*schema::GetFrame(section.data()));
+    Frame frame = decoder.decode(table);
+    budget.give_back(bytes);
     if (decoder.error()) return *decoder.error();
     return frame;
 }

@@ -17,7 +17,8 @@ inline constexpr std::uint64_t largest_frame_bytes = std::uint64_t{4} << 30;
 /// That no offset leaves the bytes, all that is required is there, and the resources stay within the limit.
 Result<void> verify_frame(std::span<const std::byte> section);
 
-/// Verifies and decodes. Enums, indices and floats are as stored: check_frame() judges them.
-Result<Frame> decode_frame(std::span<const std::byte> section, BlobStore&);
+/// Verifies and decodes. Enums, indices and floats are as stored: check_frame() judges them. Fails (device lacks) where the
+/// budget holds the frame and its blobs together no longer.
+Result<Frame> decode_frame(std::span<const std::byte> section, BlobStore&, MemoryBudget&);
 
 }  // namespace strata

@@ -124,7 +124,7 @@ std::vector<std::byte> payload_of(const Header& header, std::span<const FrameCha
 void FrameChain::EndCompression::operator()(ZSTD_CCtx_s* context) const { ZSTD_freeCCtx(context); }
 
 void FrameChain::clear() {
-    for (Words& frame : history_) frame.clear();
+    for (Words& frame : history_) frame = {};
     known_ = reach_ = 0;
 }
 

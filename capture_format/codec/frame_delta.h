@@ -17,6 +17,9 @@ namespace strata {
 
 /// What a frame section may hold unpacked: bounds what a hostile file makes a reader allocate. 700,000 draws fit.
 inline constexpr std::uint64_t largest_frame_section = std::uint64_t{256} << 20;
+/// What unpacking takes for every byte of a frame, and keeps until the next: the last four frames, what is unpacked, the
+/// forecast, the frame, and which of its words move (half a byte).
+inline constexpr std::uint64_t chain_bytes_per_byte = 8;
 /// One frame in so many is told without the ones before it, a key. Any frame is then read by unpacking 64 at most, 0.1 s for 2000
 /// draws; a key of 2000 moving draws takes 90 KB where another frame takes 1 to 4, so that 16 would double the file.
 inline constexpr std::uint32_t frames_per_key = 64;

@@ -25,7 +25,7 @@ static_assert(offsetof(Particle, uv_frame) == 60 && offsetof(Particle, depth_off
 
 // Enums have the same values on both sides: a new enumerator is added to both.
 static_assert(static_cast<unsigned>(schema::TextureFormat::MAX) == static_cast<unsigned>(TextureFormat::rgba32f));
-static_assert(static_cast<unsigned>(schema::AddressMode::MAX) == static_cast<unsigned>(AddressMode::mirror));
+static_assert(static_cast<unsigned>(schema::AddressMode::MAX) == static_cast<unsigned>(AddressMode::mirror_clamp));
 static_assert(static_cast<unsigned>(schema::LightingModel::MAX) == static_cast<unsigned>(last_lighting_model));
 static_assert(static_cast<unsigned>(schema::AlphaMode::MAX) == static_cast<unsigned>(AlphaMode::additive));
 static_assert(static_cast<unsigned>(schema::Mobility::MAX) == static_cast<unsigned>(Mobility::moving));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <utility>
 
 #include <glm/glm.hpp>
 
+#include "capture_format/codec/texture_bytes.h"
 #include "capture_format/srgb.h"
 
 namespace strata {
@@ -88,6 +90,8 @@ Texture with_mips(Texture finest) {
     const Encoding encoding = finest.format == TextureFormat::rgba8_srgb ? Encoding::srgb : Encoding::linear;
     const ByteTable color = byte_table(encoding), alpha = byte_table(Encoding::linear);
     const std::vector<std::byte> bytes = finest.texels;  // appending moves the original
+    finest.mips = static_cast<std::uint32_t>(std::bit_width(std::max(finest.width, finest.height)));
+    finest.texels.reserve(texture_bytes(finest));
     Level level;
     for (finest.mips = 1; std::max(finest.width, finest.height) >> finest.mips > 0; ++finest.mips) {
         if (finest.mips == 1) {

@@ -104,8 +104,8 @@ PackedBlobs BlobCollector::pack(std::span<const Pending> blobs, std::uint64_t ra
     return section;
 }
 
-Result<BlobStore> BlobStore::open(const Container& container, SectionType type) {
-    BlobStore store(container);
+Result<BlobStore> BlobStore::open(const Container& container, MemoryBudget& budget, SectionType type) {
+    BlobStore store(container, budget);
     for (std::size_t i = 0; i < container.sections().size(); ++i) {
         const Section& section = container.sections()[i];
         if (section.type != type) continue;
@@ -153,11 +153,16 @@ Result<void> BlobStore::read_index(std::size_t number) {
 }
 
 Result<void> BlobStore::decompress(BlobsSection& blobs) {
+    free(blobs);
+    const Section& section = container_->sections()[blobs.number];
+    const std::uint64_t needed = section.stored_bytes + section.raw_bytes;
+    if (needed > budget_->left()) free_unused();
+    if (const auto room = budget_->has_room(needed, 1, container_->whereabouts(blobs.number)); !room) return room;
     const auto stored = container_->stored(blobs.number);
     if (!stored) return stored.error();
     const std::span<const std::byte> frame =
         std::span(*stored).subspan(sizeof(std::uint64_t) + blobs.hashes.size() * sizeof(IndexEntry));
-    const std::uint64_t raw_bytes = container_->sections()[blobs.number].raw_bytes;
+    const std::uint64_t raw_bytes = section.raw_bytes;
     // Only a frame that states the size the section states is worth allocating for.
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
         return fail(Fault::bad_input, "{} is not a zstd frame of {} bytes", container_->whereabouts(blobs.number), raw_bytes);
@@ -177,7 +182,7 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
     }
     blobs.bytes = std::move(raw);
     blobs.held = true;
-    return {};
+    return budget_->take(raw_bytes, 1, container_->whereabouts(blobs.number));
 }
 
 Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
@@ -202,14 +207,21 @@ Result<void> BlobStore::check_all() {
     return {};
 }
 
+void BlobStore::free(BlobsSection& blobs) {
+    if (!blobs.held) return;
+    budget_->give_back(blobs.bytes.size());
+    blobs.bytes = {};
+    blobs.held = false;
+}
+
+void BlobStore::free_unused() {
+    for (BlobsSection& section : sections_)
+        if (!section.used) free(section);
+}
+
 void BlobStore::keep_only_used() {
-    for (BlobsSection& section : sections_) {
-        if (!section.used) {
-            section.bytes = {};
-            section.held = false;
-        }
-        section.used = false;
-    }
+    free_unused();
+    for (BlobsSection& section : sections_) section.used = false;
 }
 
 std::size_t BlobStore::sections_held() const {

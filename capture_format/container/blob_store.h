@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "capture_format/container/container.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata {
@@ -71,8 +72,8 @@ private:
 class BlobStore {
 public:
     /// Reads the indices of all blobs sections of frames, or of the images of expectations; decompresses nothing. The container
-    /// must outlive the store.
-    static Result<BlobStore> open(const Container&, SectionType = SectionType::blobs);
+    /// and the budget, which sections are taken from while they are held, must outlive the store.
+    static Result<BlobStore> open(const Container&, MemoryBudget&, SectionType = SectionType::blobs);
 
     /// The bytes of a blob, valid until keep_only_used().
     Result<std::span<const std::byte>> find(const BlobName&);
@@ -99,11 +100,14 @@ private:
         std::vector<std::byte> bytes;
         bool held = false, used = false;
     };
-    explicit BlobStore(const Container& container) : container_(&container) {}
+    BlobStore(const Container& container, MemoryBudget& budget) : container_(&container), budget_(&budget) {}
     Result<void> read_index(std::size_t section);
     Result<void> decompress(BlobsSection&);
+    void free(BlobsSection&);
+    void free_unused();
 
     const Container* container_;
+    MemoryBudget* budget_;
     std::vector<BlobsSection> sections_;
     std::map<BlobHash, BlobLocation> places_;
     std::uint64_t raw_bytes_ = 0, stored_bytes_ = 0;

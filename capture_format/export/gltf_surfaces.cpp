@@ -32,16 +32,9 @@ std::vector<std::byte> finest_texels(const Texture& texture, TextureFormat wante
     return texels;
 }
 
+/// Of one axis.
 constexpr int wrap_mode(AddressMode mode) {
-    switch (mode) {
-        case AddressMode::clamp:
-            return 33071;
-        case AddressMode::mirror:
-            return 33648;
-        case AddressMode::repeat:
-            break;
-    }
-    return 10497;
+    return mode == AddressMode::clamp ? 33071 : mode == AddressMode::mirror ? 33648 : 10497;
 }
 
 /// KHR_texture_transform says offset, rotation and scale; the matrix is (c sx, s sy, tx; -s sx, c sy, ty).
@@ -80,10 +73,11 @@ std::size_t Surfaces::texture(std::uint32_t index, Encoding encoding) {
         "images", {{"name", source.name},
                    {"mimeType", "image/png"},
                    {"bufferView", parts_.add_view(encode_png(source.width, source.height, 4, finest_texels(source, wanted)))}});
-    const int wrap = wrap_mode(source.address);
     constexpr int linear = 9729, linear_mipmap_linear = 9987;
-    const std::size_t sampler =
-        parts_.add("samplers", {{"magFilter", linear}, {"minFilter", linear_mipmap_linear}, {"wrapS", wrap}, {"wrapT", wrap}});
+    const std::size_t sampler = parts_.add("samplers", {{"magFilter", linear},
+                                                        {"minFilter", linear_mipmap_linear},
+                                                        {"wrapS", wrap_mode(address_u(source.address))},
+                                                        {"wrapT", wrap_mode(address_v(source.address))}});
     known->second = parts_.add("textures", {{"source", image}, {"sampler", sampler}});
     return known->second;
 }

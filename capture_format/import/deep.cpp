@@ -10,6 +10,7 @@
 #include "capture_format/container/file.h"
 #include "capture_format/import/deep_pixel.h"
 #include "capture_format/inspection.h"
+#include "capture_format/memory_budget.h"
 
 namespace strata {
 namespace {
@@ -19,6 +20,10 @@ namespace {
 /// these points of any other pixel. All of them stay 8.8 steps of 1/256 pixel off its sides, the most that a search found, so
 /// that no rounding of a vertex or of the rasterizer decides what is covered.
 constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
+
+/// Three vertices of position and color with their indices. They are there four times while the frame is recorded: vectors that
+/// grow have twice their room, then come the recorder's blobs and what is compressed of them.
+constexpr std::uint64_t bytes_per_fragment = 4 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
 
 /// Events below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
 constexpr double least_alpha = 1e-5;
@@ -49,6 +54,9 @@ public:
                         window_.height);
         const auto count = file_.count_samples(read_, options_.most_samples);
         if (!count) return count.error();
+        MemoryBudget budget(options_.memory_budget);
+        if (const auto room = budget.take(*count * layers_.size(), bytes_per_fragment, "the image's samples"); !room)
+            return room.error();
         set_view();
         meshes_.resize(layers_.size());
         DeepBlock block;

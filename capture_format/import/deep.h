@@ -24,6 +24,8 @@ struct DeepOptions {
     std::optional<DeepWindow> window;
     /// Samples that are read at most (scan lines and tiles outside of the window are not); each takes 96 bytes of capture.
     std::uint64_t most_samples = std::uint64_t{1} << 24;
+    /// Bytes that the samples may take until they are recorded; 0: half of the machine's memory.
+    std::uint64_t memory_budget = 0;
 };
 
 /// What an image was made of and what became of it. Counted in samples unless the name says pixels.

@@ -14,6 +14,14 @@ Result<void> check(const GltfOptions& options) {
         return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
                     options.azimuth, options.elevation);
     }
+    if (options.target && !options.eye) return fail(Fault::usage, "a target needs an eye to be looked at from (--eye)");
+    if (options.eye && (options.inside || options.camera >= 0))
+        return fail(Fault::usage, "--eye places the camera; --inside and --camera do so, too: choose one");
+    if (options.inside && options.camera >= 0) return fail(Fault::usage, "choose a camera of the file or --inside");
+    if (options.eye && options.target && *options.eye == *options.target)
+        return fail(Fault::usage, "the eye cannot look at the place where it is");
+    if (options.fov != 0 && !(options.fov >= 1 && options.fov <= 170))
+        return fail(Fault::usage, "a field of view has 1 to 170 degrees, not {}", options.fov);
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
         return fail(Fault::usage, "{} x {} pixels with {} samples cannot be rendered", options.width, options.height,
                     options.samples);
@@ -27,7 +35,7 @@ Result<void> check(const GltfOptions& options) {
 }  // namespace
 
 struct GltfScene::Contents {
-    Contents(std::string from, gltf::Document document, const GltfOptions& options, gltf::Budget budget)
+    Contents(std::string from, gltf::Document document, const GltfOptions& options, MemoryBudget budget)
         : name(std::move(from)), source(std::move(document), options, budget) {}
 
     std::string name;
@@ -42,10 +50,10 @@ GltfScene::~GltfScene() = default;
 Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Folder& folder, std::string name,
                                   const GltfOptions& options) {
     if (const auto good = check(options); !good) return good.error();
-    gltf::Budget budget(options.memory_budget);
+    MemoryBudget budget(options.memory_budget);
     if (const auto room = budget.take(bytes.size(), 1, "the file"); !room) return room.error();
     auto document = gltf::load_document(std::move(bytes), folder, budget);
-    if (!document) return fail(Fault::bad_input, "{} is no readable glTF: {}", name, document.error().sentence);
+    if (!document) return fail(document.error().fault, "{} is no readable glTF: {}", name, document.error().sentence);
     auto contents = std::make_unique<Contents>(std::move(name), *std::move(document), options, budget);
     if (const auto read = contents->source.read(); !read) {
         return fail(read.error().fault, "{}: {}", contents->name, read.error().sentence);
@@ -54,7 +62,7 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
 }
 
 Result<GltfScene> GltfScene::open(const std::filesystem::path& path, const GltfOptions& options) {
-    gltf::Budget budget(options.memory_budget);
+    MemoryBudget budget(options.memory_budget);
     return gltf::read_file(path, budget).and_then([&](auto& bytes) {
         return read(std::move(bytes), gltf::Folder(path), path.string(), options);
     });

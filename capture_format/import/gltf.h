@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
 #include "capture_format/result.h"
@@ -23,10 +26,16 @@ struct GltfOptions {
     std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
     /// Degrees from the front (+z) towards the right (+x), and above the horizon: where the framing camera stands.
     double azimuth = 22, elevation = 16;
-    double fps = 30;        ///< frames per second of the animation
+    /// Where the eye is and what it looks at, in metres, instead of any camera; without a target the middle of the scene.
+    std::optional<glm::dvec3> eye, target;
+    double fov = 0;  ///< degrees from the bottom to the top of the picture, of all but the file's cameras; 0: as the view needs
+    bool inside =
+        false;        ///< the framing camera stands within the scene's box, as for a closed room, on the side that azimuth names
+    double fps = 30;  ///< frames per second of the animation
     std::string animation;  ///< by name or index; empty: the first one, if there is one
-    /// What the file, its buffers, vertices and pictures may take in memory together; hostile files claim more.
-    std::uint64_t memory_budget = std::uint64_t{4} << 30;
+    /// Bytes that the file, its buffers, vertices and pictures may take in memory together, frames and what becomes of them until
+    /// they are recorded among them; hostile files claim more. 0: half of the machine's memory.
+    std::uint64_t memory_budget = 0;
 };
 
 class GltfScene {

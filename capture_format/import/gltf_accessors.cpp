@@ -129,7 +129,7 @@ struct Replacements {
 };
 
 Result<Replacements> read_replacements(const Document& document, const Accessor& accessor, std::size_t element_bytes,
-                                       Budget& budget) {
+                                       MemoryBudget& budget) {
     const Sparse& sparse = *accessor.sparse;
     if (!is_index_type(sparse.indices_type)) {
         return fail(Fault::bad_input, "its sparse indices have component type {}", sparse.indices_type);
@@ -157,7 +157,7 @@ Result<Replacements> read_replacements(const Document& document, const Accessor&
 
 /// Calls put(place, bytes) for every element that has bytes, replaced ones last; the others are zero.
 template <typename Put>
-Result<void> for_each_element(const Document& document, const Accessor& accessor, Budget& budget, const Put& put) {
+Result<void> for_each_element(const Document& document, const Accessor& accessor, MemoryBudget& budget, const Put& put) {
     const std::size_t element_bytes = component_bytes(accessor.component_type) * components_of(accessor.type);
     if (accessor.view >= 0) {
         const auto base = locate(document, {accessor.view, accessor.offset, accessor.count, element_bytes});
@@ -174,7 +174,7 @@ Result<void> for_each_element(const Document& document, const Accessor& accessor
 }
 
 /// An accessor that claims more than its buffer view holds is told so before anything is allocated for it.
-Result<void> check_claim(const Document& document, const Accessor& accessor, std::uint64_t element_bytes, Budget& budget) {
+Result<void> check_claim(const Document& document, const Accessor& accessor, std::uint64_t element_bytes, MemoryBudget& budget) {
     if (accessor.view >= 0) {
         const auto base = locate(document, {accessor.view, accessor.offset, accessor.count,
                                             component_bytes(accessor.component_type) * components_of(accessor.type)});
@@ -190,12 +190,12 @@ std::uint32_t component_count(const Document& document, int accessor) {
     return components_of(document.accessors[static_cast<std::size_t>(accessor)].type);
 }
 
-Result<std::vector<float>> read_floats(const Document& document, int index, std::uint32_t components, Budget& budget) {
+Result<std::vector<float>> read_floats(const Document& document, int index, std::uint32_t components, MemoryBudget& budget) {
     const auto found = find_accessor(document, index, components);
     if (!found) return found.error();
     const Accessor& accessor = **found;
     if (const auto good = check_claim(document, accessor, sizeof(float) * components, budget); !good) {
-        return fail(Fault::bad_input, "accessor {}: {}", index, good.error().sentence);
+        return fail(good.error().fault, "accessor {}: {}", index, good.error().sentence);
     }
     const std::size_t size = component_bytes(accessor.component_type);
     std::vector<float> values(accessor.count * components, 0.0f);
@@ -204,23 +204,23 @@ Result<std::vector<float>> read_floats(const Document& document, int index, std:
             values[place * components + c] = component(bytes + c * size, accessor.component_type, accessor.normalized);
         }
     });
-    if (!read) return fail(Fault::bad_input, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return fail(read.error().fault, "accessor {}: {}", index, read.error().sentence);
     return values;
 }
 
-Result<std::vector<std::uint32_t>> read_indices(const Document& document, int index, Budget& budget) {
+Result<std::vector<std::uint32_t>> read_indices(const Document& document, int index, MemoryBudget& budget) {
     const auto found = find_accessor(document, index, 1);
     if (!found) return found.error();
     const Accessor& accessor = **found;
     if (!is_index_type(accessor.component_type)) return fail(Fault::bad_input, "accessor {} holds no unsigned integers", index);
     if (const auto good = check_claim(document, accessor, sizeof(std::uint32_t), budget); !good) {
-        return fail(Fault::bad_input, "accessor {}: {}", index, good.error().sentence);
+        return fail(good.error().fault, "accessor {}: {}", index, good.error().sentence);
     }
     std::vector<std::uint32_t> indices(accessor.count, 0);
     const auto read = for_each_element(document, accessor, budget, [&](std::size_t place, const std::byte* bytes) {
         indices[place] = index_value(bytes, accessor.component_type);
     });
-    if (!read) return fail(Fault::bad_input, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return fail(read.error().fault, "accessor {}: {}", index, read.error().sentence);
     return indices;
 }
 

@@ -25,7 +25,17 @@ std::optional<Interpolation> interpolation_of(const std::string& name) {
     return std::nullopt;
 }
 
-Result<std::vector<double>> read_numbers(const Document& document, int accessor, std::uint32_t components, Budget& budget) {
+/// glTF 2.0, 3.11: times are floats, and so are values, but for rotations and weights, which may be normalized integers.
+Result<void> check_type(const Document& document, int index, const char* what, bool may_be_normalized) {
+    if (index < 0 || static_cast<std::size_t>(index) >= document.accessors.size()) return {};  // read_numbers() says so
+    const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
+    const bool is_normalized = accessor.normalized && accessor.component_type != uint32;
+    if (accessor.component_type == float32 || (may_be_normalized && is_normalized)) return {};
+    return fail(Fault::bad_input, "its {} are accessor {} of component type {}; they must be floats ({}){}", what, index,
+                accessor.component_type, static_cast<std::uint64_t>(float32), may_be_normalized ? " or normalized" : "");
+}
+
+Result<std::vector<double>> read_numbers(const Document& document, int accessor, std::uint32_t components, MemoryBudget& budget) {
     const auto values = read_floats(document, accessor, components, budget);
     if (!values) return values.error();
     if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); })) {
@@ -35,10 +45,13 @@ Result<std::vector<double>> read_numbers(const Document& document, int accessor,
 }
 
 /// The keys of one sampler for one path.
-Result<Track> read_track(const Document& document, const AnimationSampler& sampler, Track track, Budget& budget) {
+Result<Track> read_track(const Document& document, const AnimationSampler& sampler, Track track, MemoryBudget& budget) {
     const auto interpolation = interpolation_of(sampler.interpolation);
     if (!interpolation) return fail(Fault::bad_input, "there is no interpolation '{:.40}'", sampler.interpolation);
     track.interpolation = *interpolation;
+    const bool may_be_normalized = track.path == Path::rotation || track.path == Path::weights;
+    if (const auto good = check_type(document, sampler.input, "keyframe times", false); !good) return good.error();
+    if (const auto good = check_type(document, sampler.output, "values", may_be_normalized); !good) return good.error();
     auto times = read_numbers(document, sampler.input, 1, budget);
     if (!times) return times.error();
     track.times = *std::move(times);
@@ -137,7 +150,7 @@ Result<int> find_animation(const Document& document, const std::string& wanted) 
                 names);
 }
 
-Result<Clip> Clip::read(const Document& document, const Animation& animation, Budget& budget) {
+Result<Clip> Clip::read(const Document& document, const Animation& animation, MemoryBudget& budget) {
     Clip clip;
     for (const AnimationChannel& channel : animation.channels) {
         if (channel.node < 0) continue;  // glTF 2.0, 5.3: a target that only an extension knows
@@ -153,7 +166,7 @@ Result<Clip> Clip::read(const Document& document, const Animation& animation, Bu
             continue;
         }
         auto track = read_track(document, animation.samplers[sampler], {.node = channel.node, .path = *path}, budget);
-        if (!track) return fail(Fault::bad_input, "animation '{:.60}': {}", animation.name, track.error().sentence);
+        if (!track) return fail(track.error().fault, "animation '{:.60}': {}", animation.name, track.error().sentence);
         clip.duration_ = std::max(clip.duration_, track->times.back());
         clip.tracks_.push_back(*std::move(track));
     }

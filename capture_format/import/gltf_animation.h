@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/import/gltf_budget.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/import/gltf_nodes.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -34,7 +34,7 @@ Result<int> find_animation(const Document&, const std::string& wanted);
 class Clip {
 public:
     /// Fails when keys are broken or lead to nodes that do not exist.
-    static Result<Clip> read(const Document&, const Animation&, Budget&);
+    static Result<Clip> read(const Document&, const Animation&, MemoryBudget&);
 
     /// The pose of every node, seconds after the clip's first beginning.
     NodePose pose(const Document&, double time) const;

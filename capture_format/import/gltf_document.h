@@ -64,6 +64,8 @@ struct MeshSource {
 struct Node {
     std::string name;
     int mesh = -1, skin = -1, camera = -1, light = -1;
+    bool is_instanced = false;
+    Attributes instances;  ///< EXT_mesh_gpu_instancing: TRANSLATION, ROTATION, SCALE of every instance
     std::vector<int> children;
     std::optional<glm::dmat4> matrix;  ///< instead of the three
     glm::dvec3 translation{0}, scale{1};
@@ -113,8 +115,12 @@ struct TextureSource {
     int image = -1, sampler = -1;
 };
 
+/// glTF's own numbers.
+enum Filter : std::uint64_t { nearest_filter = 9728, linear_filter = 9729 };
+enum Wrap : std::uint64_t { repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648 };
+
 struct Sampler {
-    std::uint64_t mag_filter = 0, wrap_s = 0, wrap_t = 0;
+    std::uint64_t mag_filter = linear_filter, wrap_s = repeat, wrap_t = repeat;
 };
 
 struct Document {

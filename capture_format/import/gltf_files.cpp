@@ -55,7 +55,7 @@ constexpr std::array<std::uint8_t, 256> base64_values = [] {
     return values;
 }();
 
-Result<std::vector<std::byte>> decode_base64(std::string_view text, Budget& budget) {
+Result<std::vector<std::byte>> decode_base64(std::string_view text, MemoryBudget& budget) {
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
     if (text.size() % 4 == 1) return fail(Fault::bad_input, "a data URI is cut short");
     if (const auto room = budget.take(text.size(), 1, "a data URI"); !room) return room.error();
@@ -75,7 +75,7 @@ Result<std::vector<std::byte>> decode_base64(std::string_view text, Budget& budg
 }
 
 /// "data:TYPE;base64,DIGITS" or "data:TYPE,ESCAPED".
-Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, Budget& budget) {
+Result<std::vector<std::byte>> decode_data_uri(std::string_view uri, MemoryBudget& budget) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) return fail(Fault::bad_input, "the data URI '{}' has no data", shown(uri));
     if (uri.substr(0, comma).ends_with(";base64")) return decode_base64(uri.substr(comma + 1), budget);
@@ -111,7 +111,7 @@ Result<Chunks> split_chunks(std::span<const std::byte> file) {
     return chunks;
 }
 
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, Budget& budget) {
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, MemoryBudget& budget) {
     std::error_code failure;
     const bool regular = std::filesystem::is_regular_file(path, failure);  // a pipe or a device would never end
     const std::uintmax_t size = regular ? std::filesystem::file_size(path, failure) : 0;
@@ -131,7 +131,7 @@ Folder::Folder(const std::filesystem::path& file) {
     root_ = std::filesystem::canonical(parent.empty() ? "." : parent, failure);
 }
 
-Result<std::vector<std::byte>> Folder::read(const std::string& uri, Budget& budget) const {
+Result<std::vector<std::byte>> Folder::read(const std::string& uri, MemoryBudget& budget) const {
     if (uri.starts_with("data:")) return decode_data_uri(uri, budget);
     const auto name = unescaped(uri);
     if (!name || name->empty()) return fail(Fault::bad_input, "'{}' is no URI", shown(uri));

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "capture_format/import/gltf_budget.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -22,7 +22,7 @@ struct Chunks {
 Result<Chunks> split_chunks(std::span<const std::byte> file);
 
 /// The bytes of a file, not more than the budget holds.
-Result<std::vector<std::byte>> read_file(const std::filesystem::path&, Budget&);
+Result<std::vector<std::byte>> read_file(const std::filesystem::path&, MemoryBudget&);
 
 /// What URIs are resolved against.
 class Folder {
@@ -33,7 +33,7 @@ public:
     explicit Folder(const std::filesystem::path& file);
 
     /// The bytes a URI stands for.
-    Result<std::vector<std::byte>> read(const std::string& uri, Budget&) const;
+    Result<std::vector<std::byte>> read(const std::string& uri, MemoryBudget&) const;
 
 private:
     std::filesystem::path root_;  ///< without links; empty for no folder

@@ -8,16 +8,17 @@
 #include <tuple>
 #include <utility>
 
+#include "capture_format/import/gltf_instances.h"
 #include "capture_format/inspection.h"
 #include "capture_format/reader.h"
 
 namespace strata::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 9> supported_extensions = {
-    "EXT_meshopt_compression", "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",    "KHR_mesh_quantization",      "KHR_texture_transform"};
+constexpr std::array<std::string_view, 10> supported_extensions = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",    "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_volume",
+    "KHR_mesh_quantization",   "KHR_texture_transform"};
 
 bool is_supported(const std::string& extension) {
     return std::find(supported_extensions.begin(), supported_extensions.end(), extension) != supported_extensions.end();
@@ -60,7 +61,7 @@ struct FrameSource::Making {
     Frame frame;
     NodePose pose;
     std::vector<glm::dmat4> to_world, previous_to_world;  ///< of every node
-    Budget budget;                                        ///< for what is this frame's alone
+    MemoryBudget budget;                                  ///< for what is this frame's alone
     std::vector<double> weights;                          ///< of the morph targets of the node at hand
     /// Meshes made for this pose: by primitive, the node when it has a skin, and weights.
     std::map<std::tuple<const Primitive*, const Node*, std::vector<double>>, std::uint32_t> meshes;
@@ -113,7 +114,9 @@ Result<void> FrameSource::read() {
     if (!hierarchy) return hierarchy.error();
     hierarchy_ = *std::move(hierarchy);
     if (const auto read = read_animation(); !read) return read;
-    surfaces_ = import_materials(document_, budget_);
+    auto surfaces = import_materials(document_, budget_);
+    if (!surfaces) return surfaces.error();
+    surfaces_ = *std::move(surfaces);
     for (const std::string& warning : surfaces_.warnings) warn(warning);
     geometry_.emplace(document_, surfaces_.materials, budget_);
     for (std::size_t step = 0; step < hierarchy_.shown; ++step) {
@@ -121,12 +124,23 @@ Result<void> FrameSource::read() {
         if (!read) return read;
     }
     for (const std::string& warning : geometry_->warnings()) warn(warning);
+    return read_instances();
+}
+
+Result<void> FrameSource::read_instances() {
+    for (std::size_t step = 0; step < hierarchy_.shown; ++step) {
+        const Node& node = document_.nodes[static_cast<std::size_t>(hierarchy_.steps[step].node)];
+        if (node.mesh < 0) continue;
+        auto instances = gltf::read_instances(document_, node, budget_);
+        if (!instances) return instances.error();
+        instances_.emplace(&node, *std::move(instances));
+    }
     return {};
 }
 
 FrameSource::Making FrameSource::begin(double time, double previous_time) const {
     const auto pose = [&](double at) { return clip_ ? clip_->pose(document_, at) : rest_pose(document_); };
-    Making making{.pose = pose(time), .budget = Budget(options_.memory_budget)};
+    Making making{.pose = pose(time), .budget = budget_};
     making.to_world = to_world(document_, hierarchy_, making.pose);
     making.previous_to_world = previous_time == time ? making.to_world : to_world(document_, hierarchy_, pose(previous_time));
     return making;
@@ -167,32 +181,41 @@ Result<std::uint32_t> FrameSource::moving_mesh(Making& making, const Node& node,
     return known->second;
 }
 
-Result<void> FrameSource::add_draw(Making& making, const Node& node, const Primitive& primitive) {
+/// One draw for each instance of the node.
+Result<void> FrameSource::add_draws(Making& making, const Node& node, const Primitive& primitive) {
     const bool deforms = Geometry::moves(node, primitive);
-    const glm::dmat4 to_world = object_to_world(making.to_world, node, primitive);
-    if (!is_invertible(to_world)) {
-        warn(fmt::format("node '{:.60}' is left out where its scale is zero", node.name));
-        return {};
-    }
     const auto mesh = deforms ? moving_mesh(making, node, primitive) : Result(geometry_->fixed_mesh(primitive));
     if (!mesh) return mesh.error();
     if (*mesh == no_index) return {};
-    if (const auto room = making.budget.take(1, sizeof(Draw) + 8 * sizeof(glm::dvec3), "a draw"); !room) return room;
     Draw draw;
     draw.name = node.name.empty() ? making.frame.meshes[*mesh].name : node.name;
     draw.mesh = *mesh;
     draw.material = geometry_->material_of(primitive);
-    draw.to_world = to_world;
-    draw.previous_to_world = object_to_world(making.previous_to_world, node, primitive);
     const bool moves = moving_[static_cast<std::size_t>(&node - document_.nodes.data())];
     if (moves || deforms) draw.mobility = Mobility::moving;
-    making.frame.draws.push_back(std::move(draw));
-    while (making.boxes.size() <= *mesh) making.boxes.push_back(bounds_of(making.frame.meshes[making.boxes.size()]));
-    const Bounds& box = making.boxes[*mesh];
+    const glm::dmat4 to_world = object_to_world(making.to_world, node, primitive);
+    const glm::dmat4 previous_to_world = object_to_world(making.previous_to_world, node, primitive);
+    for (const glm::dmat4& instance : instances_.at(&node)) {
+        draw.to_world = to_world * instance;
+        draw.previous_to_world = previous_to_world * instance;
+        if (!is_invertible(draw.to_world)) {
+            warn(fmt::format("node '{:.60}' is left out where its scale is zero", node.name));
+        } else if (const auto added = add_draw(making, draw); !added) {
+            return added;
+        }
+    }
+    return {};
+}
+
+Result<void> FrameSource::add_draw(Making& making, const Draw& draw) {
+    if (const auto room = making.budget.take(1, sizeof(Draw) + 8 * sizeof(glm::dvec3), "a draw"); !room) return room;
+    making.frame.draws.push_back(draw);
+    while (making.boxes.size() <= draw.mesh) making.boxes.push_back(bounds_of(making.frame.meshes[making.boxes.size()]));
+    const Bounds& box = making.boxes[draw.mesh];
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 p((corner & 1) ? box.high.x : box.low.x, (corner & 2) ? box.high.y : box.low.y,
                            (corner & 4) ? box.high.z : box.low.z, 1);
-        making.corners.emplace_back(to_world * p);
+        making.corners.emplace_back(draw.to_world * p);
         making.scene.add(making.corners.back());
     }
     return {};
@@ -208,7 +231,7 @@ Result<void> FrameSource::add_draws(Making& making) {
         making.weights = making.pose.weights[index];
         if (making.weights.empty()) making.weights = node.weights.empty() ? mesh.weights : node.weights;
         for (const Primitive& primitive : mesh.primitives) {
-            if (const auto added = add_draw(making, node, primitive); !added) return added;
+            if (const auto added = add_draws(making, node, primitive); !added) return added;
         }
     }
     return {};
@@ -244,7 +267,9 @@ Result<void> FrameSource::frame_everything() {
         corners.insert(corners.end(), making.corners.begin(), making.corners.end());
     }
     if (corners.empty()) corners = {glm::dvec3(-1), glm::dvec3(1)};
-    framing_ = framing_view(corners, scene, options_);
+    framing_ = options_.eye      ? placed_view(scene, options_)
+               : options_.inside ? inside_view(scene, options_)
+                                 : framing_view(corners, scene, options_);
     return {};
 }
 
@@ -253,7 +278,8 @@ Result<void> FrameSource::set_view(Making& making) {
     if (options_.camera >= 0 && static_cast<std::size_t>(options_.camera) >= cameras) {
         return fail(Fault::usage, "there is no camera {}; the glTF has {}", options_.camera, cameras);
     }
-    const auto seen = cameras > 0 ? seen_by_camera(making.to_world) : std::nullopt;
+    const bool is_placed = options_.eye || options_.inside;
+    const auto seen = cameras > 0 && !is_placed ? seen_by_camera(making.to_world) : std::nullopt;
     if (!seen && !framing_) {
         if (const auto framed = frame_everything(); !framed) return framed;
     }

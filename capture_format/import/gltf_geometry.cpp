@@ -34,7 +34,7 @@ Result<void> Geometry::read(const Node& node) {
     const MeshSource& mesh = document_.meshes[static_cast<std::size_t>(node.mesh)];
     for (const Primitive& primitive : mesh.primitives) {
         const auto read = read_primitive(node, mesh, primitive);
-        if (!read) return fail(Fault::bad_input, "mesh '{:.60}': {}", mesh.name, read.error().sentence);
+        if (!read) return fail(read.error().fault, "mesh '{:.60}': {}", mesh.name, read.error().sentence);
     }
     return {};
 }
@@ -78,7 +78,7 @@ Result<void> Geometry::read_skin(int index) {
     std::vector<glm::dmat4> matrices(skin.joints.size(), glm::dmat4(1));
     if (skin.inverse_bind_matrices >= 0) {
         const auto values = read_floats(document_, skin.inverse_bind_matrices, 16, budget_);
-        if (!values) return fail(Fault::bad_input, "skin {}: {}", index, values.error().sentence);
+        if (!values) return fail(values.error().fault, "skin {}: {}", index, values.error().sentence);
         if (values->size() < matrices.size() * 16) {
             return fail(Fault::bad_input, "skin {} has {} joints and {} inverse bind matrices", index, matrices.size(),
                         values->size() / 16);

@@ -10,9 +10,9 @@
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
-#include "capture_format/import/gltf_budget.h"
 #include "capture_format/import/gltf_document.h"
 #include "capture_format/import/gltf_streams.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -20,7 +20,7 @@ namespace strata::gltf {
 class Geometry {
 public:
     /// Reads what the shown nodes need. All three outlive the geometry.
-    Geometry(const Document& document, std::span<const Material> materials, Budget& budget)
+    Geometry(const Document& document, std::span<const Material> materials, MemoryBudget& budget)
         : document_(document), materials_(materials), budget_(budget) {}
     Result<void> read(const Node&);
 
@@ -50,7 +50,7 @@ private:
 
     const Document& document_;
     std::span<const Material> materials_;
-    Budget& budget_;
+    MemoryBudget& budget_;
     std::vector<Mesh> fixed_;
     std::map<const Primitive*, std::uint32_t> fixed_index_;
     std::map<const Primitive*, Streams> moving_;

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "capture_format/import/gltf_budget.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -18,7 +18,7 @@ namespace strata::gltf {
 using Json = nlohmann::json;
 
 /// Fails for what is no JSON object, nests deeper than 64, or has more objects than the budget holds.
-Result<Json> parse_json(std::string_view text, Budget&);
+Result<Json> parse_json(std::string_view text, MemoryBudget&);
 
 /// The members of one object. Missing members give the fallback; those of a wrong type make the problem.
 class Fields {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "capture_format/import/gltf_check.h"
 #include "capture_format/import/gltf_json.h"
 #include "capture_format/import/gltf_meshopt.h"
 
@@ -54,6 +55,9 @@ Node read_node(Fields fields) {
     node.skin = fields.index("skin");
     node.camera = fields.index("camera");
     node.light = fields.object("extensions").object("KHR_lights_punctual").index("light");
+    Fields instancing = fields.object("extensions").object("EXT_mesh_gpu_instancing");
+    node.is_instanced = fields.object("extensions").has("EXT_mesh_gpu_instancing");
+    node.instances = attributes(instancing.object("attributes"));
     node.children = fields.indices("children");
     if (const auto values = fields.numbers("matrix", 16); !values.empty()) {
         node.matrix.emplace();
@@ -94,7 +98,7 @@ LightSource read_light(Fields fields) {
 /// Reads the lists of one file.
 class Loader {
 public:
-    Loader(const Folder& folder, Budget& budget) : folder_(folder), budget_(budget) {}
+    Loader(const Folder& folder, MemoryBudget& budget) : folder_(folder), budget_(budget) {}
 
     Result<Document> run(std::vector<std::byte> file) {
         document_.storage.push_back(std::move(file));
@@ -105,19 +109,27 @@ public:
         std::optional<Error> problem;
         Fields root(*json, "glTF", problem);
         const std::string version = root.object("asset").text("version");
-        if (!version.starts_with("2.")) return fail(Fault::bad_input, "its asset version is '{:.20}', not 2.0", version);
+        if (const auto good = check_version(version, root.object("asset").text("minVersion")); !good) return good.error();
         read_bytes(root, chunks->binary);
         read_scene(root);
         read_surfaces(root);
         if (problem) return *problem;
+        if (lacking_) return *lacking_;
+        if (const auto good = check_references(document_); !good) return good.error();
         return std::move(document_);
     }
 
 private:
+    /// Broken bytes are a fault of those who need them; too few bytes of memory end the import.
+    std::string fault_of(const Error& error) {
+        if (error.fault == Fault::device_lacks && !lacking_) lacking_ = error;
+        return error.sentence;
+    }
+
     /// What a URI stands for, kept in the document.
     Bytes resource(const std::string& uri) {
         auto bytes = folder_.read(uri, budget_);
-        if (!bytes) return {{}, bytes.error().sentence};
+        if (!bytes) return {{}, fault_of(bytes.error())};
         document_.storage.push_back(*std::move(bytes));
         return {document_.storage.back(), {}};
     }
@@ -168,7 +180,7 @@ private:
                                         .mode = packed.text("mode"),
                                         .filter = packed.text("filter", "NONE")},
                                        budget_);
-        if (!unpacked) return {{{}, fmt::format("{}: {}", fields.where(), unpacked.error().sentence)}, stride};
+        if (!unpacked) return {{{}, fmt::format("{}: {}", fields.where(), fault_of(unpacked.error()))}, stride};
         document_.storage.push_back(*std::move(unpacked));
         return {{document_.storage.back(), {}}, stride};
     }
@@ -226,21 +238,21 @@ private:
             document_.textures.push_back({fields.index("source"), fields.index("sampler")});
         });
         root.each("samplers", [&](Fields fields) {
-            constexpr std::uint64_t repeat = 10497;
-            document_.samplers.push_back(
-                {fields.size("magFilter", 0), fields.size("wrapS", repeat), fields.size("wrapT", repeat)});
+            document_.samplers.push_back({fields.size("magFilter", linear_filter), fields.size("wrapS", Wrap::repeat),
+                                          fields.size("wrapT", Wrap::repeat)});
         });
     }
 
     const Folder& folder_;
-    Budget& budget_;
+    MemoryBudget& budget_;
     Document document_;
     std::vector<Bytes> buffers_;
+    std::optional<Error> lacking_;
 };
 
 }  // namespace
 
-Result<Document> load_document(std::vector<std::byte> file, const Folder& folder, Budget& budget) {
+Result<Document> load_document(std::vector<std::byte> file, const Folder& folder, MemoryBudget& budget) {
     return Loader(folder, budget).run(std::move(file));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "capture_format/import/gltf_surfaces.h"
 #include "capture_format/import/gltf_textures.h"
 
 namespace strata::gltf {
@@ -17,20 +18,22 @@ float unit_float(double value) { return std::clamp(static_cast<float>(value), 0.
 /// What of each channel is left after the way through the material (KHR_materials_volume): c^(thickness / distance). The way is
 /// the thickness as the file gives it, straight through and not scaled by nodes. Where both faces are drawn a ray meets the
 /// material twice, so each face takes half the way.
-glm::dvec3 attenuation(const MaterialSource& source, double mean_thickness) {
+glm::dvec3 attenuation(const MaterialSource& source, double thickness) {
     if (!(source.attenuation_distance > 0)) return glm::dvec3(1);
-    const double way = std::max(mean_thickness, 0.0) * (source.double_sided ? 0.5 : 1.0);
+    const double way = std::max(thickness, 0.0) * (source.double_sided ? 0.5 : 1.0);
     return glm::pow(glm::clamp(source.attenuation_color, 0.0, 1.0), glm::dvec3(way / source.attenuation_distance));
 }
 
 /// Turns the materials of one document; textures are shared among them.
 class MaterialImport {
 public:
-    MaterialImport(const Document& document, Budget& budget) : document_(document), textures_(document, budget) {}
+    MaterialImport(const Document& document, MemoryBudget& budget)
+        : document_(document), budget_(budget), textures_(document, budget) {}
 
-    ImportedMaterials run() {
+    Result<ImportedMaterials> run() {
         ImportedMaterials result;
         for (const MaterialSource& source : document_.materials) result.materials.push_back(convert(source));
+        if (textures_.problem()) return *textures_.problem();
         Material plain;  // glTF 2.0, 3.7.2.1: the default material is white and fully metallic
         plain.name = "default";
         plain.metallic = 1;
@@ -94,37 +97,70 @@ private:
         material.mask_cutoff = static_cast<float>(source.alpha_cutoff);
     }
 
-    /// The mean of one channel of a data texture, with a warning that it stands for the texture; 1 when there is none.
-    double mean(const TextureReference& reference, int channel, const MaterialSource& source, std::string_view name) {
-        if (reference.texture < 0) return 1;
-        warnings_.push_back(fmt::format("material '{}': the {} texture is replaced by its mean", source.name, name));
-        return static_cast<double>(textures_.mean(textures_.add(reference.texture, Encoding::linear))[channel]);
+    /// What of the light goes through: a share F of the diffuse light through instead of back (KHR_materials_transmission), and
+    /// k = color F (1 - R) A of t = 1 - a (1 - k). The surface turns R of the light back even head-on (4 % for glass of
+    /// index 1.5; without it clear glass could not be seen at all), A is what the volume leaves, and metal transmits nothing.
+    struct Glass {
+        double share = 0;
+        glm::dvec3 passes{0};
+    };
+
+    /// The mean over the surfaces that show the material: of what goes through, not of the thickness, for what goes through falls
+    /// exponentially with it.
+    Glass mean_glass(const Material& material, const MaterialSource& source) {
+        const auto of_use = [&](const TextureUse& use) {
+            return TexelLookup{use.texture == no_index ? nullptr : &textures_.textures()[use.texture], use.uv_set, use.transform};
+        };
+        const auto of_data = [&](const TextureReference& reference) {
+            return TexelLookup{textures_.data(reference.texture), reference.uv_set == 1 ? 1u : 0u, reference.transform};
+        };
+        const TexelLookup color = of_use(material.base_color_texture), metal = of_use(material.metallic_roughness_texture);
+        const TexelLookup transmission = of_data(source.transmission_texture), thickness = of_data(source.thickness_texture);
+        const double metallic = static_cast<double>(material.metallic), enters = 1 - head_on_reflectance(source.ior);
+        Glass sum;
+        double area = 0;
+        const auto add = [&](const SurfacePoint& point) {
+            const double share =
+                std::clamp(source.transmission * transmission.at(point).x * (1 - metallic * metal.at(point).z), 0.0, 1.0);
+            const glm::dvec3 tint = glm::dvec3(source.base_color) * glm::dvec3(color.at(point));
+            sum.share += share * point.area;
+            sum.passes += tint * attenuation(source, source.thickness * thickness.at(point).y) * (share * enters * point.area);
+            area += point.area;
+        };
+        const bool is_textured = color.texture || metal.texture || transmission.texture || thickness.texture;
+        const auto index = static_cast<int>(&source - document_.materials.data());
+        if (is_textured) for_surface_points(document_, index, budget_, add);
+        else add({});
+        return {sum.share / area, sum.passes / area};
     }
 
-    /// A share F of the diffuse light goes through instead of back (KHR_materials_transmission): the reflected color loses F,
-    /// and t = 1 - a (1 - k) with k = color F (1 - R) A: the surface turns R of the light back even head-on (4 % for glass of
-    /// index 1.5; without it clear glass could not be seen at all), and A is what the volume leaves. Metal transmits nothing.
-    /// Refraction and rough transmission have no place in a transmittance.
-    void set_transmission(Material& material, const MaterialSource& source) {
-        double factor = source.transmission * mean(source.transmission_texture, 0, source, "transmission");
-        factor *= 1 - static_cast<double>(material.metallic * textures_.mean(material.metallic_roughness_texture.texture).z);
-        const double share = std::clamp(factor, 0.0, 1.0);
-        if (share == 0) return;
-        if (material.alpha_mode == AlphaMode::mask) {
-            warnings_.push_back(fmt::format("material '{}' is masked and transmits; its alpha is coverage", source.name));
-        }
-        if (material.base_color_texture.texture != no_index) {
+    void warn_of_means(const Material& material, const MaterialSource& source) {
+        const auto warn = [&](bool textured, std::string_view name) {
+            if (textured)
+                warnings_.push_back(fmt::format(
+                    "material '{}': the {} texture is replaced by its mean over the surfaces that show it", source.name, name));
+        };
+        warn(source.transmission_texture.texture >= 0, "transmission");
+        warn(source.thickness_texture.texture >= 0, "thickness");
+        if (material.base_color_texture.texture != no_index)
             warnings_.push_back(fmt::format("material '{}' transmits the mean of its base color texture", source.name));
-        }
-        glm::dvec3 passes = glm::dvec3(source.base_color) * glm::dvec3(textures_.mean(material.base_color_texture.texture));
-        passes *= share * (1 - head_on_reflectance(source.ior));
-        passes *= attenuation(source, source.thickness * mean(source.thickness_texture, 1, source, "thickness"));
-        material.transmission = glm::vec3(glm::clamp(passes, 0.0, 1.0));
-        material.base_color = glm::vec4(glm::vec3(glm::dvec3(source.base_color) * (1 - share)), material.base_color.w);
+        if (material.alpha_mode == AlphaMode::mask)
+            warnings_.push_back(fmt::format("material '{}' is masked and transmits; its alpha is coverage", source.name));
+    }
+
+    /// The reflected color loses the share that goes through. Refraction and rough transmission have no place in a transmittance.
+    void set_transmission(Material& material, const MaterialSource& source) {
+        if (source.transmission == 0) return;
+        const Glass glass = mean_glass(material, source);
+        if (glass.share == 0) return;
+        warn_of_means(material, source);
+        material.transmission = glm::vec3(glm::clamp(glass.passes, 0.0, 1.0));
+        material.base_color = glm::vec4(glm::vec3(glm::dvec3(source.base_color) * (1 - glass.share)), material.base_color.w);
         material.alpha_mode = AlphaMode::blend;
     }
 
     const Document& document_;
+    const MemoryBudget& budget_;
     TextureImport textures_;
     std::vector<std::string> warnings_;
     std::map<std::string, std::size_t> ignored_;  ///< materials that each ignored extension would change
@@ -132,7 +168,9 @@ private:
 
 }  // namespace
 
-ImportedMaterials import_materials(const Document& document, Budget& budget) { return MaterialImport(document, budget).run(); }
+Result<ImportedMaterials> import_materials(const Document& document, MemoryBudget& budget) {
+    return MaterialImport(document, budget).run();
+}
 
 double head_on_reflectance(double ior) { return std::pow((ior - 1) / (ior + 1), 2); }
 

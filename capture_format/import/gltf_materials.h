@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "capture_format/frame.h"
-#include "capture_format/import/gltf_budget.h"
 #include "capture_format/import/gltf_document.h"
+#include "capture_format/memory_budget.h"
+#include "capture_format/result.h"
 
 namespace strata::gltf {
 
@@ -16,7 +17,8 @@ struct ImportedMaterials {
     std::vector<std::string> warnings;  ///< ignored extensions are named with the number of materials they would change
 };
 
-ImportedMaterials import_materials(const Document&, Budget&);
+/// Fails when the textures take more memory than the budget has; what else is wrong with them is a warning.
+Result<ImportedMaterials> import_materials(const Document&, MemoryBudget&);
 
 /// ((n - 1) / (n + 1))^2, the share of light that a surface of this index of refraction turns back head-on: 0.04 for 1.5.
 double head_on_reflectance(double ior);

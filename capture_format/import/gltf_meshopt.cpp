@@ -29,7 +29,8 @@ Result<void> check(const MeshoptLayout& layout) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> decode_meshopt(std::span<const std::byte> packed, const MeshoptLayout& layout, Budget& budget) {
+Result<std::vector<std::byte>> decode_meshopt(std::span<const std::byte> packed, const MeshoptLayout& layout,
+                                              MemoryBudget& budget) {
     if (const auto good = check(layout); !good) return good.error();
     if (const auto room = budget.take(layout.count, layout.stride, "a compressed buffer view"); !room) return room.error();
     std::vector<std::byte> unpacked(layout.count * layout.stride);

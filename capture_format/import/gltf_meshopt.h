@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "capture_format/import/gltf_budget.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -20,6 +20,6 @@ struct MeshoptLayout {
 };
 
 /// count * stride bytes.
-Result<std::vector<std::byte>> decode_meshopt(std::span<const std::byte> packed, const MeshoptLayout&, Budget&);
+Result<std::vector<std::byte>> decode_meshopt(std::span<const std::byte> packed, const MeshoptLayout&, MemoryBudget&);
 
 }  // namespace strata::gltf

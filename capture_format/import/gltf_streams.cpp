@@ -10,8 +10,9 @@
 namespace strata::gltf {
 namespace {
 
-/// What a vertex takes once normals, tangents, uvs and color are there.
-constexpr std::uint64_t bytes_per_vertex = 76;
+/// What a vertex takes once normals, tangents, uvs and color are there, and an index. Both are there four times while a frame is
+/// recorded: kept for the next frame, in the frame, in the recorder's blobs, compressed or on the device.
+constexpr std::uint64_t bytes_per_vertex = 4 * 76, bytes_per_index = 4 * 4;
 
 bool all_finite(std::span<const float> values) {
     return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
@@ -45,7 +46,7 @@ std::vector<std::uint32_t> triangles(std::span<const std::uint32_t> order, std::
 
 class StreamReader {
 public:
-    StreamReader(const Document& document, const Primitive& primitive, Budget& budget)
+    StreamReader(const Document& document, const Primitive& primitive, MemoryBudget& budget)
         : document_(document), primitive_(primitive), budget_(budget) {}
 
     Result<Streams> run() {
@@ -80,7 +81,7 @@ private:
         if (accessor < 0 || problem_) return {};
         const auto values = read_floats(document_, accessor, static_cast<std::uint32_t>(Vector::length()), budget_);
         if (!values) {
-            refuse(fail(Fault::bad_input, "{}: {}", name, values.error().sentence));
+            refuse(fail(values.error().fault, "{}: {}", name, values.error().sentence));
             return {};
         }
         const std::size_t count = values->size() / Vector::length(), wanted = streams_.mesh.positions.size();
@@ -95,7 +96,7 @@ private:
 
     void read_positions() {
         const auto values = read_floats(document_, accessor_of(primitive_.attributes, "POSITION"), 3, budget_);
-        if (!values) return refuse(fail(Fault::bad_input, "POSITION: {}", values.error().sentence));
+        if (!values) return refuse(fail(values.error().fault, "POSITION: {}", values.error().sentence));
         if (!all_finite(*values)) return refuse(fail(Fault::bad_input, "POSITION holds numbers that are not finite"));
         streams_.mesh.positions = packed<glm::vec3>(*values);
     }
@@ -117,9 +118,11 @@ private:
         if (beyond != order.end()) {
             return refuse(fail(Fault::bad_input, "a triangle uses vertex {} of {}", *beyond, vertices));
         }
-        // each corner of a strip may become three vertices of their own
+        // each corner of a strip may become three; without normals each of them is a vertex of its own
         const std::uint64_t corners = order.size() * (primitive_.mode == triangle_list ? 1 : 3);
-        if (const auto room = budget_.take(corners, bytes_per_vertex, "its triangles"); !room) return refuse(room.error());
+        const std::uint64_t kept = primitive_.attributes.contains("NORMAL") ? vertices : corners;
+        if (const auto room = budget_.take(kept, bytes_per_vertex, "its vertices"); !room) return refuse(room.error());
+        if (const auto room = budget_.take(corners, bytes_per_index, "its triangles"); !room) return refuse(room.error());
         streams_.mesh.indices = triangles(order, primitive_.mode);
     }
 
@@ -177,14 +180,14 @@ private:
 
     const Document& document_;
     const Primitive& primitive_;
-    Budget& budget_;
+    MemoryBudget& budget_;
     Streams streams_;
     std::optional<Error> problem_;
 };
 
 }  // namespace
 
-Result<Streams> read_streams(const Document& document, const Primitive& primitive, Budget& budget) {
+Result<Streams> read_streams(const Document& document, const Primitive& primitive, MemoryBudget& budget) {
     return StreamReader(document, primitive, budget).run();
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "capture_format/frame.h"
-#include "capture_format/import/gltf_budget.h"
 #include "capture_format/import/gltf_document.h"
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -28,6 +28,6 @@ struct Streams {
 
 /// Fails when an accessor is broken or two disagree about the number of vertices. Points and lines become a mesh without
 /// triangles.
-Result<Streams> read_streams(const Document&, const Primitive&, Budget&);
+Result<Streams> read_streams(const Document&, const Primitive&, MemoryBudget&);
 
 }  // namespace strata::gltf

@@ -14,7 +14,13 @@
 namespace strata::gltf {
 namespace {
 
-constexpr std::uint64_t nearest_filter = 9728, clamp_to_edge = 33071, mirrored_repeat = 33648;
+/// A texel and its share of the mips take 4 + 4 / 3 bytes. They are there four times while a frame is recorded: kept for the next
+/// frame, in the frame, in the recorder's blobs, compressed (or on the device that makes the thumbnail). While an image is
+/// decoded its texels are there four times and its mips in floats, which is less. Four textures of 4096 x 4096 took 24 bytes per
+/// texel.
+constexpr std::uint64_t recorded_bytes_per_texel = 24;
+/// While an image is decoded for the import alone: as it is stored, with four channels, the texture's own.
+constexpr std::uint64_t decoded_bytes_per_texel = 12;
 
 /// The two formats of glTF. stb reads others, too, with decoders that a hostile file should not reach.
 bool is_png_or_jpeg(std::span<const std::byte> bytes) {
@@ -24,10 +30,8 @@ bool is_png_or_jpeg(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Result<Texture> TextureImport::decode(int index) {
-    if (index < 0 || static_cast<std::size_t>(index) >= document_.images.size()) {
-        return fail(Fault::bad_input, "image {} does not exist", index);
-    }
+Result<Texture> TextureImport::decode(int index, std::uint64_t bytes_per_texel) {
+    if (index < 0) return fail(Fault::bad_input, "it has no image that is PNG or JPEG");
     const Image& image = document_.images[static_cast<std::size_t>(index)];
     if (!image.content.fault.empty()) return fail(Fault::bad_input, "image {}: {}", index, image.content.fault);
     const auto* encoded = reinterpret_cast<const stbi_uc*>(image.content.bytes.data());
@@ -41,7 +45,6 @@ Result<Texture> TextureImport::decode(int index) {
         return fail(Fault::bad_input, "image {} has {} x {} texels; at most {} per edge are read", index, width, height,
                     largest_extent);
     }
-    constexpr std::uint64_t bytes_per_texel = 8;  // decoded once, copied once, mips: a bit more than 4 + 4 / 3
     const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (const auto room = budget_.take(texels, bytes_per_texel, fmt::format("image {}", index)); !room) return room.error();
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
@@ -59,40 +62,64 @@ Result<Texture> TextureImport::decode(int index) {
 AddressMode TextureImport::address_mode(const TextureSource& texture) {
     if (texture.sampler < 0 || static_cast<std::size_t>(texture.sampler) >= document_.samplers.size()) return AddressMode::repeat;
     const Sampler& sampler = document_.samplers[static_cast<std::size_t>(texture.sampler)];
-    if (sampler.wrap_s != sampler.wrap_t) warnings_.push_back("a sampler wraps its axes differently; both wrap as u does");
     if (sampler.mag_filter == nearest_filter) {
         warnings_.push_back("a sampler asks for nearest filtering; all textures are filtered trilinearly");
     }
-    if (sampler.wrap_s == clamp_to_edge) return AddressMode::clamp;
-    return sampler.wrap_s == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
+    const auto along = [](std::uint64_t wrap) {
+        return wrap == clamp_to_edge ? AddressMode::clamp : wrap == mirrored_repeat ? AddressMode::mirror : AddressMode::repeat;
+    };
+    std::uint32_t mode = 0;
+    while (address_u(AddressMode{mode}) != along(sampler.wrap_s) || address_v(AddressMode{mode}) != along(sampler.wrap_t)) ++mode;
+    return AddressMode{mode};
 }
 
 std::uint32_t TextureImport::add(int index, Encoding encoding, AlphaUse alpha) {
     if (index < 0) return no_index;
     const auto [known, fresh] = known_.try_emplace({index, encoding, alpha}, no_index);
     if (!fresh) return known->second;
-    if (static_cast<std::size_t>(index) >= document_.textures.size()) {
-        warnings_.push_back(fmt::format("texture {} does not exist", index));
-        return no_index;
-    }
-    const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
-    auto decoded = decode(source.image);
-    if (!decoded) {
-        warnings_.push_back(fmt::format("texture {} is left out: {}", index, decoded.error().sentence));
-        return no_index;
-    }
+    const auto made = convert(document_.textures[static_cast<std::size_t>(index)], encoding, alpha);
+    if (made) return known->second = *made;
+    leave_out(index, made.error());
+    return no_index;
+}
+
+void TextureImport::leave_out(int index, const Error& why) {
+    if (why.fault == Fault::device_lacks && !problem_) problem_ = why;
+    warnings_.push_back(fmt::format("texture {} is left out: {}", index, why.sentence));
+}
+
+Result<std::uint32_t> TextureImport::convert(const TextureSource& source, Encoding encoding, AlphaUse alpha) {
+    const auto image = static_cast<std::size_t>(source.image);
+    const AddressMode address = address_mode(source);
+    const BlobHash content = source.image >= 0 ? blob_hash(document_.images[image].content.bytes) : BlobHash();
+    if (const auto same = converted_.find({content, address, encoding, alpha}); same != converted_.end()) return same->second;
+    auto decoded = decode(source.image, recorded_bytes_per_texel);
+    if (!decoded) return decoded.error();
     decoded->format = encoding == Encoding::srgb ? TextureFormat::rgba8_srgb : TextureFormat::rgba8_unorm;
-    decoded->address = address_mode(source);
+    decoded->address = address;
     if (alpha == AlphaUse::ignored) {
         for (std::size_t i = 3; i < decoded->texels.size(); i += 4) decoded->texels[i] = std::byte{255};
     }
-    known->second = static_cast<std::uint32_t>(textures_.size());
     textures_.push_back(with_mips(*std::move(decoded)));
-    return known->second;
+    const auto made = static_cast<std::uint32_t>(textures_.size() - 1);
+    converted_.emplace(Use(content, address, encoding, alpha), made);
+    return made;
 }
 
-glm::vec4 TextureImport::mean(std::uint32_t index) const {
-    return index == no_index ? glm::vec4(1) : mean_color(textures_[index]);
+const Texture* TextureImport::data(int index) {
+    if (index < 0) return nullptr;
+    const auto [known, fresh] = data_.try_emplace(index);
+    if (fresh) {
+        const TextureSource& source = document_.textures[static_cast<std::size_t>(index)];
+        auto decoded = decode(source.image, decoded_bytes_per_texel);
+        if (!decoded) {
+            leave_out(index, decoded.error());
+        } else {
+            decoded->address = address_mode(source);
+            known->second = *std::move(decoded);
+        }
+    }
+    return known->second ? &*known->second : nullptr;
 }
 
 }  // namespace strata::gltf

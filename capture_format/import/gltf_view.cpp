@@ -59,10 +59,45 @@ Result<View> camera_view(const CameraSource& camera, const glm::dmat4& to_world,
     return view;
 }
 
+namespace {
+
+double aspect_of(const GltfOptions& options) { return static_cast<double>(options.width) / options.height; }
+
+/// Radians; `usual` where the options name none.
+double fov_of(const GltfOptions& options, double usual) { return options.fov == 0 ? usual : glm::radians(options.fov); }
+
+View looking(const glm::dvec3& eye, const glm::dvec3& target, double radius, const GltfOptions& options) {
+    const glm::dvec3 forward = target - eye;
+    const bool is_vertical = glm::length(glm::cross(forward, glm::dvec3(0, 1, 0))) <= 1e-9 * glm::length(forward);
+    View view = look_along(eye, forward, is_vertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
+    constexpr double usual_fov = 1.1;  // 63 degrees: a wide lens, as rooms are photographed with
+    view.near = static_cast<float>(std::clamp(radius * 1e-3, 1e-4, 0.1));
+    view.projection = perspective(fov_of(options, usual_fov), aspect_of(options), static_cast<double>(view.near));
+    return view;
+}
+
+}  // namespace
+
+View placed_view(const Bounds& bounds, const GltfOptions& options) {
+    const glm::dvec3 eye = *options.eye;
+    const glm::dvec3 middle = bounds.center() == eye ? eye - glm::dvec3(0, 0, 1) : bounds.center();
+    return looking(eye, options.target.value_or(middle), bounds.radius(), options);
+}
+
+View inside_view(const Bounds& bounds, const GltfOptions& options) {
+    const double azimuth = glm::radians(options.azimuth);
+    const glm::dvec3 half = bounds.empty() ? glm::dvec3(1) : (bounds.high - bounds.low) * 0.5;
+    const glm::dvec2 way =
+        glm::dvec2(std::sin(azimuth), std::cos(azimuth)) / std::max(std::abs(std::sin(azimuth)), std::abs(std::cos(azimuth)));
+    const glm::dvec3 aside = glm::dvec3(way.x * half.x, 0, way.y * half.z) * (2.0 / 3);
+    const glm::dvec3 center = bounds.center(), eye = center + aside;
+    return looking(eye, glm::length(aside) > 0 ? center : eye - glm::dvec3(0, 0, 1), bounds.radius(), options);
+}
+
 View framing_view(std::span<const glm::dvec3> points, const Bounds& bounds, const GltfOptions& options) {
-    constexpr double vertical_fov = 0.7;  // radians, near that of a 35 mm lens on 35 mm film
+    const double vertical_fov = fov_of(options, 0.7);  // near that of a 35 mm lens on 35 mm film
     constexpr double margin = 1.05;
-    const double aspect = static_cast<double>(options.width) / options.height;
+    const double aspect = aspect_of(options);
     const double slope = std::tan(vertical_fov / 2) / margin;
     const double azimuth = glm::radians(options.azimuth), elevation = glm::radians(options.elevation);
     const glm::dvec3 towards_eye(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),

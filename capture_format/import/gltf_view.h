@@ -32,6 +32,13 @@ View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up);
 /// What a camera on a node sees; fails, with what is wrong, for cameras that have no such view. Sets no extent.
 Result<View> camera_view(const CameraSource&, const glm::dmat4& to_world, double width_over_height);
 
+/// A view from the options' eye to their target, or to the middle of the bounds. Sets no extent.
+View placed_view(const Bounds&, const GltfOptions&);
+
+/// A view from within the bounds through their middle: two thirds of the way from there to the side that the options name, at the
+/// middle's height. Sets no extent.
+View inside_view(const Bounds&, const GltfOptions&);
+
 /// A view of all these points, which lie in these bounds, as near as it may be from the side that the options name. Sets no
 /// extent.
 View framing_view(std::span<const glm::dvec3> points, const Bounds&, const GltfOptions&);

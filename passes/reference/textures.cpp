@@ -75,8 +75,9 @@ glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2&
     const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
     const double u = bounded(uv.x * width - 0.5), v = bounded(uv.y * height - 0.5);
     const double left = std::floor(u), top = std::floor(v), right_share = u - left, bottom_share = v - top;
-    const auto column = [&](int step) { return wrapped(static_cast<std::int64_t>(left) + step, width, texture.address); };
-    const auto row = [&](int step) { return wrapped(static_cast<std::int64_t>(top) + step, height, texture.address); };
+    const AddressMode across = address_u(texture.address), down = address_v(texture.address);
+    const auto column = [&](int step) { return wrapped(static_cast<std::int64_t>(left) + step, width, across); };
+    const auto row = [&](int step) { return wrapped(static_cast<std::int64_t>(top) + step, height, down); };
     const std::uint32_t x0 = column(0), x1 = column(1), y0 = row(0), y1 = row(1);
     const glm::dvec4 upper = glm::mix(texel(texture, mip, x0, y0), texel(texture, mip, x1, y0), right_share);
     const glm::dvec4 lower = glm::mix(texel(texture, mip, x0, y1), texel(texture, mip, x1, y1), right_share);

@@ -110,7 +110,7 @@ struct TextureRecord {
     uint width;
     uint height;
     uint mips;
-    uint address;  // AddressMode
+    uint address;  // AddressMode along u, and along v two bits higher
 };
 
 struct LightRecord {

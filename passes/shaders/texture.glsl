@@ -14,6 +14,8 @@ const uint texture_rgba16f = 2u;
 const uint texture_rgba32f = 3u;
 const uint address_repeat = 0u;
 const uint address_clamp = 1u;
+// A texture's record has the modes along u (the lowest two bits) and v.
+const uint address_clamp_both = 5u;
 
 bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
 
@@ -41,10 +43,10 @@ ivec4 modulo(ivec4 i, ivec4 n) {
     return clamp(rest, ivec4(0), n - 1);
 }
 
-// Texels i of n, inside. Every second turn of a mirrored texture runs backwards.
-ivec4 wrapped(ivec4 i, ivec4 n, uint address) {
-    const ivec4 turn = modulo(i, address == address_repeat ? n : 2 * n);
-    return address == address_clamp ? clamp(i, ivec4(0), n - 1) : min(turn, 2 * n - 1 - turn);
+// Texels i of n, inside, each by its own mode. Every second turn of a mirrored texture runs backwards.
+ivec4 wrapped(ivec4 i, ivec4 n, uvec4 address) {
+    const ivec4 turn = modulo(i, mix(2 * n, n, equal(address, uvec4(address_repeat))));
+    return mix(min(turn, 2 * n - 1 - turn), clamp(i, ivec4(0), n - 1), equal(address, uvec4(address_clamp)));
 }
 
 // One mip, bilinear: texel centers at +.5. sRGB decodes before filtering.
@@ -56,7 +58,8 @@ vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
     const vec2 corner = floor(at);
     const vec2 f = at - corner;
     const ivec2 low = ivec2(corner);
-    const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, t.address));  // x, y low, x, y high
+    const uvec2 modes = uvec2(t.address & 3u, t.address >> 2u);
+    const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, modes.xyxy));  // x, y low, x, y high
     vec4 upper = vec4(0.0), lower = vec4(0.0);
     for (uint row = 0u; row < 2u; ++row) {
         const uint first = base + (row == 0u ? corners.y : corners.w) * uint(size.x);

@@ -44,9 +44,12 @@ FileKind kind_of(const std::filesystem::path& file) {
                                                   : FileKind::capture;
 }
 
-Result<NamedImages> read_images(const std::filesystem::path& file) {
-    if (kind_of(file) == FileKind::exr) return read_exr(file);
-    auto image = read_png(file);
+/// What comparing two pixels takes beside the images: both as planes of floats, and FLIP's filters. Two of 4096 x 4096 took 90.
+constexpr std::uint64_t bytes_per_compared_pixel = 96;
+
+Result<NamedImages> read_images(const std::filesystem::path& file, MemoryBudget& budget) {
+    if (kind_of(file) == FileKind::exr) return read_exr(file, budget);
+    auto image = read_png(file, budget);
     if (!image) return image.error();
     NamedImages images;
     images.emplace("image", *std::move(image));
@@ -144,13 +147,26 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     return {};
 }
 
+/// Images are compared one after the other.
+Result<void> check_room(const NamedImages& images, const MemoryBudget& budget) {
+    for (const auto& [name, image] : images) {
+        const Extent& extent = image.shape.extent;
+        const std::uint64_t pixels = std::uint64_t{extent.width} * extent.height * image.shape.layers;
+        if (const auto room = budget.has_room(pixels, bytes_per_compared_pixel, fmt::format("comparing '{}'", name)); !room)
+            return room;
+    }
+    return {};
+}
+
 /// The images of a file against the capture's own of the same names, made now.
 Result<void> compare_with_images(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.b.file) == FileKind::png)
         return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG",
                     options.b.file.string());
-    const auto images = read_images(options.b.file);
+    MemoryBudget budget(options.device.memory_budget);
+    const auto images = read_images(options.b.file, budget);
     if (!images) return images.error();
+    if (const auto room = check_room(*images, budget); !room) return room;
     auto request = request_of_side(options, options.a);
     if (!request) return request.error();
     const auto session = open_side(options, options.a);
@@ -177,9 +193,12 @@ Result<void> compare_with_images(const DiffArguments& options, Pictures& picture
 Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.a.file) != kind_of(options.b.file))
         return fail(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
-    const auto a = read_images(options.a.file), b = read_images(options.b.file);
+    MemoryBudget budget(options.device.memory_budget);
+    const auto a = read_images(options.a.file, budget);
     if (!a) return a.error();
+    const auto b = read_images(options.b.file, budget);
     if (!b) return b.error();
+    if (const auto room = check_room(*a, budget); !room) return room;
     comparison.a = {.name = options.a.file.filename().string()};
     comparison.b = {.name = options.b.file.filename().string()};
     auto made = compare_image_sets(*a, *b, options.limits, seeing(pictures, 0));

@@ -9,7 +9,9 @@ namespace {
 
 Result<Frame> recorded_frame(const ExportOptions& options) {
     const Partial partial = options.open.allow_partial ? Partial::allowed : Partial::refused;
-    return open_capture(options.open.capture, partial).and_then([&](auto& capture) { return capture.frame(options.frame); });
+    return open_capture(options.open.capture, partial, options.open.device.memory_budget).and_then([&](auto& capture) {
+        return capture.frame(options.frame);
+    });
 }
 
 }  // namespace

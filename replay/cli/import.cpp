@@ -7,6 +7,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
+#include "capture_format/import/seen_share.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
@@ -21,8 +22,10 @@ struct ImportArguments {
     std::string size = "640x360";
     std::uint32_t frames = 1;
     GltfOptions gltf;
+    std::vector<double> eye, target;  ///< x, y, z or nothing
     bool deep = false;
     DeepOptions of_deep;
+    std::uint64_t memory_budget = 0;
     std::vector<std::int32_t> window;  ///< of a deep image: x, y, width, height
     DeviceChoice device;
 };
@@ -31,26 +34,40 @@ std::filesystem::path output_of(const ImportArguments& options) {
     return options.output.empty() ? options.scene.filename().replace_extension(".strata") : options.output;
 }
 
-/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns the last one.
-Result<Frame> record_frames(const ImportArguments& options, std::uint32_t count,
-                            const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
+/// What an imported frame holds.
+struct Counts {
+    std::size_t draws = 0, materials = 0, textures = 0, lights = 0;
+};
+
+/// Room for a frame that is being written and the next one, however large they are.
+RecorderOptions room_for(const Frame& frame) {
+    RecorderOptions options;
+    options.budget_bytes = std::max(options.budget_bytes, 2 * recorded_bytes(frame));
+    return options;
+}
+
+/// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
+Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count,
+                             const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
     auto frame = frame_at(0);
-    if (!frame) return frame;
+    if (!frame) return frame.error();
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
-    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string());
+    auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), room_for(*frame));
     if (!recorder) return recorder.error();
     if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
     const Progress progress = progress_line();
+    Counts counts;
     for (std::uint32_t index = 0; index < count; ++index) {
         show_frame(progress, index, count);
         if (index > 0) frame = frame_at(index);
-        if (!frame) return frame;
-        if (const auto done = recorder->record(*frame); !done) return done.error();
+        if (!frame) return frame.error();
+        counts = {frame->draws.size(), frame->materials.size(), frame->textures.size(), frame->lights.size()};
+        if (const auto done = recorder->record(*std::move(frame)); !done) return done.error();
     }
     if (const auto done = recorder->finish(); !done) return done.error();
     if (const auto done = file->commit(); !done) return done.error();
-    return frame;
+    return counts;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -62,6 +79,7 @@ Result<void> import_deep_image(const ImportArguments& options) {
     if (!options.window.empty() && (options.window[2] < 1 || options.window[3] < 1))
         return fail(Fault::usage, "--window takes a width and a height above 0, not {} x {}", options.window[2],
                     options.window[3]);
+    of_deep.memory_budget = options.memory_budget;
     if (!options.window.empty())
         of_deep.window = DeepWindow{options.window[0], options.window[1], static_cast<std::uint32_t>(options.window[2]),
                                     static_cast<std::uint32_t>(options.window[3])};
@@ -77,25 +95,44 @@ Result<void> import_deep_image(const ImportArguments& options) {
     return {};
 }
 
+/// Whether a picture is black only a render can tell; whether anything is in it, the triangles can.
+std::vector<std::string> notes_on_view(const Frame& frame) {
+    constexpr double little = 0.03;  // of the picture
+    const double share = frame.draws.empty() ? 0 : seen_share(frame);
+    if (share >= little) return {};
+    return {fmt::format("the scene covers {:.1f} % of the picture; place the camera with --eye and --target, or with --inside",
+                        100 * share)};
+}
+
 Result<void> import(const ImportArguments& options, const CLI::App& app) {
     if (options.deep) {
-        const auto fits = check_not_given(
-            app, {"--size", "--samples", "--camera", "--azimuth", "--elevation", "--frames", "--fps", "--animation"},
-            "a deep image is one frame with a view of its own");
+        const auto fits = check_not_given(app,
+                                          {"--size", "--samples", "--camera", "--eye", "--target", "--inside", "--fov", "--azimuth",
+                                           "--elevation", "--frames", "--fps", "--animation"},
+                                          "a deep image is one frame with a view of its own");
         return fits ? import_deep_image(options) : fits;
     }
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
+    gltf.memory_budget = options.memory_budget;
+    if (!options.eye.empty()) gltf.eye = glm::dvec3(options.eye[0], options.eye[1], options.eye[2]);
+    if (!options.target.empty()) gltf.target = glm::dvec3(options.target[0], options.target[1], options.target[2]);
     std::tie(gltf.width, gltf.height) = *extent;
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
-    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) { return scene->frame(index); });
+    std::vector<std::string> notes;
+    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) {
+        auto frame = scene->frame(index);
+        if (index == 0 && frame) notes = notes_on_view(*frame);
+        return frame;
+    });
     print_warnings(scene->warnings());
+    print_warnings(notes);
     if (!last) return last.error();
-    to_stderr("imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws.size(), "draw"),
-              plural(last->materials.size(), "material"), plural(last->textures.size(), "texture"),
-              plural(last->lights.size(), "light"), output_of(options).string());
+    to_stderr("imported {}, {}, {}, {}, {} into {}\n", plural(options.frames, "frame"), plural(last->draws, "draw"),
+              plural(last->materials, "material"), plural(last->textures, "texture"), plural(last->lights, "light"),
+              output_of(options).string());
     return {};
 }
 
@@ -124,10 +161,20 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--azimuth", options->gltf.azimuth,
                    "degrees from the front towards the right of a framing camera, default 22");
     app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
+    const auto point = [&](const char* name, std::vector<double>& to, const char* help) {
+        app.add_option(name, to, help)->delimiter(',')->expected(3);
+    };
+    point("--eye", options->eye, "X,Y,Z in meters: where the camera is, instead of the scene's");
+    point("--target", options->target, "X,Y,Z: what the camera of --eye looks at; default the middle of the scene");
+    app.add_option("--fov", options->gltf.fov, "vertical degrees of a camera that is not the scene's");
+    app.add_flag("--inside", options->gltf.inside, "camera within the scene's box, for closed rooms; --azimuth chooses the side");
     app.add_option("--frames", options->frames, "how many frames; an animation begins again after its end")
         ->check(CLI::Range(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");
     app.add_option("--animation", options->gltf.animation, "name or index of the animation; default the first");
+    app.add_option("--budget,--memory-budget", options->memory_budget,
+                   "most memory for the scene, like 4GiB; default half of the machine's; more is refused (4)")
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
     app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
     return [options, &app] { return import(*options, app); };
 }

@@ -19,6 +19,7 @@ using nlohmann::ordered_json;
 struct InfoArguments {
     std::filesystem::path capture;
     std::size_t frame = 0;
+    std::uint64_t memory_budget = 0;
     bool allow_partial = false, json = false;
 };
 
@@ -86,7 +87,8 @@ void print(const Capture& capture, const Frame& frame, std::size_t index) {
 }
 
 Result<void> info(const InfoArguments& options) {
-    const auto capture = open_capture(options.capture, options.allow_partial ? Partial::allowed : Partial::refused);
+    const auto capture =
+        open_capture(options.capture, options.allow_partial ? Partial::allowed : Partial::refused, options.memory_budget);
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
@@ -113,9 +115,9 @@ Result<void> check_texts(const Capture& capture) {
 }
 
 Result<void> validate(const InfoArguments& options) {
-    const auto capture = open_capture(options.capture, Partial::refused);
+    const auto capture = open_capture(options.capture, Partial::refused, options.memory_budget);
     if (!capture) return capture.error();
-    if (const auto sound = check_capture(options.capture); !sound) return sound;
+    if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound;
     if (const auto sound = check_texts(*capture); !sound)
         return fail(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
     if (options.json) {
@@ -138,6 +140,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
     app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     app.add_option("--frame", options->frame, "which frame to describe, default 0");
     app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
+    add_memory_budget(app, options->memory_budget);
     app.add_flag("--json", options->json, "one JSON object on stdout");
     return [options] { return info(*options); };
 }
@@ -146,6 +149,7 @@ std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
     app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
     app.add_flag("--json", options->json, "one JSON object on stdout");
+    add_memory_budget(app, options->memory_budget);
     return [options] { return validate(*options); };
 }
 

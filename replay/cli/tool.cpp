@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* exit_codes =
     "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
-    "4 the device lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable, 8 a mistake of strata,\n"
-    "130 interrupted";
+    "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable,\n"
+    "8 a mistake of strata, 130 interrupted";
 
 Result<void> list_gpus() {
     const auto devices = list_devices();

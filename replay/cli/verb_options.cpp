@@ -61,7 +61,7 @@ void add_options(CLI::App& app, DeviceChoice& device) {
         ->group(group);
     app.add_flag("--validation", device.validation, "validation layer on; any message is an error")->group(group);
     app.add_option("--memory-budget", device.memory_budget,
-                   "most memory to take from the device, like 256MiB; what needs more is refused (4)")
+                   "most memory to take from the device, and to unpack files into, like 256MiB; more is refused (4)")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false))
         ->group(group);
 }
@@ -78,8 +78,14 @@ Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
     return session;
 }
 
-Result<Capture> open_capture(const std::filesystem::path& path, Partial partial) {
-    auto capture = Capture::open(path, partial);
+void add_memory_budget(CLI::App& app, std::uint64_t& bytes) {
+    app.add_option("--memory-budget", bytes,
+                   "most memory to unpack a file into, like 4GiB; default half of the machine's; more is refused (4)")
+        ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
+}
+
+Result<Capture> open_capture(const std::filesystem::path& path, Partial partial, std::uint64_t memory_budget) {
+    auto capture = Capture::open(path, partial, memory_budget);
     if (!capture) return capture;
     say_what_is_left_out(*capture);
     if (capture->frame_count() == 0) return fail(Fault::bad_input, "{} holds no frame", path.string());

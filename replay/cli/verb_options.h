@@ -25,7 +25,9 @@ struct OpenOptions {
 void add_options(CLI::App&, OpenOptions&);
 Result<std::unique_ptr<Session>> open(const OpenOptions&);
 /// A capture without a device. Both refuse a file without a frame, and say on stderr what of it was left out.
-Result<Capture> open_capture(const std::filesystem::path&, Partial);
+Result<Capture> open_capture(const std::filesystem::path&, Partial, std::uint64_t memory_budget);
+/// --memory-budget of verbs that read a file without a device.
+void add_memory_budget(CLI::App&, std::uint64_t& bytes);
 
 /// How the frame is made: techniques, settings, forced features, samples.
 struct ChoiceOptions {

@@ -26,7 +26,7 @@ struct DeviceInfo {
 struct DeviceChoice {
     std::string gpu;                  ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
     bool validation = false;          ///< core, synchronization and queue-submit validation; messages become errors
-    std::uint64_t memory_budget = 0;  ///< most memory to take from the device, in bytes; 0: as much as it gives
+    std::uint64_t memory_budget = 0;  ///< most bytes to take from the device; 0: as much as it gives
     /// Capabilities and features of the baseline that every device is taken to lack, to see what becomes of a frame without them.
     std::vector<std::string> without;
 };

@@ -104,7 +104,10 @@ Imf::Header header_of(const LayerPart& part, const Metadata& metadata) {
 
 // A file may claim any size; more than this is not read.
 constexpr std::uint32_t largest_edge = 1u << 16;
-constexpr std::uint64_t largest_part_bytes = std::uint64_t(1) << 30;
+/// Layers of one image are put behind each other, and what grows takes twice its room.
+constexpr std::uint64_t exr_bytes_per_byte = 2;
+/// While a PNG is decoded: its texels as they are stored, converted to four channels, and the image's own.
+constexpr std::uint64_t png_bytes_per_byte = 3;
 
 struct ChannelRow {
     std::string_view in_file;           ///< in the file's order, which is the alphabet's
@@ -132,7 +135,7 @@ const ChannelRow* find_channels(const Imf::ChannelList& channels) {
     return found == std::end(table) ? nullptr : found;
 }
 
-Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index) {
+Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudget& budget) {
     const Imf::Header& header = file.header(index);
     if (header.hasType() && Imf::isDeepData(header.type())) return fail(Fault::bad_input, "part {} is deep, not flat", index);
     const ChannelRow* channels = find_channels(header.channels());
@@ -143,8 +146,10 @@ Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index) {
     const auto edge = [](int low, int high) { return static_cast<std::uint32_t>(std::int64_t{high} - low + 1); };
     const Extent extent{edge(window.min.x, window.max.x), edge(window.min.y, window.max.y), 1};
     image.shape.extent = extent;
-    if (std::max(extent.width, extent.height) > largest_edge || bytes(image.shape) > largest_part_bytes)
+    if (std::max(extent.width, extent.height) > largest_edge)
         return fail(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
+    const std::string what = fmt::format("part {} of {} x {} texels", index, extent.width, extent.height);
+    if (const auto room = budget.take(bytes(image.shape), exr_bytes_per_byte, what); !room) return room.error();
     image.texels.resize(bytes(image.shape));
 
     const std::size_t texel_bytes = row(image.shape.format).bytes, row_bytes = texel_bytes * image.shape.extent.width;
@@ -221,12 +226,17 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
 }
 
 Result<NamedImages> read_exr(const std::filesystem::path& path) {
+    MemoryBudget budget;
+    return read_exr(path, budget);
+}
+
+Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& budget) {
     try {
         Imf::MultiPartInputFile file(path.c_str());
         NamedImages images;
         for (int part = 0; part < file.parts(); ++part) {
-            auto image = read_part(file, part);
-            if (!image) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), image.error().sentence);
+            auto image = read_part(file, part, budget);
+            if (!image) return fail(image.error().fault, "cannot read {}: {}", path.string(), image.error().sentence);
             const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
             if (const auto added = add_part(images, name, *std::move(image)); !added)
                 return fail(Fault::bad_input, "cannot read {}: {}", path.string(), added.error().sentence);
@@ -268,13 +278,21 @@ Result<void> write_png(const std::filesystem::path& path, const Extent& extent, 
 }
 
 Result<HostImage> read_png(const std::filesystem::path& path) {
+    MemoryBudget budget;
+    return read_png(path, budget);
+}
+
+Result<HostImage> read_png(const std::filesystem::path& path, MemoryBudget& budget) {
     int width = 0, height = 0, channels = 0;
     if (!stbi_info(path.c_str(), &width, &height, &channels))
         return fail(Fault::bad_input, "cannot read {}: {}", path.string(), stbi_failure_reason());
     const auto wide = static_cast<std::uint32_t>(width), high = static_cast<std::uint32_t>(height);
     HostImage image{{.extent = {wide, high, 1}, .format = Format::rgba8_unorm}, {}};
-    if (std::max(wide, high) > largest_edge || bytes(image.shape) > largest_part_bytes)
+    if (std::max(wide, high) > largest_edge)
         return fail(Fault::bad_input, "cannot read {}: it claims {} x {} texels", path.string(), wide, high);
+    const std::string what = fmt::format("{} of {} x {} texels", path.string(), wide, high);
+    if (const auto room = budget.has_room(bytes(image.shape), png_bytes_per_byte, what); !room) return room.error();
+    if (const auto taken = budget.take(bytes(image.shape), 1, what); !taken) return taken.error();
     if (stbi_is_16_bit(path.c_str()))
         return fail(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(path.c_str(), &width, &height, &channels, STBI_rgb_alpha),

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
 #include "replay/images/host_image.h"
 
@@ -21,7 +22,10 @@ using Metadata = std::map<std::string, std::string>;
 Result<void> write_exr(const std::filesystem::path&, const NamedImages&, const Metadata&);
 
 /// The images of a flat file by their parts' names; parts "name.layer0", "name.layer1", ... become the layers of one image.
-/// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image".
+/// Channels are Z, Y, RG, RGB (read as RGBA with A = 1) or RGBA, all of one type; a part without a name is called "image". What
+/// the images hold is taken from the budget, before it is allocated.
+Result<NamedImages> read_exr(const std::filesystem::path&, MemoryBudget&);
+/// Within a budget of its own, half of the machine's memory.
 Result<NamedImages> read_exr(const std::filesystem::path&);
 
 /// Display light (0..1 linear) as 8-bit sRGB, rounded to nearest; what is not finite is black.
@@ -31,7 +35,9 @@ Result<void> write_png(const std::filesystem::path&, const HostImage&);
 /// Bytes as they are, three a pixel, rows top to bottom.
 Result<void> write_png(const std::filesystem::path&, const Extent&, std::span<const std::byte> rgb);
 
-/// As rgba8_unorm, bytes as they are (sRGB); a file without alpha reads as opaque. Refuses 16 bits per channel.
+/// As rgba8_unorm, bytes as they are (sRGB); a file without alpha reads as opaque. Refuses 16 bits per channel. The budget is
+/// that of read_exr().
+Result<HostImage> read_png(const std::filesystem::path&, MemoryBudget&);
 Result<HostImage> read_png(const std::filesystem::path&);
 
 /// 32 hex digits over shape and texels.

@@ -51,7 +51,7 @@ void add_textures(const Frame& frame, SceneRecords& scene) {
             .width = t.width,
             .height = t.height,
             .mips = t.mips,
-            .address = static_cast<uint>(t.address),
+            .address = static_cast<uint>(address_u(t.address)) | static_cast<uint>(address_v(t.address)) << 2,
         });
         scene.texels.resize(first + t.texels.size() / 4);
         std::memcpy(scene.texels.data() + first, t.texels.data(), t.texels.size());

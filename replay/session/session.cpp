@@ -246,7 +246,7 @@ Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, Device
 }  // namespace
 
 Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path, const DeviceChoice& choice, Partial partial) {
-    auto capture = Capture::open(path, partial);
+    auto capture = Capture::open(path, partial, choice.memory_budget);
     if (!capture) return capture.error();
     if (capture->frame_count() == 0) return fail(Fault::bad_input, "{} holds no frame", path.string());
     return open_session(choice, *std::move(capture));

@@ -46,7 +46,8 @@ std::string sentence_for(const PackedBlobs& blobs, const BlobName& blob) {
     auto writer = ContainerWriter::create(file.path());
     EXPECT_TRUE(writer->add({SectionType::blobs, blobs_version, blobs.stored, blobs.raw_bytes}) && writer->finish());
     const auto container = Container::open(file.path());
-    auto store = BlobStore::open(*container);
+    MemoryBudget budget;
+    auto store = BlobStore::open(*container, budget);
     if (!store) return store.error().sentence;
     const auto found = store->find(blob);
     return found ? "" : found.error().sentence;
@@ -65,7 +66,8 @@ TEST(BlobStore, EqualBytesAreStoredOnce) {
 
 TEST(BlobStore, WhatWasPutIsFound) {
     TwoSections written;
-    auto store = BlobStore::open(*written.container);
+    MemoryBudget budget;
+    auto store = BlobStore::open(*written.container, budget);
     ASSERT_TRUE(store) << store.error().sentence;
     EXPECT_EQ(store->size(), 3u);
     EXPECT_TRUE(std::ranges::equal(*store->find(written.first), bytes_of("first")));
@@ -74,14 +76,16 @@ TEST(BlobStore, WhatWasPutIsFound) {
 
 TEST(BlobStore, NoBytesNeedNoBlob) {
     TwoSections written;
-    auto store = BlobStore::open(*written.container);
+    MemoryBudget budget;
+    auto store = BlobStore::open(*written.container, budget);
     EXPECT_EQ(written.blobs.put({}).hash, BlobHash{});
     EXPECT_TRUE(store->find({})->empty());
 }
 
 TEST(BlobStore, ASectionIsDecompressedWhenFirstAskedForAndFreedWhenNoLongerUsed) {
     TwoSections written;
-    auto store = BlobStore::open(*written.container);
+    MemoryBudget budget;
+    auto store = BlobStore::open(*written.container, budget);
     EXPECT_EQ(store->sections_held(), 0u);
     ASSERT_TRUE(store->find(written.first));
     EXPECT_EQ(store->sections_held(), 1u);
@@ -94,7 +98,8 @@ TEST(BlobStore, ASectionIsDecompressedWhenFirstAskedForAndFreedWhenNoLongerUsed)
 
 TEST(BlobStore, AnUnknownHashIsAnErrorThatNamesIt) {
     TwoSections written;
-    auto store = BlobStore::open(*written.container);
+    MemoryBudget budget;
+    auto store = BlobStore::open(*written.container, budget);
     EXPECT_THAT(store->find({{1, 2}, 4}).error().sentence, HasSubstr("lacks blob 00000000000000020000000000000001"));
     EXPECT_FALSE(store->find({written.first.hash, 4})) << "the right hash with a wrong size is another blob";
 }

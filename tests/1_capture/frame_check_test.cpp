@@ -82,7 +82,7 @@ TEST(FrameCheck, StreamsAndTexelsHaveTheirLengths) {
 TEST(FrameCheck, EnumsAreOnesWeKnow) {
     expect_refused({
         {"no texture format 4", [](Frame& f) { f.textures[0].format = TextureFormat{4}; }},
-        {"no address mode 3", [](Frame& f) { f.textures[0].address = AddressMode{3}; }},
+        {"no address mode 9", [](Frame& f) { f.textures[0].address = AddressMode{9}; }},
         {"no lighting model 9", [](Frame& f) { f.materials[0].lighting_model = LightingModel{9}; }},
         {"no alpha mode 5", [](Frame& f) { f.materials[0].alpha_mode = AlphaMode{5}; }},
         {"alpha mode 1 is none of these", [](Frame& f) { f.emitters[0].alpha_mode = AlphaMode::mask; }},

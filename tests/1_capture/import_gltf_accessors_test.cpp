@@ -100,7 +100,7 @@ TEST(GltfAccessor, LyingCountsAreRefusedBeforeAnythingIsAllocated) {
     std::string implicit = text;
     implicit.replace(implicit.find(R"("bufferView":0,)"), 15, "");
     implicit.replace(implicit.find(R"("count":3)"), 9, R"("count":9000000000000)");
-    EXPECT_THAT(refusal(implicit), HasSubstr("its elements would take 9000000000000 x 12 bytes"));
+    EXPECT_THAT(refusal(implicit), HasSubstr("(9000000000000 x 12 bytes)"));
 }
 
 TEST(GltfAccessor, ManyUsesOfOneAccessorStayWithinTheBudget) {
@@ -109,7 +109,7 @@ TEST(GltfAccessor, ManyUsesOfOneAccessorStayWithinTheBudget) {
     const std::string text = Gltf().with_triangle().text(showing(primitives));
     const auto scene = import_text(text, {.memory_budget = 200000});
     ASSERT_FALSE(scene);
-    EXPECT_THAT(scene.error().sentence, HasSubstr("together at most 200000 bytes"));
+    EXPECT_THAT(scene.error().sentence, HasSubstr("the memory budget is 0.2 MiB"));
     EXPECT_TRUE(import_text(text, {.memory_budget = 2000000}));
 }
 

@@ -173,6 +173,17 @@ TEST(GltfAnimation, BrokenKeysAreRefused) {
     EXPECT_THAT(broken(R"("count":2)", R"("count":2000000000)"), HasSubstr("leave buffer view"));
 }
 
+TEST(GltfAnimation, KeyframeTimesAreFloats) {
+    std::string text = sliding();
+    const std::string times = R"("componentType":5126,"type":"SCALAR")";
+    EXPECT_THAT(refusal(text.replace(text.find(times), times.size(), R"("componentType":5125,"type":"SCALAR")")),
+                HasSubstr("'slide': its keyframe times are accessor 1 of component type 5125; they must be floats (5126)"));
+    text = sliding();
+    const std::size_t values = text.find(R"("componentType":5126,"type":"VEC3","count":2)");
+    EXPECT_THAT(refusal(text.replace(values, 20, R"("componentType":5122)")),
+                HasSubstr("its values are accessor 2 of component type 5122"));
+}
+
 TEST(GltfAnimation, ThereAreMoreThanZeroFramesPerSecond) {
     for (const double fps : {0.0, -1.0, std::nan(""), 1e9}) EXPECT_FALSE(import_text(sliding(), {.fps = fps})) << fps;
 }

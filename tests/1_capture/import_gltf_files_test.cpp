@@ -83,7 +83,7 @@ TEST(GltfBytes, InMemoryNoOtherFileIsRead) {
 TEST(GltfBytes, DataUrisAreBase64OrEscaped) {
     const gltf::Folder none;
     const auto read = [&](const std::string& uri) {
-        gltf::Budget budget(1000);
+        MemoryBudget budget(1000);
         const auto bytes = none.read(uri, budget);
         return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "! " + bytes.error().sentence;
     };
@@ -93,7 +93,7 @@ TEST(GltfBytes, DataUrisAreBase64OrEscaped) {
     EXPECT_THAT(read("data:;base64,A*=="), HasSubstr("is no base64"));
     EXPECT_THAT(read("data:;base64,AAAAA"), HasSubstr("cut short"));
     EXPECT_THAT(read("data:;base64"), HasSubstr("has no data"));
-    EXPECT_THAT(read("data:;base64," + std::string(2000, 'A')), HasSubstr("at most 1000 bytes"));
+    EXPECT_THAT(read("data:;base64," + std::string(2000, 'A')), HasSubstr("the memory budget is 1000 bytes"));
 }
 
 /// A .glb of these chunks; `claimed` is the length in its header.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture_format/export/png.h"
 #include "capture_format/import/gltf_materials.h"
 #include "tests/support/gltf_text.h"
 
@@ -60,6 +61,47 @@ TEST(GltfGlass, AThicknessTextureIsReplacedByTheMeanOfItsGreen) {
                                       tiny_jpeg))));
     EXPECT_NEAR(scene.frame.materials[0].transmission.x, std::pow(0.5, 2 * 188 / 255.0), 0.01) << "the picture is grey 188";
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("thickness texture is replaced by its mean")));
+}
+
+/// A quad whose uvs cover columns from `left` to `right` of an atlas of four columns, as glass with these textures.
+Material glass_of_atlas(double left, double right, const std::string& textures) {
+    const auto l = static_cast<float>(left / 4), r = static_cast<float>(right / 4);
+    Gltf gltf;
+    gltf.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3", 3);
+    gltf.floats({l, 1, r, 1, l, 0, r, 0}, "VEC2", 2);
+    constexpr unsigned char atlas[] = {0, 0, 0, 255, 0, 255, 0, 255, 255, 255, 255, 0};
+    const auto png = encode_png(4, 1, 3, std::as_bytes(std::span(atlas)));
+    const std::string texels(reinterpret_cast<const char*>(png.data()), png.size());
+    return imported(gltf.text(showing(R"({"mode":5,"material":0,"attributes":{"POSITION":0,"TEXCOORD_0":1}})",
+                                      fmt::format(R"(,"images":[{{"uri":"data:image/png;base64,{}"}}],"textures":[{{"source":0}}],
+        "materials":[{}])",
+                                                  base64(texels), textures))))
+        .frame.materials[0];
+}
+
+TEST(GltfGlass, ItsMeansAreThoseOfTheTexelsThatItsTrianglesCover) {
+    // Blue is metal: columns 1 and 2 are, which belong to other things of the atlas.
+    const std::string metal = R"({"pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}},"extensions":{
+        "KHR_materials_ior":{"ior":1},"KHR_materials_transmission":{"transmissionFactor":1}}})";
+    EXPECT_FLOAT_EQ(glass_of_atlas(0, 1, metal).transmission.x, 1);
+    EXPECT_FLOAT_EQ(glass_of_atlas(3, 4, metal).transmission.x, 1);
+    EXPECT_NEAR(glass_of_atlas(0, 2, metal).transmission.x, 0.5, 0.01);
+    EXPECT_EQ(glass_of_atlas(1, 3, metal).alpha_mode, AlphaMode::opaque) << "nothing goes through metal";
+    // Red transmits: half of columns 2 and 3.
+    const std::string red = R"({"pbrMetallicRoughness":{"metallicFactor":0},"extensions":{"KHR_materials_ior":{"ior":1},
+        "KHR_materials_transmission":{"transmissionFactor":1,"transmissionTexture":{"index":0}}}})";
+    const Material half = glass_of_atlas(2, 4, red);
+    EXPECT_NEAR(half.transmission.x, 0.5, 0.01);
+    EXPECT_NEAR(half.base_color.x, 0.5, 0.01);
+}
+
+TEST(GltfGlass, AThicknessTextureLetsThroughTheMeanOfWhatEachThicknessLets) {
+    // Green is thickness: column 1 has none and column 2 all of it.
+    const Material glass = glass_of_atlas(1, 3, R"({"pbrMetallicRoughness":{"metallicFactor":0},"extensions":{
+        "KHR_materials_ior":{"ior":1},"KHR_materials_transmission":{"transmissionFactor":1},
+        "KHR_materials_volume":{"thicknessFactor":4,"thicknessTexture":{"index":0},"attenuationDistance":1,
+        "attenuationColor":[0.5,0.5,0.5]}}})");
+    EXPECT_NEAR(glass.transmission.x, (1 + 1.0 / 16) / 2, 0.01) << "0.25 would be that of the mean thickness";
 }
 
 TEST(GltfMaterials, IgnoredExtensionsAreNamedWithTheNumberOfMaterialsTheyWouldChange) {

@@ -87,7 +87,7 @@ TEST(GltfSkin, BrokenOnesAreRefused) {
                 HasSubstr("3 joints and 2 inverse bind matrices"));
     std::string other = bent(arm());
     other.replace(other.find(R"("skin":0)"), 8, R"("skin":4)");
-    EXPECT_THAT(refusal(other), HasSubstr("skin 4 does not exist"));
+    EXPECT_THAT(refusal(other), HasSubstr("uses skin 4, which does not exist"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "capture_format/codec/texture_mips.h"
 #include "capture_format/import/gltf.h"
+#include "capture_format/import/seen_share.h"
 #include "capture_format/reader.h"
 #include "tests/support/gltf_text.h"
 
@@ -130,6 +131,48 @@ TEST(ImportGltf, TheFramingCameraStandsAsNearAsItMay) {
     EXPECT_NEAR(glm::normalize(frame.view.origin - glm::dvec3(0.5, 0.5, 0)).y, std::sin(glm::radians(40.0)), 1e-6);
 }
 
+TEST(ImportGltf, AnEyeATargetAndAFieldOfViewReplaceTheCamera) {
+    const std::string text = Gltf().with_triangle().text(
+        R"("nodes":[{"camera":0},{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+           "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}])");
+    const View view =
+        imported(text, {.width = 200, .height = 100, .eye = glm::dvec3(3, 0, 0), .target = glm::dvec3(3, 0, 8), .fov = 90})
+            .frame.view;
+    EXPECT_EQ(view.origin, glm::dvec3(3, 0, 0));
+    EXPECT_EQ(view.to_view * glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1)) << "it looks along +z";
+    EXPECT_EQ(view.to_view * glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0));
+    EXPECT_NEAR(view.projection[0][0], 0.5, 1e-6);
+    const View middle = imported(text, {.eye = glm::dvec3(0.5, 0.5, 4)}).frame.view;
+    EXPECT_EQ(middle.to_view * glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1)) << "the middle of the scene is (.5, .5, 0)";
+    EXPECT_TRUE(import_text(text, {.eye = glm::dvec3(0, 9, 0), .target = glm::dvec3(0)})) << "straight down";
+    const auto sentence = [&](const GltfOptions& options) {
+        const auto scene = import_text(text, options);
+        return scene ? "imported" : fmt::format("{} {}", static_cast<int>(scene.error().fault), scene.error().sentence);
+    };
+    EXPECT_THAT(sentence({.target = glm::dvec3(1)}), HasSubstr("2 a target needs an eye"));
+    EXPECT_THAT(sentence({.eye = glm::dvec3(1), .target = glm::dvec3(1)}), HasSubstr("2 the eye cannot look at the place"));
+    EXPECT_THAT(sentence({.camera = 0, .eye = glm::dvec3(1)}), HasSubstr("choose one"));
+    EXPECT_THAT(sentence({.fov = 180}), HasSubstr("2 a field of view has 1 to 170 degrees"));
+}
+
+TEST(ImportGltf, InsideViewsStandWithinTheSceneAndSeeItAllAround) {
+    Gltf gltf;  // a room of 8 x 3 x 6 metres
+    gltf.floats({0, 0, 0, 8, 0, 0, 0, 3, 0, 8, 3, 0, 0, 0, 6, 8, 0, 6, 0, 3, 6, 8, 3, 6}, "VEC3", 3);
+    gltf.accessor(bytes_of<std::uint8_t>({0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7, 0, 2, 4, 2, 6, 4,
+                                          1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6}),
+                  5121, "SCALAR", 36);
+    const std::string text = gltf.text(showing(R"({"indices":1,"attributes":{"POSITION":0}})"));
+    const Frame inside = imported(text, {.azimuth = 90, .inside = true}).frame;
+    EXPECT_NEAR(glm::length(inside.view.origin - glm::dvec3(4 + 8.0 / 3, 1.5, 3)), 0, 1e-12);
+    EXPECT_NEAR(glm::length(inside.view.to_view * glm::dvec3(-1, 0, 0) - glm::dvec3(0, 0, 1)), 0, 1e-12);
+    EXPECT_EQ(seen_share(inside), 1) << "walls all around";
+    const Frame outside = imported(text).frame;
+    EXPECT_GT(seen_share(outside), 0.2);
+    EXPECT_LT(seen_share(outside), 0.9);
+    EXPECT_EQ(seen_share(imported(text, {.eye = glm::dvec3(4, 1, 9), .target = glm::dvec3(4, 1, 20)}).frame), 0)
+        << "it looks away";
+}
+
 TEST(ImportGltf, StrongLightsLowerTheExposure) {
     const auto scene = [](double candela) {
         return imported(Gltf().with_triangle().text(
@@ -217,6 +260,36 @@ TEST(ImportGltf, PngBecomesATextureWithLinearMips) {
     // Two of four texels have red: linear 0.5 is sRGB 188. Alpha is linear: (255 + 128 + 0 + 255) / 4 = 159.5.
     EXPECT_EQ(texture.texels[16], std::byte{188});
     EXPECT_NEAR(static_cast<int>(texture.texels[19]), 159.5, 0.6);
+}
+
+TEST(ImportGltf, SamplersWrapEachAxisTheirOwnWay) {
+    constexpr int modes[] = {10497, 33071, 33648};
+    std::vector<AddressMode> found;
+    for (const int s : modes)
+        for (const int t : modes) {
+            std::string text = with_image(fmt::format(R"("uri":"data:image/png;base64,{}")", tiny_png), "");
+            const std::string sampler = R"("wrapS":33071,"wrapT":33071)";
+            text.replace(text.find(sampler), sampler.size(), fmt::format(R"("wrapS":{},"wrapT":{})", s, t));
+            const ImportedScene scene = imported(text);
+            found.push_back(scene.frame.textures[0].address);
+            EXPECT_THAT(scene.warnings, testing::Not(Contains(HasSubstr("wraps"))));
+        }
+    EXPECT_THAT(found, testing::ElementsAre(AddressMode::repeat, AddressMode::repeat_clamp, AddressMode::repeat_mirror,
+                                            AddressMode::clamp_repeat, AddressMode::clamp, AddressMode::clamp_mirror,
+                                            AddressMode::mirror_repeat, AddressMode::mirror_clamp, AddressMode::mirror));
+}
+
+TEST(ImportGltf, EqualImagesBecomeOneTexture) {
+    const auto textures = [](const std::string& samplers) {
+        Gltf gltf = Gltf().with_triangle();
+        const std::string image = fmt::format(R"({{"uri":"data:image/png;base64,{}"}})", tiny_png);
+        return imported(gltf.text(showing(triangle, fmt::format(R"(,"images":[{0},{0}],"samplers":[{{}},{{"wrapS":33071}}],
+            "textures":[{1}],"materials":[{{"emissiveTexture":{{"index":0}}}},{{"emissiveTexture":{{"index":1}}}}])",
+                                                                image, samplers))))
+            .frame.textures.size();
+    };
+    EXPECT_EQ(textures(R"({"source":0,"sampler":0},{"source":1})"), 1u);
+    EXPECT_EQ(textures(R"({"source":0,"sampler":0},{"source":1,"sampler":1})"), 2u) << "they wrap differently";
 }
 
 TEST(ImportGltf, JpegIsRead) {

@@ -75,8 +75,9 @@ TEST(Recorder, EveryFieldSurvivesEncodingWhateverItsBits) {
         const PackedBlobs packed = blobs.pack()->front();
         ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, packed.stored, packed.raw_bytes}) && writer->finish());
         const auto container = Container::open(file.path());
-        auto store = BlobStore::open(*container);
-        const auto decoded = decode_frame(section, *store);
+        MemoryBudget budget;
+        auto store = BlobStore::open(*container, budget);
+        const auto decoded = decode_frame(section, *store, budget);
         ASSERT_TRUE(decoded) << decoded.error().sentence;
         EXPECT_EQ(bits_of(*decoded), bits_of(frame)) << "seed " << seed;
     }

@@ -55,6 +55,9 @@ TEST(Textures, AddressesWrapClampAndMirror) {
     EXPECT_EQ(at(AddressMode::mirror, -2), 1);
     EXPECT_EQ(at(AddressMode::mirror, 4), 3);
     EXPECT_EQ(at(AddressMode::mirror, 8), 0);
+    EXPECT_EQ(at(AddressMode::clamp_repeat, 9), 3) << "the first is along u";
+    EXPECT_EQ(at(AddressMode::mirror_clamp, -2), 1);
+    EXPECT_EQ(at(AddressMode::repeat_mirror, -1), 3);
 }
 
 TEST(Textures, EveryFormatDecodes) {

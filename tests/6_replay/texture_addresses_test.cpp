@@ -40,21 +40,20 @@ Frame textured_card(AddressMode address) {
 }
 
 TEST(TextureAddresses, RepeatClampAndMirrorAcrossAndDown) {
-    const struct {
-        AddressMode address;
-        std::string_view shown;  // the texel at each pixel, from the left and from the top
-    } rows[] = {{AddressMode::repeat, "0123012301230123"},
-                {AddressMode::clamp, "0000012333333333"},
-                {AddressMode::mirror, "3210012332100123"}};
-    for (const auto& row : rows) {
+    // The texel at each pixel, from the left or from the top, of repeat, clamp and mirror.
+    constexpr std::string_view shown[] = {"0123012301230123", "0000012333333333", "3210012332100123"};
+    for (std::uint32_t mode = 0; mode <= static_cast<std::uint32_t>(AddressMode::mirror_clamp); ++mode) {
+        const AddressMode address{mode};
         const Request request{.choices = chosen({"transparency/alpha_blend"}), .outputs = {"color"}};
-        const auto run = must(session_of_scenarios().run(textured_card(row.address), std::span(&request, 1))).front();
+        const auto run = must(session_of_scenarios().run(textured_card(address), std::span(&request, 1))).front();
         const ReferenceImage color = in_double(run.images.at("color"));
+        const auto texel = [&](AddressMode along, std::uint32_t at) {
+            return double(shade_of(std::uint32_t(shown[static_cast<std::size_t>(along)][at] - '0')));
+        };
         for (std::uint32_t y = 0; y < pixels_across; ++y)
             for (std::uint32_t x = 0; x < pixels_across; ++x) {
-                const auto texel = [&](std::uint32_t at) { return double(shade_of(std::uint32_t(row.shown[at] - '0'))); };
-                ASSERT_NEAR(color.at(x, y).x, texel(x), 1e-4) << row.shown << " at " << x << ", " << y;
-                ASSERT_NEAR(color.at(x, y).y, texel(y), 1e-4) << row.shown << " at " << x << ", " << y;
+                ASSERT_NEAR(color.at(x, y).x, texel(address_u(address), x), 1e-4) << mode << " at " << x << ", " << y;
+                ASSERT_NEAR(color.at(x, y).y, texel(address_v(address), y), 1e-4) << mode << " at " << x << ", " << y;
             }
     }
 }

@@ -85,8 +85,9 @@ TEST(Export, WritesTheFrameAsJsonThatTheSchemaReadsBackBitForBit) {
     // Read by flatbuffers' own parser into the frame that was recorded, which gives the same text: no digit was lost.
     const std::span parsed(parser.builder_.GetBufferPointer(), parser.builder_.GetSize());
     const Container container = must(Container::open(folder() / "room.strata"));
-    BlobStore blobs = must(BlobStore::open(container));
-    EXPECT_EQ(must(frame_json(must(decode_frame(std::as_bytes(parsed), blobs)))), text);
+    MemoryBudget budget;
+    BlobStore blobs = must(BlobStore::open(container, budget));
+    EXPECT_EQ(must(frame_json(must(decode_frame(std::as_bytes(parsed), blobs, budget)))), text);
 }
 
 TEST(Export, WritesTheSceneAsGltfThatImportReads) {

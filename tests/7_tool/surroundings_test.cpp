@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "replay/images/image_io.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/7_tool/forged_captures.h"
 #include "tests/7_tool/process.h"
+#include "tests/support/gltf_text.h"
 
 namespace strata {
 namespace {
@@ -161,6 +163,21 @@ TEST(ShaderCache, ThatIsBrokenChangesNothing) {
         EXPECT_EQ(replayed.code, 0) << broken << replayed.err;
         EXPECT_EQ(read_file(folder() / "good/sound.f0000.exr"), read_file(folder() / "broken/sound.f0000.exr")) << broken;
     }
+}
+
+TEST(Memory, OfFilesIsBoundedByABudget) {
+    write_file(folder() / "sound.strata", sound_capture());
+    std::ofstream(folder() / "scene.gltf") << Gltf().with_triangle().text(showing(triangle));
+    ASSERT_TRUE(write_png(folder() / "black.png", Extent{64, 64, 1}, std::vector<std::byte>(64 * 64 * 3)));
+    for (const char* verb :
+         {"info sound.strata", "validate sound.strata", "replay sound.strata", "export sound.strata --json -o sound.json",
+          "import scene.gltf -o scene.strata", "diff black.png black.png"}) {
+        const Finished refused = strata(fmt::format("{} --memory-budget 300", verb));
+        EXPECT_EQ(refused.code, 4) << verb << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr("the memory budget is 300 bytes")) << verb;
+        EXPECT_EQ(strata(fmt::format("{} --memory-budget 256MiB", verb)).code, 0) << verb;
+    }
+    EXPECT_EQ(strata("import scene.gltf -o scene.strata --budget 300").code, 4);
 }
 
 TEST(Memory, ThatDoesNotSufficeIsASentence) {
