@@ -91,7 +91,7 @@ TEST(Script, TheProgramPlaysOneAndExitsByItsOutcome) {
     const Finished bad = strata("inspect panes.strata --script bad.txt");
     EXPECT_EQ(bad.code, 1);
     EXPECT_THAT(bad.err, HasSubstr("bad.txt:1: 'top/capture' says 'panes.strata', not 'other.strata'"));
-    EXPECT_EQ(strata("inspect panes.strata --script missing.txt").code, 2);
+    EXPECT_EQ(strata("inspect panes.strata --script missing.txt").code, 3);
     EXPECT_EQ(strata("inspect missing.strata --script good.txt").code, 3);
 }
 
