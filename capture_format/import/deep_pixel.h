@@ -13,8 +13,8 @@
 
 namespace strata {
 
-/// A sample nearer than this is put there, one farther is infinitely far: device depth, near over z, must not underflow in a float
-/// between the two.
+/// A sample nearer than this is put there, one farther is infinitely far: device depth, near over z, must not underflow in a
+/// float between the two.
 inline constexpr double nearest_depth = 1e-15, farthest_depth = 1e15;
 
 /// A sample, or a cut of a volume. Colors are premultiplied: L_out = color + (1 - alpha) L_behind, channel by channel.
