@@ -29,9 +29,8 @@ struct GltfOptions {
     /// Where the eye is and what it looks at, in metres, instead of any camera; without a target the middle of the scene.
     std::optional<glm::dvec3> eye, target;
     double fov = 0;  ///< degrees from the bottom to the top of the picture, of all but the file's cameras; 0: as the view needs
-    bool inside =
-        false;        ///< the framing camera stands within the scene's box, as for a closed room, on the side that azimuth names
-    double fps = 30;  ///< frames per second of the animation
+    bool inside = false;    ///< the camera stands within the scene where it sees farthest, as for a closed room
+    double fps = 30;        ///< frames per second of the animation
     std::string animation;  ///< by name or index; empty: the first one, if there is one
     /// Bytes that the file, its buffers, vertices and pictures may take in memory together, frames and what becomes of them until
     /// they are recorded among them; hostile files claim more. 0: half of the machine's memory.

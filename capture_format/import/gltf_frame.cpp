@@ -257,6 +257,7 @@ std::optional<View> FrameSource::seen_by_camera(const std::vector<glm::dmat4>& t
 Result<void> FrameSource::frame_everything() {
     std::vector<glm::dvec3> corners;
     Bounds scene;
+    std::vector<WorldTriangle> triangles;
     const double duration = clip_ ? clip_->duration() : 0;
     const int moments = duration > 0 ? 16 : 1;
     for (int moment = 0; moment < moments; ++moment) {
@@ -265,10 +266,16 @@ Result<void> FrameSource::frame_everything() {
         if (const auto drawn = add_draws(making); !drawn) return drawn;
         for (const glm::dvec3& corner : making.corners) scene.add(corner);
         corners.insert(corners.end(), making.corners.begin(), making.corners.end());
+        if (!options_.inside || moment > 0) continue;
+        std::uint64_t count = 0;
+        for (const Draw& draw : making.frame.draws) count += making.frame.meshes[draw.mesh].indices.size() / 3;
+        if (const auto room = making.budget.has_room(count, 2 * sizeof(WorldTriangle), "a view of all triangles"); !room)
+            return room;
+        triangles = world_triangles(making.frame);
     }
     if (corners.empty()) corners = {glm::dvec3(-1), glm::dvec3(1)};
     framing_ = options_.eye      ? placed_view(scene, options_)
-               : options_.inside ? inside_view(scene, options_)
+               : options_.inside ? inside_view(std::move(triangles), scene, options_)
                                  : framing_view(corners, scene, options_);
     return {};
 }

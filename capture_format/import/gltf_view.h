@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
 #include "capture_format/frame.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/gltf_document.h"
+#include "capture_format/import/seen.h"
 #include "capture_format/result.h"
 
 namespace strata::gltf {
@@ -35,9 +37,9 @@ Result<View> camera_view(const CameraSource&, const glm::dmat4& to_world, double
 /// A view from the options' eye to their target, or to the middle of the bounds. Sets no extent.
 View placed_view(const Bounds&, const GltfOptions&);
 
-/// A view from within the bounds through their middle: two thirds of the way from there to the side that the options name, at the
-/// middle's height. Sets no extent.
-View inside_view(const Bounds&, const GltfOptions&);
+/// The level view from within the bounds, at the height of their middle, that sees farthest on average: of 25 places and 8
+/// directions, as far as the largest triangles tell. Sets no extent.
+View inside_view(std::vector<WorldTriangle>, const Bounds&, const GltfOptions&);
 
 /// A view of all these points, which lie in these bounds, as near as it may be from the side that the options name. Sets no
 /// extent.

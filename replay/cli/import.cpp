@@ -7,7 +7,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
-#include "capture_format/import/seen_share.h"
+#include "capture_format/import/seen.h"
 #include "capture_format/recorder.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
@@ -167,7 +167,7 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     point("--eye", options->eye, "X,Y,Z in meters: where the camera is, instead of the scene's");
     point("--target", options->target, "X,Y,Z: what the camera of --eye looks at; default the middle of the scene");
     app.add_option("--fov", options->gltf.fov, "vertical degrees of a camera that is not the scene's");
-    app.add_flag("--inside", options->gltf.inside, "camera within the scene's box, for closed rooms; --azimuth chooses the side");
+    app.add_flag("--inside", options->gltf.inside, "camera where it sees farthest within the scene, for closed rooms");
     app.add_option("--frames", options->frames, "how many frames; an animation begins again after its end")
         ->check(CLI::Range(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");

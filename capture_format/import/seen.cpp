@@ -1,18 +1,18 @@
 // Triangles are tested in homogeneous coordinates, so that none of them has to be clipped: Olano and Greer, Triangle Scan
 // Conversion using 2D Homogeneous Coordinates, 1997.
-#include "capture_format/import/seen_share.h"
+#include "capture_format/import/seen.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 namespace strata {
 namespace {
 
 constexpr int columns = 64, rows = 36;
 
-class Coverage {
+class Depths {
 public:
     /// Corners as x, y, w: a point is seen at x / w, y / w where w is above 0.
     void add(const std::array<glm::dvec3, 3>& corners) {
@@ -34,14 +34,14 @@ public:
             for (int column = left; column <= right; ++column) {
                 const glm::dvec3 at((column + 0.5) * 2 / columns - 1, (row + 0.5) * 2 / rows - 1, 1);
                 const glm::dvec3 inside = at * edges / volume;  // each at least 0 within, their sum 1 / w
-                if (inside.x >= 0 && inside.y >= 0 && inside.z >= 0)
-                    covered_[static_cast<std::size_t>(row * columns + column)] = true;
+                const double inverse = inside.x + inside.y + inside.z;
+                if (!(inside.x >= 0 && inside.y >= 0 && inside.z >= 0 && inverse > 0)) continue;
+                double& nearest = nearest_[static_cast<std::size_t>(row * columns + column)];
+                if (nearest == 0 || 1 / inverse < nearest) nearest = 1 / inverse;
             }
     }
 
-    double share() const {
-        return static_cast<double>(std::count(covered_.begin(), covered_.end(), true)) / static_cast<double>(covered_.size());
-    }
+    std::vector<double> take() { return std::move(nearest_); }
 
 private:
     static int first(double low, int count) { return static_cast<int>(std::clamp((low + 1) / 2, 0.0, 1.0) * (count - 1)); }
@@ -49,26 +49,38 @@ private:
         return static_cast<int>(std::ceil(std::clamp((high + 1) / 2, 0.0, 1.0) * (count - 1)));
     }
 
-    std::vector<bool> covered_ = std::vector<bool>(columns * rows);
+    std::vector<double> nearest_ = std::vector<double>(columns * rows);
 };
 
 }  // namespace
 
-double seen_share(const Frame& frame) {
-    Coverage coverage;
-    const View& view = frame.view;
+std::vector<WorldTriangle> world_triangles(const Frame& frame) {
+    std::vector<WorldTriangle> triangles;
     for (const Draw& draw : frame.draws) {
         const Mesh& mesh = frame.meshes[draw.mesh];
-        std::vector<glm::dvec3> points;
-        for (const glm::vec3& position : mesh.positions) {
-            const glm::dvec3 p = view.to_view * (glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(position), 1)) - view.origin);
-            const glm::dvec4 clip = glm::dmat4(view.projection) * glm::dvec4(p, 1);
-            points.emplace_back(clip.x, clip.y, clip.w);
-        }
-        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-            coverage.add({points[mesh.indices[i]], points[mesh.indices[i + 1]], points[mesh.indices[i + 2]]});
+        const auto placed = [&](std::size_t i) {
+            return glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i]]), 1));
+        };
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) triangles.push_back({placed(i), placed(i + 1), placed(i + 2)});
     }
-    return coverage.share();
+    return triangles;
+}
+
+std::vector<double> nearest_depths(const std::vector<WorldTriangle>& triangles, const View& view) {
+    Depths depths;
+    const glm::dmat4 projection(view.projection);
+    const auto seen = [&](const glm::dvec3& point) {
+        const glm::dvec4 clip = projection * glm::dvec4(view.to_view * (point - view.origin), 1);
+        return glm::dvec3(clip.x, clip.y, clip.w);
+    };
+    for (const WorldTriangle& triangle : triangles) depths.add({seen(triangle[0]), seen(triangle[1]), seen(triangle[2])});
+    return depths.take();
+}
+
+double seen_share(const Frame& frame) {
+    const std::vector<double> depths = nearest_depths(world_triangles(frame), frame.view);
+    const auto empty = std::count(depths.begin(), depths.end(), 0.0);
+    return 1 - static_cast<double>(empty) / static_cast<double>(depths.size());
 }
 
 }  // namespace strata
