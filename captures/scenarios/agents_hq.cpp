@@ -26,8 +26,8 @@ namespace strata::scenario {
 namespace {
 
 constexpr double height = 3, thickness = 0.1, room = 6, lobby = 8;
-// Blockers lie in the middle of walls and slabs and meet there: what lies within 5 mm of a blocker's plane counts as before it, so the
-// top of a wall would be lit through a blocker at the lower face of the ceiling.
+// Blockers lie in the middle of walls and slabs and meet there: what lies within 5 mm of a blocker's plane counts as before it,
+// so the top of a wall would be lit through a blocker at the lower face of the ceiling.
 constexpr double slab = 0.2, roof_height = height + slab / 2;
 constexpr std::uint32_t rooms_in_row = 4, rows_of_rooms = 2, lights_in_room = 20, lights_in_lobby = 40;
 

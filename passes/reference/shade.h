@@ -27,8 +27,8 @@ SurfacePoint surface_at(const Frame&, const RasterPoint&);
 
 /// The sun as a light, or nothing in its irradiance.
 Light sun_light(const Frame&);
-/// Light from the hemisphere, times occlusion: albedo (1 - metallic) mix(ground, sky, .5 + .5 n_world.y), and what metals mirror of sky
-/// and ground through the lobe of linearly transformed cosines.
+/// Light from the hemisphere, times occlusion: albedo (1 - metallic) mix(ground, sky, .5 + .5 n_world.y), and what metals mirror
+/// of sky and ground through the lobe of linearly transformed cosines.
 glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
 
 /// Remaining share and added radiance of the fog at view depth z.

@@ -1,5 +1,5 @@
-// Whatever a capture says, under checksums that are right: every verb ends with an exit code and a sentence. A forger's capture is
-// packed in memory from records (tests/fuzz), and the verbs run in this process, where a crash or a hang ends the test.
+// Whatever a capture says, under checksums that are right: every verb ends with an exit code and a sentence. A forger's capture
+// is packed in memory from records (tests/fuzz), and the verbs run in this process, where a crash or a hang ends the test.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture_format/container/container.h"
 #include "capture_format/container/whole_file.h"
 #include "capture_format/reader.h"
 #include "captures/scenarios.h"
@@ -18,6 +19,7 @@
 #include "tests/7_tool/process.h"
 #include "tests/fuzz/frame_records.h"
 #include "tests/fuzz/mutate_record.h"
+#include "tests/support/session.h"
 
 namespace strata {
 namespace {
@@ -67,9 +69,14 @@ void change_bytes(Bytes& bytes, std::minstd_rand& random) {
             bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), text.begin(), text.end());
             return;
         }
-        case 1: bytes.resize(at); return;
-        case 2: bytes[at] = std::byte(random()); return;
-        default: bytes[at] ^= std::byte(1u << random() % 8);
+        case 1:
+            bytes.resize(at);
+            return;
+        case 2:
+            bytes[at] = std::byte(random());
+            return;
+        default:
+            bytes[at] ^= std::byte(1u << random() % 8);
     }
 }
 

@@ -34,7 +34,8 @@ void mutate_record(std::vector<Record>& records, std::minstd_rand& random,
             if (record.bytes.size() >= 4) std::memcpy(&record.bytes[random() % (record.bytes.size() / 4) * 4], &word, 4);
             return;
         }
-        default: change_bytes(record.bytes);
+        default:
+            change_bytes(record.bytes);
     }
 }
 

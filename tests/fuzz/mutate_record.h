@@ -9,7 +9,8 @@
 
 namespace strata {
 
-/// Changes one of the records (there is at least one) and leaves the others' borders alone. Most often its bytes, by `change_bytes`.
+/// Changes one of the records (there is at least one) and leaves the others' borders alone. Most often its bytes, by
+/// `change_bytes`.
 void mutate_record(std::vector<Record>&, std::minstd_rand&, const std::function<void(std::vector<std::byte>&)>& change_bytes);
 
 }  // namespace strata
