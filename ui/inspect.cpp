@@ -90,7 +90,8 @@ Result<void> show_window(const InspectOptions& options) {
             std::make_unique<Inspector>((*window)->layer(), model_of(dropped, options, {}), opener(dropped, options), layout);
     }
     layout = inspector->layout();
-    std::tie(layout.width, layout.height) = (*window)->size();
+    const auto [width, height] = (*window)->size();
+    remember_size(layout, width, height);
     inspector.reset();
     return file ? write_layout(*file, layout) : Result<void>();
 }

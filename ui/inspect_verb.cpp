@@ -17,6 +17,17 @@ struct Options {
     std::filesystem::path script, shaders;
 };
 
+/// What no window could show ends before one opens. A script says the same without a window.
+Result<void> check_first_frame(const Options& options, const Request& request) {
+    const auto capture = open_capture(options.open.capture, options.open.allow_partial ? Partial::allowed : Partial::refused);
+    if (!capture) return capture.error();
+    if (const auto there = frame_indices(std::to_string(options.frame), capture->frame_count()); !there) return there.error();
+    const auto frame = capture->frame(options.frame);
+    if (!frame) return frame.error();
+    const auto choices = choose(*frame, request.choices);
+    return choices ? Result<void>() : Result<void>(choices.error());
+}
+
 Result<void> inspect(const Options& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
@@ -32,6 +43,8 @@ Result<void> inspect(const Options& options) {
         if (!extent) return extent.error();
         inspected.extent = *extent;
     }
+    if (options.script.empty())
+        if (const auto checked = check_first_frame(options, inspected.first); !checked) return checked;
     return ui::inspect(inspected);
 }
 

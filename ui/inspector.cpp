@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "replay/plural.h"
+#include "ui/frame/frame_rows.h"
 #include "ui/widgets/keys_list.h"
 #include "ui/widgets/widget_tree.h"
 #include "ui/window/keys.h"
@@ -33,7 +34,7 @@ constexpr OwnKey own_keys[] = {
 /// What a line of the status has room for; the log has it all.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-bool is_down(std::string_view chord) { return is_pressed(*chord_of(chord)); }
+bool is_down(std::string_view chord, WhileHeld held = WhileHeld::once) { return is_pressed(*chord_of(chord), held); }
 
 }  // namespace
 
@@ -82,10 +83,10 @@ void Inspector::take_results() {
     if (!replay || replay == last_replay_) return;
     last_replay_ = replay;
     model_.know(replay->frame);
+    if (replay->brings_back_more) return;
     for (const std::string& note : replay->run.notes) say(LogLine::Kind::warned, note);
-    say(LogLine::Kind::said,
-        fmt::format("replayed frame {} in {:.1f} ms: {} executed, {} kept from before", replay->request.variant.frame, replay->ms,
-                    plural(replay->run.acts_executed, "act"), replay->run.acts_from_memo));
+    say(LogLine::Kind::said, fmt::format("replayed frame {} in {:.1f} ms: {}", replay->request.variant.frame, replay->ms,
+                                         executed_text(frame_rows(*replay, nullptr))));
 }
 
 void Inspector::frame() {
@@ -127,11 +128,11 @@ std::string Inspector::title() const {
 void Inspector::press_keys() {
     if (is_down("f1")) keys_are_shown_ = !keys_are_shown_;
     if (keys_are_shown_ && is_down("escape")) keys_are_shown_ = false;
-    if (is_down("ctrl+z")) model_.undo();
-    if (is_down("ctrl+y")) model_.redo();
+    if (is_down("ctrl+z", WhileHeld::repeats)) model_.undo();
+    if (is_down("ctrl+y", WhileHeld::repeats)) model_.redo();
     const std::size_t frame = model_.edits().variant.frame, count = replayer_->facts() ? replayer_->facts()->frames : 1;
-    if (is_down("pageup") && frame > 0) model_.select_frame(frame - 1);
-    if (is_down("pagedown") && frame + 1 < count) model_.select_frame(frame + 1);
+    if (is_down("pageup", WhileHeld::repeats) && frame > 0) model_.select_frame(frame - 1);
+    if (is_down("pagedown", WhileHeld::repeats) && frame + 1 < count) model_.select_frame(frame + 1);
     if (is_down("ctrl+g")) go_to_pixel_.open();
     if (is_down("shift+f12")) saves_window_ = true;
     if (is_down("ctrl+q")) is_closing_ = true;
@@ -145,7 +146,7 @@ void Inspector::press_panel_keys() {
     Services all = services();
     for (Shown& shown : panels_)
         for (const PanelKey& key : shown.panel->keys())
-            if (is_down(key.chord)) key.pressed(*shown.panel, model_, all);
+            if (is_down(key.chord, key.held)) key.pressed(*shown.panel, model_, all);
 }
 
 void Inspector::draw() {
@@ -234,24 +235,29 @@ void Inspector::draw_activity() {
 }
 
 void Inspector::draw_regions(ImVec2 size) {
-    layout_.left = std::clamp(layout_.left, least_region, std::max(least_region, size.x / 2 - least_region));
-    layout_.right = std::clamp(layout_.right, least_region, std::max(least_region, size.x / 2 - least_region));
-    layout_.bottom = std::clamp(layout_.bottom, least_region, std::max(least_region, size.y * .7f));
-    const float center = size.x - layout_.left - layout_.right - 2 * splitter_width;
-    const float upper = size.y - layout_.bottom - splitter_width;
-    draw_region(Area::left, {layout_.left, size.y});
+    // What a person pulled stays known while the window is too small for it.
+    const auto fitting = [](float wanted, float most) { return std::clamp(wanted, least_region, std::max(least_region, most)); };
+    const float left = fitting(layout_.left, size.x / 2 - least_region),
+                right = fitting(layout_.right, size.x / 2 - least_region);
+    const float bottom = fitting(layout_.bottom, size.y * .7f);
+    const float center = size.x - left - right - 2 * splitter_width;
+    const float upper = size.y - bottom - splitter_width;
+    const auto pull = [](float& kept, float shown, float by) {
+        if (by != 0) kept = shown + by;
+    };
+    draw_region(Area::left, {left, size.y});
     ImGui::SameLine();
-    layout_.left += splitter("left edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW);
+    pull(layout_.left, left, splitter("left edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW));
     ImGui::SameLine();
     ImGui::BeginGroup();
     draw_region(Area::center, {center, upper});
-    layout_.bottom -= splitter("bottom edge", {center, splitter_width}, ImGuiMouseCursor_ResizeNS);
-    draw_region(Area::bottom, {center, layout_.bottom});
+    pull(layout_.bottom, bottom, -splitter("bottom edge", {center, splitter_width}, ImGuiMouseCursor_ResizeNS));
+    draw_region(Area::bottom, {center, bottom});
     ImGui::EndGroup();
     ImGui::SameLine();
-    layout_.right -= splitter("right edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW);
+    pull(layout_.right, right, -splitter("right edge", {splitter_width, size.y}, ImGuiMouseCursor_ResizeEW));
     ImGui::SameLine();
-    draw_region(Area::right, {layout_.right, size.y});
+    draw_region(Area::right, {right, size.y});
 }
 
 float Inspector::splitter(std::string_view name, ImVec2 size, ImGuiMouseCursor cursor) {

@@ -24,12 +24,6 @@ struct Edits {
     friend bool operator==(const Edits&, const Edits&) = default;
 };
 
-/// The same frame whatever is brought back of it.
-inline Request without_outputs(Request request) {
-    request.outputs.clear();
-    return request;
-}
-
 /// A picture that a panel made of what a replay gave.
 struct MadePicture {
     Request of;  ///< without outputs

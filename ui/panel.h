@@ -12,6 +12,7 @@
 #include "ui/replayer/replayer.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/imgui_layer.h"
+#include "ui/window/keys.h"
 
 namespace strata::ui {
 
@@ -35,6 +36,12 @@ struct Services {
     double seconds = 0;
 };
 
+/// The word over what was made of something else than its label says; empty where it is of that.
+inline std::string updating_word(bool is_of_its_label, const Replayer& replayer, std::string_view what) {
+    if (is_of_its_label) return {};
+    return fmt::format("{} {}", replayer.error("A") ? "not replayed:" : "updating", what);
+}
+
 class Panel;
 
 /// A key while no text is being typed.
@@ -42,6 +49,7 @@ struct PanelKey {
     std::string_view chord;  ///< "ctrl+z", "f1", "left"
     std::string_view help;
     void (*pressed)(Panel&, Model&, Services&);
+    WhileHeld held = WhileHeld::once;
 };
 
 class Panel {

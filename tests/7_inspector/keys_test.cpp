@@ -1,6 +1,7 @@
 // What keys do beside the panels' own: save, go to a pixel, reload shaders, fly and come back.
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,6 +80,40 @@ TEST(Keys, ShiftF12SavesTheWholeWindowAndItsWidgets) {
     EXPECT_TRUE(std::filesystem::exists("strata_window_2.json")) << "nothing is written over";
     EXPECT_FALSE(std::filesystem::exists(stem_of("scenarios.strata", 0, "display") + ".exr")) << "F12 is another key";
     EXPECT_THAT(desk.inspector->log().back().text, HasSubstr("strata_window_2.png and .json"));
+}
+
+std::size_t files_after_a_second_of(Desk& desk, const std::string& chord) {
+    const Chord held = *chord_of(chord);
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyShift = held.shift;
+    io.KeysDown[held.key] = true;
+    for (int i = 0; i < 60; ++i) {
+        must(desk.player->frames(1));
+        // A save that is done makes room for the next.
+        while (!desk.inspector->is_settled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    io.KeyShift = io.KeysDown[held.key] = false;
+    must(desk.player->wait());
+    const std::filesystem::directory_iterator files(".");
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+TEST(Keys, AKeyThatWritesFilesDoesNotRepeat) {
+    Desk& desk = Desk::clean();
+    const InFolder here;
+    EXPECT_EQ(files_after_a_second_of(desk, "f12"), 3u) << "EXR, PNG and JSON of one picture";
+    EXPECT_EQ(files_after_a_second_of(desk, "shift+f12"), 3u + 2u) << "PNG and JSON of one window";
+}
+
+TEST(Keys, AKeyThatMovesRepeats) {
+    Desk& desk = Desk::clean();
+    desk.model().pin = glm::ivec2(10, 10);
+    const int right = chord_of("right")->key;
+    ImGui::GetIO().KeysDown[right] = true;
+    must(desk.player->frames(60));
+    ImGui::GetIO().KeysDown[right] = false;
+    must(desk.player->wait());
+    EXPECT_GT(desk.model().pin->x, 15);
 }
 
 TEST(Keys, ShiftF12IntoAFolderThatIsGoneSaysSo) {

@@ -65,6 +65,26 @@ TEST(Panels, TheTechniquesPanelHasAWidgetForEveryParameter) {
     }
 }
 
+TEST(Panels, AWidgetStaysWhereItIsWhenItsResetArrowAppears) {
+    Desk& desk = Desk::clean();
+    desk.model().use(*must(find_technique("transparency/weighted")));
+    must(desk.player->wait());
+    const Param& param = desk.model().choices().at(Stage::transparency).technique->params[0];
+    const std::string row = fmt::format("Techniques/transparency/{}", param.name);
+    const WidgetRecord slider = desk.widget(row + "/value"), list = desk.widget("Techniques/lighting/technique");
+    EXPECT_THROW(desk.widget(row + "/reset"), std::runtime_error);
+    const double now = desk.model().choices().at(Stage::transparency).settings.get(param.name);
+    desk.model().set(Stage::transparency, param.name, now == param.low ? param.high : param.low);
+    must(desk.player->frames(2));
+    EXPECT_NO_THROW(desk.widget(row + "/reset"));
+    EXPECT_EQ(desk.widget(row + "/value").to.x, slider.to.x);
+    desk.model().use(*must(find_technique("lighting/tiled")));
+    must(desk.player->frames(2));
+    EXPECT_NO_THROW(desk.widget("Techniques/lighting/reset"));
+    EXPECT_EQ(desk.widget("Techniques/lighting/technique").to.x, list.to.x);
+    must(desk.player->wait());
+}
+
 TEST(Panels, AStageThatIsLeftOutSaysWhy) {
     Desk& desk = Desk::clean();
     ASSERT_FALSE(desk.replay()->skipped.empty());

@@ -156,7 +156,7 @@ TEST(PixelPanel, ProbesTheChosenMethodAndOneMoreOverTheSameSteps) {
     must(desk.player->frames(2));
     must(desk.player->click(fmt::format("Pixel/probe/methods/{}", short_method(methods[1]))));
     must(desk.player->wait());
-    const Probe wanted = must(probe(other_session(), desk.replay()->request, {48, 27, 0}, {.methods = methods, .samples = 256}));
+    const Probe wanted = must(probe(other_session(), desk.replay()->request, {48, 27, 0}, {.methods = methods}));
     for (const ProbeCurve& curve : wanted.curves) {
         ASSERT_EQ(curve.not_supported, "");
         const std::string row = fmt::format("Pixel/probe/figures/{}", short_method(curve.method));
@@ -164,6 +164,15 @@ TEST(PixelPanel, ProbesTheChosenMethodAndOneMoreOverTheSameSteps) {
         EXPECT_EQ(desk.said(row + "/behind"), fmt::format("{:+.5f}", curve.figures.total));
     }
     desk.expect_no_conflicts();
+}
+
+TEST(ProbeSeries, HasTheDepthsThatTheCommandLineTakes) {
+    Desk& desk = pinned("three_panes", {48, 27}, "Probe");
+    const ProbeQuestion question{desk.replay()->request, {48, 27}, 0, {}, {"transparency/sorted_lists"}};
+    const auto job = desk.inspector->replayer().start<Probe>(
+        [question](Session& session, ui::Progress& progress) { return probe_each(session, progress, question, {}); });
+    must(desk.player->wait());
+    EXPECT_EQ(must(*job->result()).depths.size(), ProbeOptions().samples);
 }
 
 TEST(ProbeSeries, TheExactStepsEndWithWhatIsLetThrough) {

@@ -123,6 +123,35 @@ TEST(Replayer, APictureGoesBeforeTheNextStepOfALongJob) {
     EXPECT_EQ(job->progress.doing(), "half");
 }
 
+TEST(Inspect, WhatNoWindowCouldShowEndsBeforeOneOpens) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata --size 96x54").code, 0);
+    std::ofstream(folder() / "bad.strata") << "no capture";
+    const auto code = [](const std::string& arguments) {
+        return strata_after("unset DISPLAY WAYLAND_DISPLAY", "inspect " + arguments).code;
+    };
+    EXPECT_EQ(code("missing.strata"), 3);
+    EXPECT_EQ(code("bad.strata"), 3);
+    EXPECT_EQ(code("panes.strata --frame 7"), 2);
+    EXPECT_EQ(code("panes.strata --use transparency/nothing"), 2);
+    EXPECT_EQ(code("panes.strata --set nothing=1"), 2);
+    EXPECT_EQ(code("panes.strata"), 4) << "no display";
+}
+
+TEST(Layout, OfAWindowThatWasTooSmallForAWhileIsWhatItWas) {
+    Desk& desk = Desk::clean();
+    const Layout before = desk.inspector->layout();
+    ImGui::GetIO().DisplaySize = {300, 200};
+    must(desk.player->frames(2));
+    ImGui::GetIO().DisplaySize = {1280, 800};
+    must(desk.player->frames(2));
+    EXPECT_EQ(desk.inspector->layout(), before);
+    Layout kept;
+    remember_size(kept, 120, 90);
+    EXPECT_EQ(kept, Layout());
+    remember_size(kept, 900, 700);
+    EXPECT_EQ(kept.width, 900);
+}
+
 TEST(Layout, ComesBackFromItsFileAndNonsenseIsTheDefaults) {
     const Layout layout{.left = 250, .width = 1000, .height = 700, .settings = {{"times", true}}};
     must(write_layout(folder() / "state" / "inspector.json", layout));

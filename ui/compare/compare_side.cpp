@@ -127,9 +127,8 @@ void ComparedSide::show_replay(const SideWish& wish, Services& services) {
     message_ = error ? error->sentence : "";
     const auto replay = services.replayer.shown(place_);
     if (!replay || replay->request != wish.request) return;
-    picture_ = {.image = replay->image(replay, wish.subject.image)};
-    subject_ = wish.subject;
-    if (!picture_.image) message_ = fmt::format("this frame has no '{}'", wish.subject.image);
+    picture_.set(wish, {.image = replay->image(replay, wish.subject.image)});
+    if (!picture().image) message_ = fmt::format("this frame has no '{}'", wish.subject.image);
 }
 
 void ComparedSide::show_job(const SideWish& wish, Services& services) {
@@ -139,8 +138,7 @@ void ComparedSide::show_job(const SideWish& wish, Services& services) {
     if (!job_ || !job_->result()) return;
     const Result<SidePicture>& result = *job_->result();
     message_ = result ? "" : result.error().sentence;
-    picture_ = result ? *result : SidePicture();
-    subject_ = wish_->subject;
+    picture_.set(*wish_, result ? *result : SidePicture());
     job_.reset();
 }
 

@@ -7,6 +7,7 @@
 
 #include "ui/compare/compare_pictures.h"
 #include "ui/panel.h"
+#include "ui/replayer/keyed.h"
 
 namespace strata::ui {
 
@@ -50,9 +51,10 @@ public:
 
     /// Once per frame. What takes the session seconds begins when no widget is held.
     void show(const SideWish&, Services&);
-    /// The last that was ready; `subject` says of what.
-    const SidePicture& picture() const { return picture_; }
-    const Subject& subject() const { return subject_; }
+    /// The last that was ready; `shown` says of what.
+    const SidePicture& picture() const { return picture_.value() ? *picture_.value() : none_; }
+    const SideWish* shown() const { return picture_.key(); }
+    bool is_of(const SideWish& wish) const { return picture_.is_of(wish); }
     /// Why there is no picture.
     const std::string& message() const { return message_; }
     bool is_busy() const { return busy_; }
@@ -65,8 +67,8 @@ private:
     std::string place_, message_;
     std::optional<SideWish> wish_;  ///< of the job
     JobOf<SidePicture> job_;
-    SidePicture picture_;
-    Subject subject_;
+    Keyed<SideWish, SidePicture> picture_;
+    SidePicture none_;
     bool busy_ = false;
 };
 

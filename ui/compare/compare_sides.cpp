@@ -211,10 +211,15 @@ SideWish CompareSides::wish_of(const ChosenSide& side, const ChosenSide& other, 
 }
 
 void CompareSides::update(const Model& model, Services& services) {
-    a_.picture.show(wish_of(a_, b_, model), services);
-    b_.picture.show(wish_of(b_, a_, model), services);
+    const SideWish a = wish_of(a_, b_, model), b = wish_of(b_, a_, model);
+    a_.picture.show(a, services);
+    b_.picture.show(b, services);
     for (ChosenSide* side : {&a_, &b_})
         side->shown.show(side->picture.picture().image, model.image.layer, services.host, services.layer);
+    const auto is_shown = [](const ChosenSide& side, const SideWish& wish) {
+        return side.picture.is_of(wish) && (!side.picture.picture().image || side.shown.is_current());
+    };
+    is_of_choice_ = is_shown(a_, a) && is_shown(b_, b);
 }
 
 bool CompareSides::is_busy() const {

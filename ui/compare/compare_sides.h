@@ -36,6 +36,8 @@ public:
     /// A truth is one of a stage: the last that writes the image, where nobody chose.
     Subject subject() const;
     bool is_busy() const;
+    /// Whether the pictures that are shown are those of A and B as they are chosen.
+    bool is_of_choice() const { return is_of_choice_; }
     /// Why a side has no picture.
     std::string trouble() const;
 
@@ -55,6 +57,7 @@ private:
     std::optional<Stage> after_;
     std::optional<Request> kept_;
     std::shared_ptr<const Replay> replay_;
+    bool is_of_choice_ = true;
 };
 
 }  // namespace strata::ui

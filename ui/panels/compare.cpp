@@ -62,6 +62,7 @@ private:
             const auto& result = *job_->result();
             compared_ = result ? *result : nullptr;
             message_ = result ? "" : result.error().sentence;
+            compared_of_ = job_of_;
             job_.reset();
         }
         const ComparedSide &a = sides_.a().picture, &b = sides_.b().picture;
@@ -72,12 +73,26 @@ private:
             return;
         }
         // On the way to another subject the sides hold different things for a while.
-        if (a.subject() != sides_.subject() || b.subject() != sides_.subject()) return;
+        if (a.shown()->subject != sides_.subject() || b.shown()->subject != sides_.subject()) return;
         const std::pair images(pair.a.image, pair.b.image);
         if (images == compared_images_) return;
         compared_images_ = images;
+        job_of_ = images;
         if (job_) job_->progress.cancel();
         job_ = start<std::shared_ptr<const ComparedPictures>>(services.host, [pair](Progress&) { return compared(pair); });
+    }
+
+    /// The word over the pictures: of A and B, and of the map where one is looked at.
+    std::string word_over() const {
+        const bool is_map = !shows_pictures() && map_image();
+        const bool is_current = !is_map || (numbers_are_current() && maps_[*map_index()].is_current());
+        return word(sides_.is_of_choice() && is_current);
+    }
+    bool numbers_are_current() const { return sides_.is_of_choice() && compared_of_ == compared_images_; }
+    std::string word(bool is_of_choice) const {
+        if (is_of_choice) return {};
+        return fmt::format("{} {}: A {}, B {}", sides_.trouble().empty() ? "updating" : "not replayed:", sides_.image(),
+                           name(sides_.a().source), name(sides_.b().source));
     }
 
     /// Which of maps_ is looked at; nothing where pictures are.
@@ -196,6 +211,7 @@ private:
         if (const PictureInfo* map = map_picture(); map && map_image())
             view.map = {map, is_flip ? flip_colors_.texture() : maps_[*map_index()].texture(), map_look(), map_caption()};
         else view.map.label = is_flip && compared_ ? flip_help(*compared_) : trouble();
+        const auto updating = services.widgets.updating(word_over());
         canvas_.draw(view, model, services);
     }
 
@@ -217,6 +233,7 @@ private:
 
     void draw_legend(const Model& model, Services& services) {
         Widgets& widgets = services.widgets;
+        const auto updating = widgets.updating(numbers_are_current() ? "" : word_over());
         if (legend_ == 0) make_legend(services.layer);
         Look look = shows_pictures() ? look_of(model) : map_look();
         const double stops = std::exp2(-double{look.exposure});
@@ -256,6 +273,7 @@ private:
         const std::string why = trouble();
         if (!compared_)
             return widgets.text("state", why.empty() ? "being compared" : why, why.empty() ? &palette().dim : &palette().bad);
+        const auto updating = widgets.updating(word(numbers_are_current()));
         if (compared_->measured.error.identical) {
             widgets.text("state", "bit for bit the same", &palette().good);
         } else {
@@ -290,6 +308,7 @@ private:
         const PictureInfo *a = sides_.a().shown.picture(), *b = sides_.b().shown.picture();
         if (!at || !a || !b || !a->contains(*at) || !b->contains(*at)) return;
         const bool is_pin = !canvas_.under();
+        const auto updating = widgets.updating(word(sides_.is_of_choice()));
         widgets.text("values",
                      fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8a\x95" : " ", at->x, at->y, values_text(*a, *at),
                                  values_text(*b, *at)),
@@ -310,6 +329,7 @@ private:
     JobOf<std::shared_ptr<const ComparedPictures>> job_;
     std::pair<std::shared_ptr<const HostImage>, std::shared_ptr<const HostImage>> compared_images_;
     std::shared_ptr<const ComparedPictures> compared_;
+    std::pair<std::shared_ptr<const HostImage>, std::shared_ptr<const HostImage>> job_of_, compared_of_;  ///< made of these
     std::array<ShownPicture, 3> maps_;  ///< difference, relative, FLIP
     FlipColors flip_colors_;
     std::optional<double> gain_, flip_gain_, up_to_;

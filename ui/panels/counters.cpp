@@ -27,6 +27,8 @@ public:
         const CountedRun* before = before_of(model, services);
         draw_against(widgets, services, before);
         const auto rows = counter_rows(now_->counters, before ? std::span(before->counters) : std::span<const CounterRecord>());
+        const auto updating =
+            widgets.updating(updating_word(services.replayer.is_of("A", model.request()), services.replayer, "counters"));
         ImGui::BeginChild("counters");
         draw_table(widgets, rows);
         ImGui::EndChild();
@@ -64,7 +66,7 @@ private:
         request.outputs = {"display"};
         services.replayer.show(place, request);
         const auto replay = services.replayer.shown(place);
-        if (!replay || replay->request.variant.frame != request.variant.frame) return nullptr;
+        if (!replay || !services.replayer.is_of(place, request)) return nullptr;
         recorded_ = counted_run(replay->request, replay->run);
         return &*recorded_;
     }

@@ -53,8 +53,8 @@ public:
              [](Panel& self, Model&, Services&) { static_cast<FramePanel&>(self).focus_find_ = true; }},
             {"t", "measure times",
              [](Panel& self, Model& model, Services& services) { static_cast<FramePanel&>(self).measure(model, services); }},
-            {"ctrl+up", "the step before", go<-1>},
-            {"ctrl+down", "the next step, of those that are found", go<1>},
+            {"ctrl+up", "the step before", go<-1>, WhileHeld::repeats},
+            {"ctrl+down", "the next step, of those that are found", go<1>, WhileHeld::repeats},
             {"ctrl+left", "collapse what the step is in", open<false>},
             {"ctrl+right", "expand it", open<true>},
         };

@@ -29,13 +29,22 @@ public:
         const auto image = wanted_image(model, services);
         shown_.show(image, model.image.layer, services.host, services.layer);
         const PictureInfo* picture = shown_.picture();
-        if (image && picture && picture->image == image) shown_name_ = model.image.name;
-        if (picture) default_ = model.image.made ? model.image.made->look : default_look(shown_name_, *picture);
+        if (image && shown_.is_current()) {
+            shown_name_ = model.image.name;
+            shown_step_ = model.image.step;
+            if (model.image.made) made_look_ = model.image.made->look;
+            else made_look_.reset();
+        }
+        if (picture) default_ = made_look_ ? *made_look_ : default_look(shown_name_, *picture);
+        const std::string word = word_over(model, services, image != nullptr);
         take_saved(services);
         draw_choice(model, services.widgets, picture);
-        if (picture) draw_size(services.widgets, *picture);
-        draw_look(model, services.widgets, picture);
+        if (picture) draw_size(services.widgets, *picture, word.empty());
+        ImGui::BeginDisabled(!is_of_name(model));  // they would change another picture's look than the one they show
+        draw_look(model, services.widgets, picture, word);
+        ImGui::EndDisabled();
         draw_eye(model, services.widgets);
+        const auto updating = services.widgets.updating(word);
         draw_canvas(model, services, picture);
         draw_line(model, services.widgets, picture);
         model.under = under_;
@@ -127,8 +136,19 @@ private:
         return peeked_.answer() ? *peeked_.answer() : nullptr;
     }
 
+    bool is_of_name(const Model& model) const { return shown_name_ == model.image.name && shown_step_ == model.image.step; }
+
+    /// A picture has the key of its image: which replay, which of its images, which layer.
+    std::string word_over(const Model& model, const Services& services, bool has_image) const {
+        if (!shown_.picture()) return {};
+        const bool is_of_label =
+            has_image && shown_.is_current() && is_of_name(model) && services.replayer.is_of("A", model.request());
+        return updating_word(is_of_label, services.replayer, model.image.name);
+    }
+
+    /// Of the picture that is shown, whatever is chosen meanwhile.
     Look look_of(const Model& model) const {
-        const auto own = model.looks.find(model.image.name);
+        const auto own = model.looks.find(shown_name_);
         return own == model.looks.end() ? default_ : own->second;
     }
     void set_look(Model& model, const Look& look) const {
@@ -167,7 +187,8 @@ private:
         widgets.help("a pixel per texel");
     }
 
-    void draw_look(Model& model, Widgets& widgets, const PictureInfo* picture) {
+    void draw_look(Model& model, Widgets& widgets, const PictureInfo* picture, const std::string& word) {
+        const auto updating = widgets.updating(word.empty() ? "" : "updating");
         constexpr std::array<std::string_view, 7> channels = {"RGB", "R", "G", "B", "A", "Luminance", "False color"};
         Look look = look_of(model);
         ImGui::SetNextItemWidth(104);
@@ -274,7 +295,7 @@ private:
             draw_details(placement_, *picture);
             if (model.outline) draw_outline(placement_, *model.outline, model.request());
             if (model.pin && picture->contains(*model.pin)) draw_pin(placement_, *model.pin);
-            if (!model.image.step) draw_legend_over(services.widgets, placement_, look_of(model), model.image.name);
+            if (!shown_step_) draw_legend_over(services.widgets, placement_, look_of(model), shown_name_);
         }
         if (message_.empty()) return;
         const ImVec2 text = ImGui::CalcTextSize(message_.c_str(), nullptr, false, size.x - 20);
@@ -312,7 +333,8 @@ private:
         widgets.text("under", fmt::format("{} {}:  {}", under_->x, under_->y, values_text(*picture, *under_)));
     }
 
-    void draw_size(Widgets& widgets, const PictureInfo& picture) const {
+    void draw_size(Widgets& widgets, const PictureInfo& picture, bool is_of_label) const {
+        if (!is_of_label) return;
         ImGui::SameLine(0, 12);
         widgets.text("size",
                      fmt::format("{} x {}  {}  {:.0f} %", picture.texels.width, picture.texels.height,
@@ -326,6 +348,8 @@ private:
     ShownPicture shown_;
     std::string shown_name_ = "display", message_;
     Look default_;
+    std::optional<std::size_t> shown_step_;
+    std::optional<Look> made_look_;
     LiveQuery<Peek, std::shared_ptr<const HostImage>> peeked_;
     JobOf<std::filesystem::path> saved_;
     Camera camera_;
@@ -345,18 +369,20 @@ void expose(Panel& panel, Model& model, Services&) {
 std::span<const PanelKey> ImagePanel::keys() const {
     static constexpr PanelKey table[] = {
         {"f", "the whole picture", [](Panel&, Model& model, Services&) { model.view = {}; }},
-        {"plus", "larger", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, 2); }},
-        {"minus", "smaller", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, .5); }},
-        {"e", "half a stop brighter", expose<1>},
-        {"shift+e", "half a stop darker", expose<-1>},
+        {"plus", "larger", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, 2); },
+         WhileHeld::repeats},
+        {"minus", "smaller", [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).zoom(model, .5); },
+         WhileHeld::repeats},
+        {"e", "half a stop brighter", expose<1>, WhileHeld::repeats},
+        {"shift+e", "half a stop darker", expose<-1>, WhileHeld::repeats},
         {"n", "black and white by the image's own range",
          [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).fit_range(model); }},
         {"c", "other channels",
          [](Panel& panel, Model& model, Services&) { static_cast<ImagePanel&>(panel).cycle_channels(model); }},
-        {"left", "move the pinned pixel", nudge_pin<-1, 0>},
-        {"right", "move the pinned pixel", nudge_pin<1, 0>},
-        {"up", "move the pinned pixel", nudge_pin<0, -1>},
-        {"down", "move the pinned pixel", nudge_pin<0, 1>},
+        {"left", "move the pinned pixel", nudge_pin<-1, 0>, WhileHeld::repeats},
+        {"right", "move the pinned pixel", nudge_pin<1, 0>, WhileHeld::repeats},
+        {"up", "move the pinned pixel", nudge_pin<0, -1>, WhileHeld::repeats},
+        {"down", "move the pinned pixel", nudge_pin<0, 1>, WhileHeld::repeats},
         {"f12", "save what is shown as EXR and PNG, with where it comes from",
          [](Panel& panel, Model& model, Services& services) { static_cast<ImagePanel&>(panel).save_shown(model, services); }},
         {"d", "the displayed picture", [](Panel&, Model& model, Services&) { model.image = {}; }},

@@ -85,7 +85,7 @@ private:
         const auto current = static_cast<std::size_t>(std::ranges::find(known, choice.technique) - known.begin());
         const std::string summary =
             fmt::format("{}\n{}\n{}", choice.technique->title, choice.technique->summary, choice.technique->source);
-        ImGui::SetNextItemWidth(changed ? -reset_width : -1);
+        ImGui::SetNextItemWidth(-reset_width);
         const auto chosen = widgets.combo("technique", items, current);
         widgets.help(summary);
         if (changed) {
@@ -108,7 +108,7 @@ private:
         ImGui::Unindent(8);
         widgets.help(param.help);
         ImGui::SameLine(label_width);
-        ImGui::SetNextItemWidth(changed ? -reset_width : -1);
+        ImGui::SetNextItemWidth(-reset_width);
         const std::optional<double> set = draw_value(widgets, param, value);
         if (set) model.set(stage, param.name, *set);
         if (!changed) return;
@@ -140,6 +140,7 @@ private:
         widgets.tree_end();
     }
 
+    // The place of the arrow is kept free: a slider that became shorter would jump under the pointer that pulls it.
     static constexpr float label_width = 116, reset_width = 34;
 };
 

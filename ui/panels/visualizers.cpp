@@ -15,7 +15,8 @@ constexpr float thumbnail_gap = 6, least_thumbnail = 110;
 /// The views of a technique in use, as of a request.
 struct Group {
     const Technique* technique;
-    Request of;
+    Request of;     ///< of the job
+    Request shown;  ///< of the views
     JobOf<TechniqueViews> job;
     std::shared_ptr<const TechniqueViews> views;
     std::string error;
@@ -53,7 +54,12 @@ public:
         if (!chosen.view) return;
         ImGui::Separator();
         ImGui::BeginChild("readouts");
-        readouts_.draw(model, services, chosen);
+        {
+            const auto group = std::ranges::find(groups_, chosen.technique, &Group::technique);
+            const bool is_of_label = !chosen.found || group->shown == without_outputs(model.request());
+            const auto updating = services.widgets.updating(updating_word(is_of_label, services.replayer, chosen.view->name));
+            readouts_.draw(model, services, chosen);
+        }
         ImGui::EndChild();
     }
 
@@ -121,6 +127,7 @@ private:
         const Result<TechniqueViews>& result = *group.job->result();
         if (result) {
             group.views = std::make_shared<TechniqueViews>(*result);
+            group.shown = group.of;
             for (const auto& [name, texels] : group.views->thumbnails)
                 group.textures[name] = services.layer.upload(group.textures[name], texels);
         } else {
@@ -165,6 +172,8 @@ private:
         if (skipped != replay.skipped.end()) widgets.text("left out", skipped->reason, &palette().dim);
         else if (!group.error.empty()) widgets.text("error", group.error, &palette().bad);
         ImGui::PopTextWrapPos();
+        const bool is_of_label = !group.views || group.shown == without_outputs(model.request());
+        const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, technique.name));
         if (skipped == replay.skipped.end()) draw_thumbnails(model, services, replay, group);
         ImGui::Dummy({0, 4});
     }

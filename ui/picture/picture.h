@@ -43,6 +43,8 @@ public:
     void show(const std::shared_ptr<const HostImage>&, std::uint32_t layer, WorkQueue&, ImguiLayer&);
     /// The last that was ready; null at first.
     const PictureInfo* picture() const { return picture_ ? picture_.get() : nullptr; }
+    /// Whether that is what show() was given last.
+    bool is_current() const { return picture_ && picture_->image == wanted_ && picture_->layer == wanted_layer_; }
     TextureId texture() const { return texture_; }
     /// What is finished waits for the next show(), which may never come: nobody waits for that.
     bool is_busy() const { return job_ && !job_->result(); }

@@ -31,10 +31,12 @@ public:
     void draw(Model& model, Services& services, const Replay& replay) override {
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("fragments");
-        asked_.ask(services.replayer, {with_display_alone(replay.request), glm::uvec2(*model.pin)}, fragments_of);
+        const PixelQuestion asked{with_display_alone(replay.request), glm::uvec2(*model.pin)};
+        asked_.ask(services.replayer, asked, fragments_of);
         draw_state_of(widgets, asked_);
         const auto* samples = asked_.answer();
         if (!samples || samples->empty()) return;
+        const auto updating = widgets.updating(updating_word(asked_, asked, model, services));
         sample_ = std::min(sample_, samples->size() - 1);
         if (samples->size() > 1) {
             const SliderRange range{.high = static_cast<double>(samples->size() - 1), .whole = true};

@@ -35,10 +35,12 @@ public:
             return;
         }
         const Technique* technique = choose_of(techniques, widgets);
-        asked_.ask(services.replayer, {with_display_alone(replay.request), glm::uvec2(*model.pin), technique}, inside_of);
+        const InsideQuestion asked{with_display_alone(replay.request), glm::uvec2(*model.pin), technique};
+        asked_.ask(services.replayer, asked, inside_of);
         draw_state_of(widgets, asked_);
         const PixelInside* inside = asked_.answer();
         if (!inside || asked_.answered()->technique != technique) return;
+        const auto updating = widgets.updating(updating_word(asked_, asked, model, services));
         ImGui::BeginChild("numbers", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
         draw_values(widgets, *inside);
         for (const InsideRows& rows : inside->tables) draw_rows(widgets, *inside, rows);

@@ -34,6 +34,15 @@ void draw_state_of(Widgets& widgets, LiveQuery<Question, Answer>& asked) {
     if (pressed == StatePress::again) asked.again();
 }
 
+/// The word over an answer that is not the present question's.
+template <typename Question, typename Answer>
+std::string updating_word(const LiveQuery<Question, Answer>& asked, const Question& question, const Model& model,
+                          const Services& services) {
+    const bool is_answered = asked.answered() && *asked.answered() == question;
+    return updating_word(is_answered && services.replayer.is_of("A", model.request()), services.replayer,
+                         fmt::format("pixel {} {}", model.pin->x, model.pin->y));
+}
+
 /// Light as a square of its color, as bright as the display shows it; the cursor stays on the line.
 void draw_swatch(glm::dvec3 light);
 /// The request without what other panels look at: what does not hang on it is not asked again because of them.

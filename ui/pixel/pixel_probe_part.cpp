@@ -42,6 +42,7 @@ public:
         draw_state_of(widgets, asked_);
         const Probe* probe = asked_.answer();
         if (!probe) return;
+        const auto updating = widgets.updating(updating_word(asked_, question, model, services));
         if (probe->undecided) widgets.text("undecided", "which fragments there are hangs on rounding", &palette().warning);
         draw_curves(widgets, *probe);
         draw_figures(widgets, *probe);

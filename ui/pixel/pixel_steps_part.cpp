@@ -37,7 +37,8 @@ public:
     void draw(Model& model, Services& services, const Replay& replay) override {
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("steps");
-        asked_.ask(services.replayer, {replay.request, glm::uvec2(*model.pin)},
+        const PixelQuestion asked{replay.request, glm::uvec2(*model.pin)};
+        asked_.ask(services.replayer, asked,
                    [](Session& session, Progress& progress, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
                        if (!progress.at(0, "the frame, step by step")) return fail(Fault::usage, "stopped");
                        return session.pixel_steps(question.request, question.pixel).and_then([&](auto& steps) {
@@ -46,6 +47,7 @@ public:
                    });
         draw_filter(widgets);
         draw_state_of(widgets, asked_);
+        const auto updating = widgets.updating(updating_word(asked_, asked, model, services));
         if (const auto* steps = asked_.answer()) draw_steps(model, widgets, replay, *steps);
     }
     void withdraw() override { asked_.withdraw(); }

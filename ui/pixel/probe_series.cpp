@@ -8,9 +8,6 @@
 namespace strata::ui {
 namespace {
 
-// Along the ray: a point every other pixel or two of a plot, and a third of what the command line takes.
-constexpr std::uint32_t samples = 256;
-
 /// The stack of a pixel as a probe gives it back, for further methods: the frame is neither loaded nor rasterized again.
 ProbedStack stack_of(const Probe& probe, std::uint64_t seed) {
     ProbedStack stack{probe.fragments, probe.nearest, probe.farthest, seed};
@@ -66,7 +63,7 @@ Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuesti
         }
         const double share = static_cast<double>(i) / static_cast<double>(question.methods.size());
         if (!progress.at(share, short_method(method))) return fail(Fault::usage, "stopped");
-        const ProbeOptions options{.methods = {method}, .samples = samples, .axis = question.axis};
+        const ProbeOptions options{.methods = {method}, .axis = question.axis};
         if (!made) {
             auto first = probe(session, question.request, at, options);
             if (!first) return first.error();

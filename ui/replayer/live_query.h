@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "ui/replayer/keyed.h"
 #include "ui/replayer/replayer.h"
 
 namespace strata::ui {
@@ -49,8 +50,8 @@ public:
     void again() { asked_.reset(); }
 
     /// Of the latest question that was answered well; null at first, and where the present one failed.
-    const Answer* answer() const { return answer_ && error_.empty() ? &answer_->second : nullptr; }
-    const Question* answered() const { return answer() ? &answer_->first : nullptr; }
+    const Answer* answer() const { return error_.empty() ? answer_.value() : nullptr; }
+    const Question* answered() const { return answer() ? answer_.key() : nullptr; }
     /// A number that changes with every answer.
     std::size_t version() const { return version_; }
     const std::string& error() const { return error_; }
@@ -62,7 +63,7 @@ private:
         if (!job_ || !job_->result()) return;
         const Result<Answer>& result = *job_->result();
         if (result) {
-            answer_.emplace(*asked_, *result);
+            answer_.set(*asked_, *result);
             ++version_;
         } else {
             error_ = result.error().sentence;
@@ -75,7 +76,7 @@ private:
     }
 
     std::optional<Question> asked_;
-    std::optional<std::pair<Question, Answer>> answer_;
+    Keyed<Question, Answer> answer_;
     std::size_t version_ = 0;
     std::string error_;
     JobOf<Answer> job_;

@@ -46,7 +46,13 @@ std::vector<PlanRow> rows_of(const Plan& plan) {
     return rows;
 }
 
-Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
+/// A view or an image more of what is shown: the person changed nothing.
+bool asks_for_more_images(const Request& request, const Replay* before) {
+    return before && before->request != request && without_outputs(before->request) == without_outputs(request);
+}
+
+Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame,
+                                             const Replay* before) {
     HostTimer timer;
     auto planned = session.plan(request);
     if (!planned) return planned.error();
@@ -60,6 +66,12 @@ Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& re
     made->skipped = std::move(planned->skipped);
     made->culled = std::move(planned->plan.culled);
     made->ms = timer();
+    if (asks_for_more_images(request, before)) {
+        made->brings_back_more = true;
+        made->run.steps = before->run.steps;
+        made->run.acts_executed = before->run.acts_executed;
+        made->run.acts_from_memo = before->run.acts_from_memo;
+    }
     return std::shared_ptr<const Replay>(std::move(made));
 }
 
@@ -162,20 +174,23 @@ void Replayer::serve_wish(const std::string& place) {
         wishes_.erase(waiting);
     }
     if (!session_) return;
-    Answer given{place, wish.first, within_memory<std::shared_ptr<const Replay>>([&] { return answer(wish.second); })};
+    Answer given{place, wish.first, within_memory<std::shared_ptr<const Replay>>([&] { return answer(place, wish.second); })};
     // A lost device stays lost: the next wish gets a new one.
     if (!given.replay && given.replay.error().fault == Fault::device_failed) open();
     const std::scoped_lock lock(mutex_);
     answers_.push_back(std::move(given));
 }
 
-Result<std::shared_ptr<const Replay>> Replayer::answer(const Request& request) {
+Result<std::shared_ptr<const Replay>> Replayer::answer(const std::string& place, const Request& request) {
     if (!frame_ || frame_->index != request.variant.frame) {
         auto facts = facts_of(*session_, request.variant.frame);
         if (!facts) return facts.error();
         frame_ = *std::move(facts);
     }
-    return replay(*session_, request, *frame_);
+    std::shared_ptr<const Replay>& latest = latest_[place];
+    auto made = replay(*session_, request, *frame_, latest.get());
+    if (made) latest = *made;
+    return made;
 }
 
 void Replayer::take_results() {
@@ -203,6 +218,11 @@ std::shared_ptr<const Replay> Replayer::shown(const std::string& place) const {
 const Error* Replayer::error(const std::string& place) const {
     const auto known = places_.find(place);
     return known == places_.end() || !known->second.error ? nullptr : &*known->second.error;
+}
+
+bool Replayer::is_of(const std::string& place, const Request& request) const {
+    const auto replay = shown(place);
+    return replay && without_outputs(replay->request) == without_outputs(request);
 }
 
 bool Replayer::is_current(const std::string& place) const {

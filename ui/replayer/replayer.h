@@ -48,10 +48,17 @@ struct Replay {
     std::vector<PlanRow> steps;
     std::vector<SkippedStage> skipped;
     std::vector<CulledStep> culled;
-    double ms = 0;  ///< that it took, all in all
+    double ms = 0;                  ///< that it took, all in all
+    bool brings_back_more = false;  ///< of what was replayed before: what `run` says was executed is what that replay executed
     /// One of the images asked for; null where the frame does not have it. Keeps the replay alive.
     std::shared_ptr<const HostImage> image(const std::shared_ptr<const Replay>& self, const std::string& name) const;
 };
+
+/// The same frame whatever is brought back of it.
+inline Request without_outputs(Request request) {
+    request.outputs.clear();
+    return request;
+}
 
 /// How a job makes room for a picture that is wished for meanwhile.
 enum class Yields {
@@ -77,6 +84,8 @@ public:
     const Error* error(const std::string& place) const;
     /// Whether what is shown is what was wished for.
     bool is_current(const std::string& place) const;
+    /// Whether what is shown was made of this request, whatever images either brings back.
+    bool is_of(const std::string& place, const Request&) const;
 
     /// Null until the capture is open.
     const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
@@ -125,7 +134,7 @@ private:
 
     void open();
     void wish(const std::string& place);
-    Result<std::shared_ptr<const Replay>> answer(const Request&);
+    Result<std::shared_ptr<const Replay>> answer(const std::string& place, const Request&);
     void serve(const std::string& place);
     void serve_wish(const std::string& place);
 
@@ -144,7 +153,8 @@ private:
     Open open_;  // the thread's, and what follows
     std::shared_ptr<Session> session_;
     std::optional<FrameFacts> frame_;
-    WorkQueue queue_;  // last: it uses all of the above
+    std::map<std::string, std::shared_ptr<const Replay>> latest_;  ///< by place
+    WorkQueue queue_;                                              // last: it uses all of the above
 };
 
 }  // namespace strata::ui

@@ -18,7 +18,8 @@ std::string widget_tree(const Inspector& inspector) {
                            {"from", {record.from.x, record.from.y}},
                            {"to", {record.to.x, record.to.y}},
                            {"enabled", record.enabled},
-                           {"visible", record.visible}});
+                           {"visible", record.visible},
+                           {"updating", record.updating}});
     const FrameRate& rate = inspector.frame_rate();
     const auto tenths = [](double number) { return std::round(number * 10) / 10; };
     const Json json{{"schema", "strata.widgets"},

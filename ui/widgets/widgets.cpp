@@ -15,6 +15,7 @@ namespace {
 constexpr float seconds_to_help = .4f;
 // A hand that presses moves so many pixels.
 constexpr float hand = 4;
+constexpr ImU32 veil = IM_COL32(14, 15, 18, 158);
 
 std::string id_of(std::string_view label, std::string_view face) {
     return face.empty() ? std::string(label) : fmt::format("{}###{}", face, label);
@@ -69,6 +70,36 @@ Widgets::Scope::Scope(Widgets& widgets, std::string_view name) : widgets_(&widge
 Widgets::Scope::~Scope() {
     ImGui::PopID();
     widgets_->path_.resize(length_);
+}
+
+Widgets::Updating::Updating(Widgets& widgets, std::string word)
+    : widgets_(&widgets), word_(std::move(word)), first_(widgets.records_.size()), from_(ImGui::GetCursorScreenPos()) {}
+
+/// A child of its own, because it has to lie over the children (lists, tables) that were drawn before it.
+Widgets::Updating::~Updating() {
+    if (word_.empty()) return;
+    for (std::size_t i = first_; i < widgets_->records_.size(); ++i) widgets_->records_[i].updating = word_;
+    const ImVec2 after = ImGui::GetCursorScreenPos(), window = ImGui::GetWindowPos();
+    const float top = std::max(from_.y, window.y), bottom = std::min(after.y, window.y + ImGui::GetWindowHeight());
+    const ImVec2 size(window.x + ImGui::GetWindowContentRegionMax().x - from_.x, bottom - top);
+    if (size.x < 4 || size.y < 4) return;
+    ImGui::SetCursorScreenPos({from_.x, top});
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, veil);
+    ImGui::BeginChild(fmt::format("##updating {}", first_label(first_)).c_str(), size, false,
+                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
+    const ImVec2 text = ImGui::CalcTextSize(word_.c_str());
+    const ImVec2 at(std::max(from_.x + 6, from_.x + (size.x - text.x) / 2), top + (size.y - text.y) / 2);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({at.x - 6, at.y - 2}, {at.x + text.x + 6, at.y + text.y + 2}, IM_COL32(20, 22, 27, 235), 4);
+    list.AddText(at, IM_COL32(240, 190, 90, 255), word_.c_str());
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+    ImGui::SetCursorScreenPos(after);
+}
+
+/// Names a veil by what lies first under it.
+std::string Widgets::Updating::first_label(std::size_t first) const {
+    return first < widgets_->records_.size() ? widgets_->records_[first].path : widgets_->path_;
 }
 
 void Widgets::record(std::string_view label, WidgetKind kind, std::string value) {

@@ -24,6 +24,7 @@ struct WidgetRecord {
     bool enabled = true, visible = true;
     double low = 0, high = 0, number = 0;  ///< of a slider
     bool open = false;                     ///< a tree's node, a combo's list
+    std::string updating = {};             ///< the word over it, where it is not of what its label says
 };
 
 struct SliderRange {
@@ -58,6 +59,25 @@ public:
         std::size_t length_;
     };
     Scope in(std::string_view name) { return {*this, name}; }
+
+    /// What is drawn while it lives lies under a veil with this word over it: it was made of something else than its label says.
+    /// An empty word changes nothing. Not inside of a table.
+    class [[nodiscard]] Updating {
+    public:
+        Updating(Widgets&, std::string word);
+        Updating(const Updating&) = delete;
+        Updating& operator=(const Updating&) = delete;
+        ~Updating();
+
+    private:
+        std::string first_label(std::size_t first) const;
+
+        Widgets* widgets_;
+        std::string word_;
+        std::size_t first_;
+        ImVec2 from_;
+    };
+    Updating updating(std::string word) { return {*this, std::move(word)}; }
 
     // Each is named by its label; `face` is what is shown instead. What is not shown ends at "##".
     bool button(std::string_view label, std::string_view face = {});

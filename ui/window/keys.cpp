@@ -72,10 +72,10 @@ std::optional<Chord> chord_of(std::string_view name) {
     return chord;
 }
 
-bool is_pressed(const Chord& chord) {
+bool is_pressed(const Chord& chord, WhileHeld held) {
     const ImGuiIO& io = ImGui::GetIO();
     return !io.WantTextInput && io.KeyCtrl == chord.ctrl && io.KeyShift == chord.shift && io.KeyAlt == chord.alt &&
-           ImGui::IsKeyPressed(chord.key);
+           ImGui::IsKeyPressed(chord.key, held == WhileHeld::repeats);
 }
 
 std::string for_people(std::string_view chord) {

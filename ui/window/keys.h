@@ -16,8 +16,10 @@ struct Chord {
 
 /// "ctrl+z", "f1", "left", "a"; nothing where there is no such key.
 std::optional<Chord> chord_of(std::string_view name);
+/// What a key does while it is held down.
+enum class WhileHeld { once, repeats };
 /// Whether it went down in this frame, or repeats, and nobody types text.
-bool is_pressed(const Chord&);
+bool is_pressed(const Chord&, WhileHeld);
 /// "Ctrl+Z".
 std::string for_people(std::string_view chord);
 /// Tells Dear ImGui which numbers its own keys have.

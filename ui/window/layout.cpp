@@ -8,6 +8,17 @@
 #include "capture_format/container/whole_file.h"
 
 namespace strata::ui {
+namespace {
+
+constexpr int least_width = 640, least_height = 480;
+
+}  // namespace
+
+void remember_size(Layout& layout, int width, int height) {
+    if (width < least_width || height < least_height) return;
+    layout.width = width;
+    layout.height = height;
+}
 
 std::optional<std::filesystem::path> layout_file(const char* state_home, const char* home) {
     if (state_home && *state_home) return std::filesystem::path(state_home) / "strata" / "inspector.json";
@@ -27,8 +38,8 @@ Layout read_layout(const std::filesystem::path& path) {
     read("left", layout.left, 120.0f, 2000.0f);
     read("right", layout.right, 120.0f, 2000.0f);
     read("bottom", layout.bottom, 60.0f, 2000.0f);
-    read("width", layout.width, 400, 16384);
-    read("height", layout.height, 300, 16384);
+    read("width", layout.width, least_width, 16384);
+    read("height", layout.height, least_height, 16384);
     if (json.contains("settings") && json["settings"].is_object())
         for (const auto& [key, value] : json["settings"].items())
             if (value.is_boolean()) layout.settings[key] = value.get<bool>();

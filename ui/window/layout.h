@@ -17,6 +17,9 @@ struct Layout {
     friend bool operator==(const Layout&, const Layout&) = default;
 };
 
+/// Keeps the window's size for the next start, unless panels cannot be used at it.
+void remember_size(Layout&, int width, int height);
+
 /// Where it is kept, given $XDG_STATE_HOME and $HOME; nothing where neither is set.
 std::optional<std::filesystem::path> layout_file(const char* state_home, const char* home);
 /// The defaults where there is none, or it says nothing that makes sense.
