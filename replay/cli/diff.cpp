@@ -234,7 +234,7 @@ Result<void> check_options(const DiffArguments& options, const CLI::App& app) {
     if (!of_b || !is_image(options.a.file)) return of_b;
     return check_not_given(app,
                            {"--use-a", "--set-a", "--gpu-a", "--force", "--samples", "--gpu", "--without", "--validation",
-                            "--memory-budget", "--allow-partial", "--frames"},
+                            "--allow-partial", "--frames"},
                            "two images are compared and nothing is replayed");
 }
 

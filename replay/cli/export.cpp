@@ -35,9 +35,8 @@ Result<void> run(const ExportOptions& options, const CLI::App& app) {
     }
     if (!chosen) return fail(Fault::usage, "say what to export: one of {}", flags);
     if (!chosen->replays) {
-        const auto fits = check_not_given(
-            app, {"--use", "--set", "--force", "--samples", "--gpu", "--without", "--validation", "--memory-budget"},
-            fmt::format("{} exports the frame as it was recorded", chosen->flag));
+        const auto fits = check_not_given(app, {"--use", "--set", "--force", "--samples", "--gpu", "--without", "--validation"},
+                                          fmt::format("{} exports the frame as it was recorded", chosen->flag));
         if (!fits) return fits;
     }
     if (const auto done = chosen->run(options); !done) return done;

@@ -113,7 +113,7 @@ void add_bulk_lies(std::vector<ForgedCapture>& forged) {
     add("2^40 blobs", "", {SectionType::blobs, blobs_version, many, 8});
     add("a blob of 4 GiB", "", {SectionType::blobs, blobs_version, large, four_gib});
     const Bytes large_frame = frame(four_gib), bomb_frame = frame(bomb);
-    add("a frame of 4 GiB", ": it claims 4294967296 bytes", {SectionType::frame, 2, large_frame, four_gib});
+    add("a frame of 4 GiB", " claims 4294967296 bytes", {SectionType::frame, 2, large_frame, four_gib});
     add("a frame that is a bomb", ": it does not decompress", {SectionType::frame, 2, bomb_frame, bomb});
 }
 

@@ -22,7 +22,7 @@ struct NumericOption {
 /// Of a verb, as its help names them.
 std::vector<NumericOption> numeric_options(const std::string& verb) {
     const std::string help = strata("help " + verb).out;
-    const std::regex pattern("(--[a-z-]+) (FLOAT|UINT:SIZE|UINT|INT)");
+    const std::regex pattern("(--[a-z-]+)(?:,--[a-z-]+)* (FLOAT|UINT:SIZE|UINT|INT)");
     std::vector<NumericOption> found;
     for (auto match = std::sregex_iterator(help.begin(), help.end(), pattern); match != std::sregex_iterator(); ++match)
         found.push_back({(*match)[1], (*match)[2]});
