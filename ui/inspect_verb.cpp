@@ -19,7 +19,8 @@ struct Options {
 
 /// What no window could show ends before one opens. A script says the same without a window.
 Result<void> check_first_frame(const Options& options, const Request& request) {
-    const auto capture = open_capture(options.open.capture, options.open.allow_partial ? Partial::allowed : Partial::refused);
+    const auto capture = open_capture(options.open.capture, options.open.allow_partial ? Partial::allowed : Partial::refused,
+                                      options.open.device.memory_budget);
     if (!capture) return capture.error();
     if (const auto there = frame_indices(std::to_string(options.frame), capture->frame_count()); !there) return there.error();
     const auto frame = capture->frame(options.frame);
