@@ -20,6 +20,7 @@ public:
                                glm::cross(corners[0], corners[1]));
         const double volume = glm::dot(corners[0], edges[0]);
         if (volume == 0 || !std::isfinite(volume)) return;
+        if (std::max({corners[0].z, corners[1].z, corners[2].z}) <= 0) return;  // behind the eye
         glm::dvec2 low(-1), high(1);
         if (std::min({corners[0].z, corners[1].z, corners[2].z}) > 0) {
             low = high = glm::dvec2(corners[0]) / corners[0].z;
