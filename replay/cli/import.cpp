@@ -107,8 +107,8 @@ std::vector<std::string> notes_on_view(const Frame& frame) {
 Result<void> import(const ImportArguments& options, const CLI::App& app) {
     if (options.deep) {
         const auto fits = check_not_given(app,
-                                          {"--size", "--samples", "--camera", "--eye", "--target", "--inside", "--fov", "--azimuth",
-                                           "--elevation", "--frames", "--fps", "--animation"},
+                                          {"--size", "--samples", "--camera", "--eye", "--target", "--inside", "--fov",
+                                           "--azimuth", "--elevation", "--frames", "--fps", "--animation"},
                                           "a deep image is one frame with a view of its own");
         return fits ? import_deep_image(options) : fits;
     }
