@@ -89,7 +89,7 @@ TEST(CaptureBudget, IsFreeAgainWhenTheNextFrameIsRead) {
     }
     ASSERT_TRUE(recorder->finish());
     const auto capture = Capture::open(file.path(), Partial::refused, 4 * mib);  // two sections, and the frame's copy of one
-    for (const std::size_t index : {0, 1, 2, 3, 4, 5, 0, 5, 3}) {
+    for (const std::size_t index : {0u, 1u, 2u, 3u, 4u, 5u, 0u, 5u, 3u}) {
         const auto frame = capture->frame(index);
         ASSERT_TRUE(frame) << index << frame.error().sentence;
     }
