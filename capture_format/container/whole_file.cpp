@@ -156,6 +156,8 @@ Result<void> write_whole_file(const std::filesystem::path& path, std::string_vie
 }
 
 Result<void> leave_nothing_half_written_when_stopped() {
+    static bool waits = false;  // one thread does
+    if (waits) return {};
     sigset_t stops;
     sigemptyset(&stops);
     // What a terminal, a batch system or a limit of the processor's time sends to end a program.
@@ -177,6 +179,7 @@ Result<void> leave_nothing_half_written_when_stopped() {
             [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
             _exit(128 + signal);
         }).detach();
+        waits = true;
     } catch (const std::system_error& refused) {
         return fail(Fault::device_lacks, "this machine starts no thread: {}", refused.what());
     }
