@@ -17,7 +17,7 @@ packages=(
     libopenexr-dev libdeflate-dev nlohmann-json3-dev libcli11-dev
     libimgui-dev libglfw3-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
 usage() { sed -n '2,8p' "$0" >&2; exit 2; }

@@ -1,5 +1,13 @@
 // A frame as plain values: everything a stage may need to compute it again, and nothing of any graphics API.
-// Metres, radians, linear radiance; view space is +x right, +y up, +z forward; world positions are doubles.
+//
+//   Units      Metres, radians, seconds, linear radiance. World positions are doubles.
+//   World      +y is up: Hemisphere's sky. Right-handed (glTF, OpenGL) or left-handed (Direct3D): View::to_view says which.
+//   Matrices   glm's: stored by columns, for column vectors. world = to_world * vec4(object, 1); to_world[3] is the translation.
+//              A matrix for row vectors that is stored by rows has the same 16 numbers in the same order.
+//   Winding    The front of triangle a, b, c is the side that cross(b - a, c - a) points to, in the coordinates of the mesh. Seen
+//              from there a, b, c turn counter-clockwise in a right-handed world and clockwise in a left-handed one. A to_world
+//              that mirrors changes no front. Back faces are invisible unless Material::double_sided.
+//   Views      view.h: view space, clip space, reversed depth. look_at() makes a View from an eye, a target and a field of view.
 #pragma once
 
 #include <array>
@@ -10,6 +18,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "capture_format/view.h"
 
 namespace strata {
 
@@ -101,7 +111,7 @@ struct Draw {
     std::string name;
     std::uint32_t mesh = 0, material = 0;
     glm::dmat4 to_world{1};           ///< object to world
-    glm::dmat4 previous_to_world{1};  ///< the same one frame earlier
+    glm::dmat4 previous_to_world{1};  ///< to_world of the frame before; equal to it for a draw at rest
     Mobility mobility = Mobility::fixed;
     std::int32_t sort_priority = 0;  ///< object-sorted transparency draws lower values first
     Resolution resolution = Resolution::full;
@@ -240,22 +250,6 @@ struct Film {
     float grain = 0, fade = 0;
     float white = 1.7f;  ///< Wt of the tone curve x (1 + x / Wt^2) / (1 + x)
 };
-
-/// Where the frame is seen from. `projection` is Vulkan's clip space for view space (+y up): reversed depth, infinite far:
-/// clip = (P00 x + P20 z, -(P11 y + P21 z), near, z). Jitter is not in it.
-struct View {
-    glm::dvec3 origin{0};   ///< the eye, world
-    glm::dmat3 to_view{1};  ///< rotation, world to view
-    glm::mat4 projection{0};
-    glm::vec2 jitter{0};  ///< NDC, added to x / w and y / w
-    std::uint32_t width = 160, height = 90;
-    std::uint32_t samples = 1;  ///< 1 or 4
-    float near = 0.1f;          ///< metres
-    float exposure = 1;
-};
-
-/// The projection of View for a vertical field of view in radians.
-glm::mat4 perspective(double vertical_fov, double width_over_height, double near);
 
 using SettingValue = std::variant<std::int64_t, double, std::string>;
 struct Setting {

@@ -34,6 +34,7 @@ struct FrameImages {
     DrawList opaque;         ///< after the culling stage
     DrawList casters;        ///< opaque and masked draws that cast shadows
     DrawList transparent;    ///< transparent draws in submission order, then emitters
+    DrawList numbered;       ///< the same, not indexed, for fragment shaders that read in_triangle (numbered_draw.vert)
     DrawList back_to_front;  ///< the same, sorted by object; particles sorted within their emitter
 
     // culling

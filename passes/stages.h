@@ -19,6 +19,7 @@ namespace strata {
 using ImageSet = std::map<std::string, ReferenceImage, std::less<>>;
 
 class FragmentLists;
+struct FrameImages;
 
 /// What a model or a truth starts from: the recorded frame and the images as they were before the stage ran.
 struct StageInput {
@@ -46,6 +47,9 @@ struct StageInfo {
     std::string_view purpose;  ///< what it does, for people: "shades opaque surfaces with all lights"
     /// Why a frame with these features does not need the stage, or nothing.
     std::optional<std::string> (*unwanted)(const Features&);
+    /// Why the device of these images cannot do the stage for their frame, whatever the technique, or nothing. Null: it always
+    /// can.
+    std::optional<std::string> (*beyond_device)(const FrameImages&) = nullptr;
     /// Images of frame_images.h the stage writes; the first is the one that is judged and shown.
     std::vector<std::string_view> outputs;
     Truth truth = nullptr;  ///< null: the stage has no technique yet

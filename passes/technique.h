@@ -75,6 +75,10 @@ Counter counter(Counter row) {
     return row;
 }
 
+/// The row of what shaders count with passes/shaders/finished.glsl.
+inline constexpr Counter unfinished_row = {
+    .name = "unfinished", .help = "threads whose loops the driver ended before they were done", .is_fatal = true};
+
 /// The name of a choice or the number: what Settings::set() reads back as this value.
 std::string text_of(const Param&, double value);
 
@@ -235,6 +239,8 @@ struct Technique {
     std::vector<DebugTable> tables = {};
     Abilities abilities = {};
     Capabilities needs = {};  ///< of the device, beyond the baseline
+    /// Why the device of these images cannot do their frame at these settings, or nothing. Null: it always can.
+    std::optional<std::string> (*beyond_device)(const FrameImages&, const Settings&) = nullptr;
     /// Features it cannot do: the report says "not supported" where a frame has one.
     std::vector<Feature> cannot = {};
     Claims claims = {};

@@ -26,8 +26,10 @@ constinit std::atomic<bool> is_rewritable = false;
 
 bool put(std::FILE* stream, std::string_view text) { return std::fwrite(text.data(), 1, text.size(), stream) == text.size(); }
 
+constexpr std::string_view clear_to_the_left = "\r\033[K";
+
 void clear_line() {
-    if (is_rewritable.exchange(false)) put(stderr, "\r\033[K");
+    if (is_rewritable.exchange(false)) put(stderr, clear_to_the_left);
 }
 
 }  // namespace
@@ -45,15 +47,14 @@ void write_stdout(std::string_view text) {
 }
 
 void write_stderr(std::string_view text) {
-    clear_line();
-    put(stderr, clean_text(text));
+    // At once: another thread may be writing, too.
+    put(stderr, std::string(is_rewritable.exchange(false) ? clear_to_the_left : "") + clean_text(text));
 }
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 void rewrite_line(std::string_view text) {
-    clear_line();
-    put(stderr, clean_text(text));
+    write_stderr(text);
     is_rewritable = !text.empty();
 }
 

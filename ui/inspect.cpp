@@ -2,9 +2,9 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <sstream>
 
-#include "capture_format/reader.h"
 #include "replay/standard_streams.h"
 #include "ui/script/script.h"
 #include "ui/window/window.h"
@@ -20,6 +20,36 @@ Replayer::Open opener(const std::filesystem::path& capture, const InspectOptions
             if (const auto loaded = (*session)->reload_shaders(shaders); !loaded) return loaded.error();
             return session;
         };
+}
+
+/// A session for the window that comes. Held by pointers, because whoever makes an inspector of it hands it to a thread.
+struct OpenedCapture {
+    std::filesystem::path path;
+    std::shared_ptr<std::unique_ptr<Session>> session;
+};
+
+/// Opens the capture the only time, with device and shaders, so that what cannot be shown is said without a window.
+Result<OpenedCapture> opened(const std::filesystem::path& path, const InspectOptions& options) {
+    let_the_window_go_first();
+    return within_memory<std::unique_ptr<Session>>(opener(path, options)).and_then([&](auto& session) {
+        return OpenedCapture{path, std::make_shared<std::unique_ptr<Session>>(std::move(session))};
+    });
+}
+
+/// What the first picture needs: its frame, its choices, a device that can do them.
+Result<OpenedCapture> first_opened(const InspectOptions& options) {
+    auto capture = opened(options.capture, options);
+    if (!capture) return capture;
+    if (const auto planned = (**capture->session).plan(options.first); !planned) return planned.error();
+    for (const std::string& sentence : (**capture->session).capture()->summary().left_out) to_stderr("strata: {}\n", sentence);
+    return capture;
+}
+
+/// The session that is there; another one where its device is lost.
+Replayer::Open open_again(const OpenedCapture& capture, const InspectOptions& options) {
+    return [session = capture.session, again = opener(capture.path, options)]() -> Result<std::unique_ptr<Session>> {
+        return *session ? Result<std::unique_ptr<Session>>(std::move(*session)) : again();
+    };
 }
 
 Model model_of(const std::filesystem::path& capture, const InspectOptions& options, const Request& first) {
@@ -62,6 +92,9 @@ Result<void> play_script(const InspectOptions& options) {
 }
 
 Result<void> show_window(const InspectOptions& options) {
+    // On a thread of its own: the driver's threads have their maker's priority.
+    auto capture = std::async(std::launch::async, first_opened, std::cref(options)).get();
+    if (!capture) return capture.error();
     const auto file = layout_file(std::getenv("XDG_STATE_HOME"), std::getenv("HOME"));
     Layout layout = file ? read_layout(*file) : Layout();
     if (options.extent.first != 0) {
@@ -72,22 +105,27 @@ Result<void> show_window(const InspectOptions& options) {
     auto window = Window::open(layout.width, layout.height, options.device);
     if (!window) return window.error();
     auto inspector = std::make_unique<Inspector>((*window)->layer(), model_of(options.capture, options, options.first),
-                                                 opener(options.capture, options), layout);
-    while ((*window)->begin_frame(inspector->is_settled() ? Pace::resting : Pace::busy)) {
+                                                 open_again(*capture, options), layout);
+    WorkQueue opening;
+    JobOf<OpenedCapture> dropped;
+    while ((*window)->begin_frame(inspector->is_settled() && !dropped ? Pace::resting : Pace::busy)) {
         (*window)->set_title(inspector->title());
         inspector->frame();
         if (const auto drawn = inspector->render(); !drawn) return drawn;
         if (const auto shown = (*window)->present(); !shown) return shown;
         if (inspector->is_closing()) break;
-        const std::filesystem::path dropped = (*window)->take_dropped();
-        if (dropped.empty()) continue;
-        if (const auto capture = Capture::open(dropped, options.partial, options.device.memory_budget); !capture) {
-            inspector->refuse(capture.error());
+        if (const std::filesystem::path path = (*window)->take_dropped(); !path.empty())
+            dropped = start<OpenedCapture>(opening, [path, &options](Progress&) { return opened(path, options); });
+        if (!dropped || !dropped->result()) continue;
+        const JobOf<OpenedCapture> done = std::exchange(dropped, nullptr);
+        const Result<OpenedCapture>& next = *done->result();
+        if (!next) {
+            inspector->refuse(next.error());
             continue;
         }
         layout = inspector->layout();
-        inspector =
-            std::make_unique<Inspector>((*window)->layer(), model_of(dropped, options, {}), opener(dropped, options), layout);
+        inspector = std::make_unique<Inspector>((*window)->layer(), model_of(next->path, options, {}), open_again(*next, options),
+                                                layout);
     }
     layout = inspector->layout();
     const auto [width, height] = (*window)->size();

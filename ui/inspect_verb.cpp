@@ -17,18 +17,6 @@ struct Options {
     std::filesystem::path script, shaders;
 };
 
-/// What no window could show ends before one opens. A script says the same without a window.
-Result<void> check_first_frame(const Options& options, const Request& request) {
-    const auto capture = open_capture(options.open.capture, options.open.allow_partial ? Partial::allowed : Partial::refused,
-                                      options.open.device.memory_budget);
-    if (!capture) return capture.error();
-    if (const auto there = frame_indices(std::to_string(options.frame), capture->frame_count()); !there) return there.error();
-    const auto frame = capture->frame(options.frame);
-    if (!frame) return frame.error();
-    const auto choices = choose(*frame, request.choices);
-    return choices ? Result<void>() : Result<void>(choices.error());
-}
-
 Result<void> inspect(const Options& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
@@ -44,8 +32,6 @@ Result<void> inspect(const Options& options) {
         if (!extent) return extent.error();
         inspected.extent = *extent;
     }
-    if (options.script.empty())
-        if (const auto checked = check_first_frame(options, inspected.first); !checked) return checked;
     return ui::inspect(inspected);
 }
 
@@ -55,9 +41,10 @@ std::function<Result<void>()> declare_inspect(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     add_options(app, options->open);
     add_options(app, options->choices);
-    app.add_option("--frame", options->frame, "the frame that is shown first");
-    app.add_option("--size", options->size, "of the window or of a script's pictures, like 1280x800");
-    app.add_option("--script", options->script, "play these commands without a window; see ui/README.md")->type_name(input_file);
+    app.add_option("--frame", options->frame, "index of the frame shown first, default 0");
+    app.add_option("--size", options->size, "extent of the window or of a script's pictures, like 1280x800");
+    app.add_option("--script", options->script, "run the commands of this file without a window (ui/README.md)")
+        ->type_name(input_file);
     app.add_option("--shaders", options->shaders,
                    "a folder whose passes/... hold shaders to use in place of those built in; R compiles them anew (without: of "
                    "the current folder)");

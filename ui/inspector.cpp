@@ -46,7 +46,8 @@ Inspector::Inspector(ImguiLayer& layer, Model model, Replayer::Open open, Layout
       host_(std::make_unique<WorkQueue>()) {
     for (const PanelRow& row : panels()) panels_.push_back({&row, row.make()});
     layer_->begin();
-    replayer_->show("A", model_.request());
+    last_outputs_ = model_.request().outputs;
+    wish_for_the_picture();
 }
 
 Inspector::~Inspector() = default;
@@ -81,12 +82,27 @@ void Inspector::take_results() {
     save_window_.take_results(all);
     const auto replay = replayer_->shown("A");
     if (!replay || replay == last_replay_) return;
+    say_what_was_replayed(*replay);
     last_replay_ = replay;
     model_.know(replay->frame);
-    if (replay->brings_back_more) return;
-    for (const std::string& note : replay->run.notes) say(LogLine::Kind::warned, note);
-    say(LogLine::Kind::said, fmt::format("replayed frame {} in {:.1f} ms: {}", replay->request.variant.frame, replay->ms,
-                                         executed_text(frame_rows(*replay, nullptr))));
+}
+
+/// Nothing where it only has other images than the replay before and so says the same of the last change.
+void Inspector::say_what_was_replayed(const Replay& replay) {
+    const bool is_change = !last_replay_ || last_replay_->change != replay.change;
+    const std::string executed = executed_text(frame_rows(replay, nullptr));
+    if (!is_change && executed == last_executed_) return;
+    last_executed_ = executed;
+    if (is_change)
+        for (const std::string& note : replay.run.notes) say(LogLine::Kind::warned, note);
+    say(LogLine::Kind::said,
+        fmt::format("replayed frame {} in {:.1f} ms: {}", replay.request.variant.frame, replay.ms, executed));
+}
+
+void Inspector::wish_for_the_picture() {
+    Request request = model_.request();
+    request.outputs = last_outputs_;  // which images are wanted is known once every panel was drawn
+    replayer_->show("A", request);
 }
 
 void Inspector::frame() {
@@ -102,6 +118,7 @@ void Inspector::frame() {
     draw();
     if (!ImGui::IsAnyItemActive()) model_.settle();
     ImGui::Render();
+    last_outputs_ = model_.request().outputs;
     replayer_->show("A", model_.request());
     was_busy_ = !is_settled();
     if (std::exchange(saves_window_, false)) save_window();
@@ -293,6 +310,7 @@ void Inspector::draw_region(Area area, ImVec2 size) {
             }
             widgets_.help(shown.row->help);
             if (!selected) continue;
+            wish_for_the_picture();
             ImGui::BeginChild("panel");
             Services all = services();
             shown.panel->draw(model_, all);

@@ -57,6 +57,9 @@ private:
 
     Services services();
     void take_results();
+    void say_what_was_replayed(const Replay&);
+    /// Before any panel asks for a replay beside it, so that it is the picture's replay that executes what was changed.
+    void wish_for_the_picture();
     void say_what_was_opened(const CaptureFacts&);
     void press_keys();
     void press_panel_keys();
@@ -83,6 +86,8 @@ private:
     std::string refusal_;
     double refusal_ends_ = 0;
     std::shared_ptr<const Replay> last_replay_;
+    std::string last_executed_;  ///< of that replay, as the log has it
+    std::vector<std::string> last_outputs_;
     bool keys_are_shown_ = false, is_closing_ = false, saves_window_ = false;
     bool was_busy_ = false;  ///< as the frame before left it
     FrameRate frame_rate_;

@@ -9,6 +9,6 @@ std::function<Result<void>()> declare_inspect(CLI::App&);
 int main(int count, char** arguments) {
     strata::open_standard_streams();
     std::vector<strata::Verb> verbs(strata::verbs().begin(), strata::verbs().end());
-    verbs.push_back({"inspect", "look at a frame, change how it is made, see what changed and why", strata::declare_inspect});
+    verbs.push_back({"inspect", "open a capture in a window", strata::declare_inspect});
     return strata::run_tool({arguments + 1, arguments + count}, verbs);
 }

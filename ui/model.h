@@ -26,9 +26,10 @@ struct Edits {
 
 /// A picture that a panel made of what a replay gave.
 struct MadePicture {
-    Request of;  ///< without outputs
+    MadeOf of;
     std::shared_ptr<const HostImage> image;
     Look look;
+    std::string which = {};  ///< of the pictures that the panel makes of it: "32 +- 2 bytes"
 };
 
 /// Which image is shown: an output or view by its name, what a step of the plan wrote, or what a panel made.
@@ -37,6 +38,7 @@ struct ImageChoice {
     std::optional<std::size_t> step;
     std::uint32_t layer = 0;
     std::shared_ptr<const MadePicture> made = {};
+    std::string which_made = {};  ///< MadePicture::which of the one that is wanted
     friend bool operator==(const ImageChoice&, const ImageChoice&) = default;
 };
 

@@ -39,6 +39,7 @@ struct Services {
 /// The word over what was made of something else than its label says; empty where it is of that.
 inline std::string updating_word(bool is_of_its_label, const Replayer& replayer, std::string_view what) {
     if (is_of_its_label) return {};
+    if (replayer.awaits_shaders()) return fmt::format("updating {}: compiling shaders", what);
     return fmt::format("{} {}", replayer.error("A") ? "not replayed:" : "updating", what);
 }
 

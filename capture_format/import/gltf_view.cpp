@@ -6,16 +6,12 @@
 
 namespace strata::gltf {
 
-View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up) {
-    forward = glm::normalize(forward);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-    View view;
-    view.origin = eye;
-    view.to_view = glm::transpose(glm::dmat3(right, glm::cross(right, forward), forward));
-    return view;
-}
-
 namespace {
+
+/// What an eye sees that looks along `forward`, without a projection.
+View looking_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up) {
+    return {.origin = eye, .to_view = look_along(forward, up)};
+}
 
 /// A view that has been turned until what it sees lies in its middle, and what it then sees: x / z and y / z.
 struct Aim {
@@ -32,7 +28,7 @@ struct Aim {
 Aim aimed_view(std::span<const glm::dvec3> points, glm::dvec3 eye, glm::dvec3 forward) {
     Aim aim;
     for (int turn = 0; turn < 4; ++turn) {  // the middle moves a little as the view turns; it has settled after two or three
-        aim = {look_along(eye, forward, {0, 1, 0}), glm::dvec2(1e300), glm::dvec2(-1e300), 1e300};
+        aim = {looking_along(eye, forward, {0, 1, 0}), glm::dvec2(1e300), glm::dvec2(-1e300), 1e300};
         for (const glm::dvec3& point : points) {
             const glm::dvec3 p = aim.view.to_view * (point - eye);
             aim.nearest = std::min(aim.nearest, p.z);
@@ -54,7 +50,7 @@ Result<View> camera_view(const CameraSource& camera, const glm::dmat4& to_world,
     if (!(camera.yfov > 0 && camera.yfov < 3.1 && camera.znear > 0) || !(glm::length(glm::cross(forward, up)) > 0)) {
         return fail(Fault::bad_input, "camera '{:.60}' is degenerate", camera.name);
     }
-    View view = look_along(glm::dvec3(to_world[3]), forward, up);
+    View view = looking_along(glm::dvec3(to_world[3]), forward, up);
     view.near = static_cast<float>(camera.znear);
     view.projection = perspective(camera.yfov, width_over_height, camera.znear);
     return view;
@@ -68,13 +64,14 @@ double aspect_of(const GltfOptions& options) { return static_cast<double>(option
 double fov_of(const GltfOptions& options, double usual) { return options.fov == 0 ? usual : glm::radians(options.fov); }
 
 View looking(const glm::dvec3& eye, const glm::dvec3& target, double radius, const GltfOptions& options) {
-    const glm::dvec3 forward = target - eye;
-    const bool is_vertical = glm::length(glm::cross(forward, glm::dvec3(0, 1, 0))) <= 1e-9 * glm::length(forward);
-    View view = look_along(eye, forward, is_vertical ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0));
     constexpr double usual_fov = 1.1;  // 63 degrees: a wide lens, as rooms are photographed with
-    view.near = static_cast<float>(std::clamp(radius * 1e-3, 1e-4, 0.1));
-    view.projection = perspective(fov_of(options, usual_fov), aspect_of(options), static_cast<double>(view.near));
-    return view;
+    const auto near = static_cast<float>(std::clamp(radius * 1e-3, 1e-4, 0.1));
+    return look_at({.eye = eye,
+                    .target = target,
+                    .vertical_fov = fov_of(options, usual_fov),
+                    .near = double(near),
+                    .width = options.width,
+                    .height = options.height});
 }
 
 }  // namespace

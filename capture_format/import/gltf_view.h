@@ -28,9 +28,6 @@ struct Bounds {
     }
 };
 
-/// A view with the eye's axes: glTF cameras look along -z of a right-handed space, views along +z of a left-handed one.
-View look_along(glm::dvec3 eye, glm::dvec3 forward, glm::dvec3 up);
-
 /// What a camera on a node sees; fails, with what is wrong, for cameras that have no such view. Sets no extent.
 Result<View> camera_view(const CameraSource&, const glm::dmat4& to_world, double width_over_height);
 

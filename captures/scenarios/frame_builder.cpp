@@ -56,13 +56,14 @@ FrameBuilder::FrameBuilder(std::uint32_t index, const ScenarioOptions& options)
 
 void FrameBuilder::look(const Camera& camera) {
     const glm::dmat4 swung = glm::rotate(glm::dmat4(1), camera.swing * (1 - progress_), glm::dvec3(0, 1, 0));
-    View& view = frame.view;
-    view.origin = camera.target + glm::dvec3(swung * glm::dvec4(camera.eye - camera.target, 0));
-    const glm::dvec3 forward = glm::normalize(camera.target - view.origin);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-    view.to_view = glm::transpose(glm::dmat3(right, glm::cross(right, forward), forward));
-    view.near = static_cast<float>(camera.near);
-    view.projection = perspective(camera.vertical_fov, static_cast<double>(view.width) / view.height, camera.near);
+    View seen = look_at({.eye = camera.target + glm::dvec3(swung * glm::dvec4(camera.eye - camera.target, 0)),
+                         .target = camera.target,
+                         .vertical_fov = camera.vertical_fov,
+                         .near = camera.near,
+                         .width = frame.view.width,
+                         .height = frame.view.height});
+    seen.samples = frame.view.samples;
+    frame.view = seen;
 }
 
 std::uint32_t FrameBuilder::add(Mesh mesh) {

@@ -44,7 +44,8 @@ std::vector<std::string> shaders_of_draw(const Step& step, const ShaderLibrary& 
     const bool own_vertex = library.find(shaders.front()) != nullptr;
     const bool depth_only = own_vertex && !library.find(shaders.back()) && std::ranges::none_of(step.attachments, is_color);
     if (depth_only) shaders.pop_back();
-    if (!own_vertex) shaders.front() = mesh_vertex_shader;
+    const bool indexed = std::get<DrawWork>(step.work).list.indices || std::get<DrawWork>(step.work).list.count == 0;
+    if (!own_vertex) shaders.front() = indexed ? mesh_vertex_shader : numbered_vertex_shader;
     return shaders;
 }
 
@@ -294,7 +295,7 @@ Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
                     outputs, colors);
     if (step.attachments.empty() && !(draw ? draw->viewport : fullscreen->viewport))
         return fail(Fault::usage, "{} has no attachments and does not say which pixels it draws: add .within(extent)", step.name);
-    if (draw && draw->list.count > 0 && (!draw->list.commands || !draw->list.indices))
+    if (draw && draw->list.count > 0 && (!draw->list.commands || (draw->count && !draw->list.indices)))
         return fail(Fault::usage, "{} draws {} commands from no buffer", step.name, draw->list.count);
     return {};
 }

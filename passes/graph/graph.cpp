@@ -159,6 +159,11 @@ Self& RasterBuilder<Self>::composites(Image& image, Part part) {
 }
 
 template <typename Self>
+Self& RasterBuilder<Self>::composites_grey(Image& image, Part part) {
+    return attach(Access::color_blended, image, part, Blend::alpha_over);
+}
+
+template <typename Self>
 Self& RasterBuilder<Self>::tests_depth(const Image& image, Part part) {
     this->graph_->check_fresh(image);
     this->step().attachments.push_back({Access::depth_tested, image, part, Blend::none});

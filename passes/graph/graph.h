@@ -72,6 +72,8 @@ public:
     Self& multiplies(Image&, Part = {});
     /// dst = src0 + dst * src1, per channel: alpha blending with a transmittance per channel.
     Self& composites(Image&, Part = {});
+    /// dst = src + dst * src.a; the alpha of dst stays. The same for one transmittance, without dual-source blending.
+    Self& composites_grey(Image&, Part = {});
     Self& tests_depth(const Image&, Part = {});
     Self& writes_depth(Image&, Part = {});
     /// The shader's outputs beyond the attachments go nowhere: one shader for more targets and for fewer.

@@ -65,6 +65,8 @@ struct Shader {
 
 /// What draws the scene's meshes unless a draw has a vertex shader of its own.
 inline constexpr const char* mesh_vertex_shader = "shaders/draw.vert";
+/// The same for lists that are not indexed.
+inline constexpr const char* numbered_vertex_shader = "shaders/numbered_draw.vert";
 
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.
 Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code);

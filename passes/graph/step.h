@@ -53,12 +53,13 @@ struct Part {
 };
 
 enum class Filter : std::uint32_t { nearest, linear };
-enum class Blend : std::uint32_t { none, add, multiply, dual_source_over, max, min };
+enum class Blend : std::uint32_t { none, add, multiply, dual_source_over, max, min, alpha_over };
 /// What a draw's pipeline does with depth: reversed Z, so nearer is GREATER_OR_EQUAL.
 enum class DepthUse : std::uint32_t { none, test, test_and_write };
 enum class Cull : std::uint32_t { none, back, front };
 
-/// A run of indexed indirect draw commands over the scene's vertices (VkDrawIndexedIndirectCommand, 20 bytes each).
+/// A run of indirect draw commands over the scene's vertices, 20 bytes each: VkDrawIndexedIndirectCommand, or without an index
+/// buffer VkDrawIndirectCommand and a word that is not read.
 struct DrawList {
     Buffer commands = {}, indices = {};
     std::uint32_t first = 0, count = 0;

@@ -200,7 +200,7 @@ double diffuse_shape(const SurfacePoint& surface, const dvec3& l) {
                  cosine(l, glm::normalize(l + v), 0));
 }
 
-// The highlight over a diffuse layer. Of many bounces: Turquin 2019, with the table's albedo.
+// The highlight over a diffuse layer.
 dvec3 with_highlight(const SurfacePoint& surface, const PlacedLight& at, const Polygon& polygon, const dvec3& diffuse) {
     const dvec3 v = glm::normalize(-surface.position);
     const dmat3 to_normal = frame_of(surface.normal, v);
@@ -209,10 +209,9 @@ dvec3 with_highlight(const SurfacePoint& surface, const PlacedLight& at, const P
     const double share = std::max(flux(polygon, glm::inverse(matrix) * to_normal).z / pi, 0.0);
     const dvec3 f0 = glm::mix(dvec3(0.04), surface.base_color, surface.metallic);
     const Lobe from{glm::transpose(to_normal) * glm::normalize(matrix[2]), std::sqrt(std::abs(glm::determinant(matrix)))};
-    const dvec3 once = f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
-    if (surface.model != LightingModel::multiscatter_ggx) return diffuse + once * share * radiance(at, from);
-    const dvec3 all = once * (1.0 + f0 * (1 / lobe.albedo - 1));
-    return diffuse * (1.0 - all) + all * share * radiance(at, from);
+    const dvec3 mirrored = reflectance(lobe, surface.model, f0);
+    const dvec3 left = surface.model == LightingModel::multiscatter_ggx ? 1.0 - mirrored : dvec3(1);
+    return diffuse * left + mirrored * share * radiance(at, from);
 }
 
 // A bent lobe may reach below the horizon: nothing arrives from an emitter that is all there.

@@ -36,4 +36,9 @@ Ltc ltc_at(double roughness, double eye_cosine) {
     return sum;
 }
 
+glm::dvec3 reflectance(const Ltc& lobe, LightingModel model, const glm::dvec3& f0) {
+    const glm::dvec3 once = f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
+    return model == LightingModel::multiscatter_ggx ? once * (1. + f0 * (1 / lobe.albedo - 1)) : once;
+}
+
 }  // namespace strata

@@ -4,6 +4,9 @@
 
 #include <span>
 
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
 #include "passes/shaders/ltc.shared.h"
 
 namespace strata {
@@ -16,5 +19,8 @@ struct Ltc {
     double m11 = 1, m13 = 0, m22 = 1, m31 = 0, m33 = 1, albedo = 0, fresnel = 0;
 };
 Ltc ltc_at(double roughness, double eye_cosine);
+
+/// The share of light from everywhere that the lobe reflects; of many bounces by Turquin 2019, with the table's albedo.
+glm::dvec3 reflectance(const Ltc&, LightingModel, const glm::dvec3& f0);
 
 }  // namespace strata

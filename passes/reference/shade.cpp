@@ -36,10 +36,8 @@ glm::dvec3 hemisphere_in_metal(const Frame& frame, const SurfacePoint& surface) 
     const glm::dvec3 beside = glm::length(glm::cross(n, v)) > 1e-9 ? v : other;
     const glm::dvec3 x = glm::normalize(beside - n * glm::dot(n, beside));
     const glm::dvec3 up(glm::dot(x, above), glm::dot(glm::cross(n, x), above), glm::dot(n, above));
-    glm::dvec3 albedo = surface.base_color * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
-    if (surface.model == LightingModel::multiscatter_ggx) albedo *= 1. + surface.base_color * (1 / lobe.albedo - 1);
     const glm::dvec3 ground(frame.hemisphere.ground), sky(frame.hemisphere.sky);
-    return albedo * glm::mix(ground, sky, share_above(lobe, up));
+    return reflectance(lobe, surface.model, surface.base_color) * glm::mix(ground, sky, share_above(lobe, up));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // The lights that the device is given.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -10,6 +12,9 @@ namespace strata {
 /// In the order of the device's records: the sun as a directional light when it shines, then those of Frame::lights that do. A
 /// light of no intensity or range is not on the list.
 std::vector<Light> light_list(const Frame&);
+
+/// The most turns that the loops over these lights, their blockers and portals take in a shader that culls none of them.
+std::uint64_t light_turns(std::span<const Light>);
 
 /// Whether a light has intensity and, unless it is directional, range.
 bool shines(const Light&);

@@ -68,6 +68,8 @@ const std::vector<std::uint32_t>& SceneFacts::possible_spectra(std::uint32_t fea
     return found->second;
 }
 
+std::uint64_t SceneFacts::light_turns() const { return strata::light_turns(lights()); }
+
 std::uint32_t SceneFacts::highest_interface_layer() const {
     return highest_interface_layer_.get([&] { return strata::highest_interface_layer(*frame_, lists()); });
 }

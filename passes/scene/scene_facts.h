@@ -59,6 +59,8 @@ public:
     /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
     std::uint32_t light_features() const;
     std::uint32_t spectrum() const;
+    /// The most turns that a loop over all lights with their blockers takes (light_list.h).
+    std::uint64_t light_turns() const;
     /// Every spectrum that a tile may have, of the given features alone (frame_spectrum.h).
     const std::vector<std::uint32_t>& possible_spectra(std::uint32_t features) const;
     /// Of everything transparent; 0 where nothing is in an interface layer.

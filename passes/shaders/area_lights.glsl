@@ -121,18 +121,14 @@ struct Layers {
     vec3 share_left;  // for the diffuse layer
 };
 
-// Many bounces as passes/shaders/brdf.glsl has them, with the table's albedo.
 Layers ggx_layers(MaterialPoint m, LightRecord light, Outline outline, uint features) {
     const vec3 v = normalize(-m.position);
     const mat3 to_normal = to_frame(m.normal, v);
     const LtcRecord lobe = ltc_at(m.roughness, max(dot(m.normal, v), smallest_cosine));
     const float share = max(outline_flux(outline, ltc_inverse(lobe) * to_normal).z, 0.0) / pi;
     const vec3 f0 = mix(vec3(0.04), m.base_color, m.metallic);
-    vec3 sky = f0 * (lobe.albedo - lobe.fresnel) + lobe.fresnel, left = vec3(1.0);
-    if (m.lighting_model == model_multiscatter_ggx) {
-        sky *= 1.0 + f0 * (1.0 / lobe.albedo - 1.0);
-        left = 1.0 - sky;
-    }
+    const vec3 sky = ltc_reflectance(lobe, m, f0);
+    const vec3 left = m.lighting_model == model_multiscatter_ggx ? 1.0 - sky : vec3(1.0);
     const LightLobe from = LightLobe(transpose(to_normal) * ltc_axis(lobe), ltc_half_width(lobe));
     return Layers(sky * share * emitted(light, light.position - m.position, from, features), left);
 }

@@ -10,6 +10,7 @@ layout(location = 3) out vec4 out_uv;        // uv0, uv1
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_emissive;  // w: depth offset towards the eye
 layout(location = 6) flat out uint out_draw;
+layout(location = 7) flat out uint out_triangle;  // its number in the draw; 0 unless numbered_draw.vert draws
 
 // The same bits in every pass: depth tests compare with what another shader wrote.
 invariant gl_Position;
@@ -26,6 +27,7 @@ void hand_on(uint vertex, uint draw) {
     out_color = v.color;
     out_emissive = vec4(v.emissive, v.depth_offset);
     out_draw = draw;
+    out_triangle = 0u;
     gl_Position = view.projection * vec4(out_position, 1.0);
 }
 

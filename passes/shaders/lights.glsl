@@ -78,9 +78,7 @@ vec3 hemisphere_in_metal(MaterialPoint m, vec3 normal) {
     const LtcRecord lobe = ltc_at(m.roughness, max(dot(normal, v), smallest_cosine));
     const vec3 up = to_frame(normal, v) * vec3(view.to_world[0].y, view.to_world[1].y, view.to_world[2].y);
     const vec3 n = vec3(lobe.m11 * up.x + lobe.m31 * up.z, lobe.m22 * up.y, lobe.m13 * up.x + lobe.m33 * up.z);
-    vec3 albedo = m.base_color * (lobe.albedo - lobe.fresnel) + lobe.fresnel;
-    if (m.lighting_model == model_multiscatter_ggx) albedo *= 1.0 + m.base_color * (1.0 / lobe.albedo - 1.0);
-    return albedo * mix(view.ground, view.sky, 0.5 + 0.5 * n.z / length(n));
+    return ltc_reflectance(lobe, m, m.base_color) * mix(view.ground, view.sky, 0.5 + 0.5 * n.z / length(n));
 }
 
 // Light of sky and ground: what diffuse surfaces scatter and metals mirror. Dielectrics mirror none of it. The material's own occlusion

@@ -1,6 +1,7 @@
 // The table of linearly transformed cosines, interpolated, and its matrices (ltc.shared.h). Any shader stage.
 #ifndef PASSES_SHADERS_LTC_GLSL
 #define PASSES_SHADERS_LTC_GLSL
+#include "passes/shaders/material_point.glsl"
 #include "passes/shaders/scene.glsl"
 
 LtcRecord mixed(LtcRecord a, LtcRecord b, float t) {
@@ -23,6 +24,12 @@ float ltc_planar_determinant(LtcRecord r) { return r.m11 * r.m33 - r.m13 * r.m31
 // The inverse of M times the determinant of its xz part: what directions are looked up with needs no scale.
 mat3 ltc_inverse(LtcRecord r) {
     return mat3(r.m33, 0.0, -r.m31, 0.0, ltc_planar_determinant(r) / r.m22, 0.0, -r.m13, 0.0, r.m11);
+}
+
+// The share of light from everywhere that the lobe reflects. Of many bounces as passes/shaders/brdf.glsl has them.
+vec3 ltc_reflectance(LtcRecord r, MaterialPoint m, vec3 f0) {
+    const vec3 once = f0 * (r.albedo - r.fresnel) + r.fresnel;
+    return m.lighting_model == model_multiscatter_ggx ? once * (1.0 + f0 * (1.0 / r.albedo - 1.0)) : once;
 }
 
 // Where the middle of the lobe points in the normal's frame, and the tangent of its half width: that of a cosine lobe is 1.

@@ -69,7 +69,9 @@ struct DrawRecord {
     uint layer;
     vec3 bound_center;  // view space sphere
     float bound_radius;
-    mat4 motion;  // of a point in view space: how far it has moved since the frame before, seen by a camera that did not
+    mat4 motion;         // of a point in view space: how far it has moved since the frame before, seen by a camera that did not
+    uint first_index;    // where its triangles begin in the list of indices
+    uint vertex_offset;  // added to each of them
 };
 
 // Kinds of textures that a material has.

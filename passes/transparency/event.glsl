@@ -18,6 +18,7 @@ layout(location = 3) sample in vec4 in_uv;
 layout(location = 4) sample in vec4 in_color;
 layout(location = 5) sample in vec4 in_emissive;  // of particles; w: depth offset towards the eye
 layout(location = 6) flat in uint in_draw;
+layout(location = 7) flat in uint in_triangle;   // its number in the draw, where FrameImages::numbered is drawn; else 0
 
 layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft particles and depth_layers is bound
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one

@@ -32,17 +32,17 @@ DrawPass draw_events_untested(Graph& graph, std::string shader, const DrawList& 
 
 std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution) {
     const Frame& frame = *images.recorded;
+    const DrawList& list = images.transparent;
     // The list has this order, too.
     const std::vector<std::uint32_t>& draws = images.facts->lists().transparent;
-    assert(draws.size() == images.transparent.count);
+    assert(draws.size() == list.count);
     std::vector<DrawList> stretches;
     bool goes_on = false;
     for (std::uint32_t i = 0; i < draws.size(); ++i) {
         const bool is_mesh = draws[i] < frame.draws.size();
         const Resolution at =
             is_mesh ? frame.draws[draws[i]].resolution : frame.emitters[draws[i] - frame.draws.size()].resolution;
-        if (at == resolution && !goes_on)
-            stretches.push_back({images.transparent.commands, images.transparent.indices, images.transparent.first + i, 0});
+        if (at == resolution && !goes_on) stretches.push_back({list.commands, list.indices, list.first + i, 0});
         goes_on = at == resolution;
         if (goes_on) ++stretches.back().count;
     }

@@ -1,4 +1,10 @@
 // The stage transparency: what it writes, and when a frame does not need it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "passes/frame_images.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/stages.h"
 #include "passes/transparency/judge.h"
 #include "passes/transparency/truth.h"
@@ -12,11 +18,29 @@ std::optional<std::string> unwanted(const Features& features) {
     return "the frame has no transparent draws or particles";
 }
 
+// Every lit fragment asks all lights (event.glsl), and few techniques have a counter where they draw.
+std::optional<std::string> beyond_device(const FrameImages& images) {
+    const std::uint64_t turns = images.facts->light_turns();
+    constexpr std::uint64_t other_turns = 1024;  // of the material's textures and the technique
+    if (turns + other_turns <= most_short_turns || has(images.capabilities, Capability::long_loops)) return std::nullopt;
+    const DrawLists& lists = images.facts->lists();
+    const auto is_lit = [&](std::uint32_t draw) {
+        const Frame& frame = *images.recorded;
+        return draw < frame.draws.size() && frame.materials[frame.draws[draw].material].lighting_model != LightingModel::unlit;
+    };
+    if (std::ranges::none_of(lists.transparent, is_lit)) return std::nullopt;
+    return fmt::format(
+        "a transparent fragment asks {} lights with their blockers and portals, up to {} turns of a loop, and this device ends "
+        "loops after {}",
+        images.facts->lights().size(), turns, most_short_turns);
+}
+
 }  // namespace
 
 StageInfo stage() {
     return {.purpose = "blends glass, smoke and sparks over the opaque frame",
             .unwanted = unwanted,
+            .beyond_device = beyond_device,
             .outputs = {"color"},
             .truth = transparency_truth,
             .judge = transparency_judge,

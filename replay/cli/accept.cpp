@@ -54,33 +54,34 @@ Result<Candidate> replay_candidate(Session& session, const Request& request, con
     return candidate;
 }
 
-void show(const Candidate& candidate) {
-    to_stdout("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
+/// Calls each(state, act, image, hash, sentence) for all images of the frame; the sentence says what of a changed one differs.
+template <typename Each>
+void for_images(const Candidate& candidate, const Each& each) {
     if (!candidate.before) {
         for (const ExpectedAct& act : candidate.expectation.acts)
-            for (const ExpectedImage& image : act.images)
-                to_stdout("  new      {:<24} {:<16} {}\n", act.label, image.name, image.hash);
+            for (const ExpectedImage& image : act.images) each("new", act.label, image.name, image.hash, std::string());
         return;
     }
     for (const ImageVerdict& image : candidate.before->images) {
-        if (image.agreement == Agreement::exact) to_stdout("  same     {:<24} {:<16} {}\n", image.act, image.image, image.hash);
-        else to_stdout("  changed  {}\n", sentence(image));
+        if (image.agreement == Agreement::exact) each("same", image.act, image.image, image.hash, std::string());
+        else each("changed", image.act, image.image, image.hash, sentence(image));
     }
+}
+
+void show(const Candidate& candidate) {
+    to_stdout("frame {} on {}\n", candidate.expectation.frame, text(candidate.expectation.on));
+    for_images(candidate, [](const char* state, const auto& act, const auto& image, const auto& hash, const auto& difference) {
+        if (difference.empty()) to_stdout("  {:<8} {:<24} {:<16} {}\n", state, act, image, hash);
+        else to_stdout("  {:<8} {}\n", state, difference);
+    });
 }
 
 ordered_json json_of(const Candidate& candidate) {
     ordered_json json{
         {"frame", candidate.expectation.frame}, {"on", text(candidate.expectation.on)}, {"images", ordered_json::array()}};
-    const auto add = [&](const char* state, const std::string& act, const std::string& image, const std::string& hash) {
+    for_images(candidate, [&](const char* state, const auto& act, const auto& image, const auto& hash, const auto&) {
         json["images"].push_back({{"state", state}, {"act", act}, {"image", image}, {"hash", hash}});
-    };
-    if (!candidate.before) {
-        for (const ExpectedAct& act : candidate.expectation.acts)
-            for (const ExpectedImage& image : act.images) add("new", act.label, image.name, image.hash);
-        return json;
-    }
-    for (const ImageVerdict& image : candidate.before->images)
-        add(image.agreement == Agreement::exact ? "same" : "changed", image.act, image.image, image.hash);
+    });
     return json;
 }
 
@@ -144,10 +145,10 @@ std::function<Result<void>()> declare_accept(CLI::App& app) {
     add_options(app, options->open);
     app.get_option("capture")->type_name(extended_file);
     add_options(app, options->choices);
-    app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
-    app.add_flag("--with-images", options->with_images, "keep the images: a tolerance and worst texels need them");
-    app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_flag("--dry-run", options->dry_run, "show what would change and write nothing");
+    app.add_option("--frames", options->frames, "indices of frames, like 0,4-8; default all");
+    app.add_flag("--with-images", options->with_images, "store the images, too; --tolerance and the worst texel need them");
+    app.add_flag("--json", options->json, "print JSON instead of text");
+    app.add_flag("--dry-run", options->dry_run, "show what would change without writing it");
     return [options] { return accept(*options); };
 }
 

@@ -106,21 +106,22 @@ Result<void> bench(const BenchArguments& options) {
 
 std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
-    app.add_option("technique", options->word, "a technique, with or without its stage")->required();
+    app.add_option("technique", options->word, "technique, with or without its stage")->required();
     CLI::Option* capture =
-        app.add_option("capture", options->open.capture, "a .strata file, instead of each ratio's own scenario")
+        app.add_option("capture", options->open.capture, "capture to measure on; default: a scenario chosen for each ratio")
             ->type_name(input_file);
     add_options(app, options->open.device);
-    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut")->needs(capture);
+    app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file")->needs(capture);
     add_options(app, options->choices);
-    app.add_option("--only", options->only, "ratios that have this in their name");
-    app.add_option("--frame", options->frame, "which frame of the capture, default 0")->needs(capture);
-    app.add_option("--size", options->size, "WIDTHxHEIGHT of the scenarios, default 320x180 where a CPU renders, else 1920x1080")
+    app.add_option("--only", options->only, "measure only ratios whose name contains this text");
+    app.add_option("--frame", options->frame, "index of the frame, default 0")->needs(capture);
+    app.add_option("--size", options->size,
+                   "extent of the scenarios as WIDTHxHEIGHT; default 320x180 on a CPU device, else 1920x1080")
         ->excludes(capture);
-    app.add_option("--repeats", options->repeats, "timed runs of each way after a warm-up, default 7")
+    app.add_option("--repeats", options->repeats, "timed repeats of each side of a ratio after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
-    app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_option("-o,--output", options->output, "write the JSON to a file, too")->type_name(output_file);
+    app.add_flag("--json", options->json, "print JSON instead of text");
+    app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
     return [options] { return bench(*options); };
 }
 

@@ -258,25 +258,26 @@ Result<void> diff(DiffArguments options) {
 }
 
 void add_sides(CLI::App& app, DiffArguments& options) {
-    app.add_option("A", options.a.file, "a .strata capture, or an .exr or .png image: what is right")
+    app.add_option("A", options.a.file, "reference: a .strata capture, or an .exr or .png image")
         ->required()
         ->type_name(input_file);
-    app.add_option("B", options.b.file, "what is compared with it; default A itself, done otherwise")->type_name(input_file);
+    app.add_option("B", options.b.file, "image or capture to compare; default: A replayed with the --*-b options")
+        ->type_name(input_file);
     const auto list = [&](const char* name, std::vector<std::string>& to, const char* help) {
         app.add_option(name, to, help)->allow_extra_args(false);
     };
-    list("--use,--use-b", options.b.uses, "stage/technique of B; may be repeated");
-    list("--set,--set-b", options.b.sets, "key=value or stage/technique:key=value of B; may be repeated");
-    list("--use-a", options.a.uses, "stage/technique of A");
-    list("--set-a", options.a.sets, "key=value of A");
-    list("--force", options.both.force, "feature or 'all', of both: switch it on though the frame lacks it");
-    app.add_option("--samples", options.both.samples, "samples per pixel of both instead of the recorded ones")
+    list("--use,--use-b", options.b.uses, "technique for B as stage/technique; repeatable");
+    list("--set,--set-b", options.b.sets, "parameter for B as key=value or stage/technique:key=value; repeatable");
+    list("--use-a", options.a.uses, "technique for A as stage/technique; repeatable");
+    list("--set-a", options.a.sets, "parameter for A as key=value or stage/technique:key=value; repeatable");
+    list("--force", options.both.force, "turn on a feature that the frames of A and B lack, or 'all'");
+    app.add_option("--samples", options.both.samples, "replace the recorded samples per pixel of A and B")
         ->check(CLI::IsMember({1, 4}));
     add_options(app, options.device);
-    app.add_option("--gpu-a", options.a.gpu, "device of A, where not --gpu");
-    app.add_option("--gpu-b", options.b.gpu, "device of B, where not --gpu");
-    app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
-    app.add_option("--frames", options.frames, "which frames, like 0,4-8; default all");
+    app.add_option("--gpu-a", options.a.gpu, "device for A; default that of --gpu");
+    app.add_option("--gpu-b", options.b.gpu, "device for B; default that of --gpu");
+    app.add_flag("--allow-partial", options.allow_partial, "read the complete frames of a truncated file");
+    app.add_option("--frames", options.frames, "indices of frames, like 0,4-8; default all");
 }
 
 /// "START,STOP" or "START,STOP,COUNT".
@@ -298,38 +299,37 @@ std::string read_exposures(const std::string& text, std::optional<ExposureRange>
 
 void add_flip(CLI::App& app, FlipOptions& flip) {
     app.add_option("--ppd", flip.pixels_per_degree,
-                   "FLIP: pixels per degree of visual angle; default 67.02, a 4K screen at 0.7 m")
+                   "pixels per degree of visual angle for FLIP; default 67.02, a 4K screen at 0.7 m")
         ->check(CLI::Range(1., 1000.));
     std::map<std::string, ToneMapper> mappers;
     for (std::size_t i = 0; i < tone_mapper_names.size(); ++i) mappers.emplace(tone_mapper_names[i], static_cast<ToneMapper>(i));
     app.add_option_function<std::string>(
            "--tone-mapper", [&flip, mappers](const std::string& text) { flip.tone_mapper = mappers.at(text); },
-           "FLIP of radiance: tone mapper, aces (default), hable or reinhard")
+           "tone mapper for FLIP of radiance: aces (default), hable or reinhard")
         ->check(CLI::IsMember(mappers));
     app.add_option_function<std::string>(
            "--exposures", [](const std::string&) {},
-           "FLIP of radiance: first and last exposure in stops and their number, as START,STOP or START,STOP,COUNT; default: "
-           "from "
-           "the brightest to the median pixel of A, one per stop")
+           "exposures for FLIP of radiance in stops, as START,STOP or START,STOP,COUNT; default: from the brightest to "
+           "the median pixel of A, one per stop")
         ->type_name("LIST")
         ->check([&flip](const std::string& text) { return read_exposures(text, flip.exposures); });
 }
 
 void add_limits(CLI::App& app, ErrorLimits& limits) {
-    app.add_option("--limit", limits.limit, "a pixel may differ by so much in each channel; default 0")
+    app.add_option("--limit", limits.limit, "largest difference of a pixel in any channel that still passes, default 0")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--percent", limits.percent, "of the pixels may differ by more than --limit; default 0")
+    app.add_option("--percent", limits.percent, "largest percentage of pixels above --limit that still passes, default 0")
         ->check(CLI::Range(0., 100.));
-    app.add_option("--hard-limit", limits.hard_limit, "no pixel may differ by more; default: any may")
+    app.add_option("--hard-limit", limits.hard_limit, "largest difference of any pixel, whatever --percent allows; default: none")
         ->check(CLI::NonNegativeNumber);
-    CLI::Option* warn = app.add_option("--warn-limit", limits.warn_limit, "like --limit, for a warning; default: none")
+    CLI::Option* warn = app.add_option("--warn-limit", limits.warn_limit, "like --limit, but only warns; default: none")
                             ->check(CLI::NonNegativeNumber);
-    app.add_option("--warn-percent", limits.warn_percent, "like --percent, for a warning; default 0")
+    app.add_option("--warn-percent", limits.warn_percent, "like --percent, but only warns; default 0")
         ->check(CLI::Range(0., 100.))
         ->needs(warn);
-    app.add_option("--ulps", limits.ulps, "depth may differ by so many floats; default 0. Ids are always exact");
+    app.add_option("--ulps", limits.ulps, "largest difference of depth in units in the last place, default 0; ids must be equal");
     app.add_option("--flip-limit", limits.flip_mean,
-                   "mean of FLIP, of images of light; without --limit it alone decides about them")
+                   "largest mean FLIP of images of light; without --limit, only FLIP is checked for them")
         ->check(CLI::Range(0., 1.));
     add_flip(app, limits.flip);
 }
@@ -340,10 +340,11 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     const auto options = std::make_shared<DiffArguments>();
     add_sides(app, *options);
     add_limits(app, options->limits);
-    app.add_option("--junit", options->junit, "write JUnit XML to a file: a suite per frame, a case per act and image")
+    app.add_option("--junit", options->junit, "write JUnit XML to this file: one suite per frame, one case per pass and image")
         ->type_name(output_file);
-    app.add_option("-o,--output", options->folder, "folder for pictures of what differs; old ones of what does not are removed");
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_option("-o,--output", options->folder,
+                   "write pictures of the differences to this folder; outdated ones in it are removed");
+    app.add_flag("--json", options->json, "print JSON instead of text");
     return [options, &app] {
         options->rerun = command_line(app);
         return check_options(*options, app).and_then([&] { return diff(*options); });

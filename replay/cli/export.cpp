@@ -5,6 +5,7 @@
 
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/given_options.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -33,12 +34,14 @@ Result<void> run(const ExportOptions& options, const CLI::App& app) {
         if (chosen) return fail(Fault::usage, "one export makes one file: {} cannot be asked for together", given);
         chosen = &kind;
     }
-    if (!chosen) return fail(Fault::usage, "say what to export: one of {}", flags);
+    if (!chosen) return fail(Fault::usage, "choose what to export: one of {}", flags);
     if (!chosen->replays) {
         const auto fits = check_not_given(app, {"--use", "--set", "--force", "--samples", "--gpu", "--without", "--validation"},
                                           fmt::format("{} exports the frame as it was recorded", chosen->flag));
         if (!fits) return fits;
     }
+    const Progress progress = progress_line();
+    progress("exporting", 0);
     if (const auto done = chosen->run(options); !done) return done;
     to_stderr("wrote {}\n", options.output.string());
     return {};
@@ -50,15 +53,19 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     const auto options = std::make_shared<ExportOptions>();
     add_options(app, options->open);
     add_options(app, options->choices);
-    CLI::Option* deep = app.add_flag("--deep", options->deep, "every transparent fragment, sorted, as a deep OpenEXR image");
-    app.add_option("--image", options->images, "frame images or stage/technique:view, as .exr or (one of them) .png")
+    CLI::Option* deep =
+        app.add_flag("--deep", options->deep, "write every transparent fragment, sorted by depth, as a deep OpenEXR image");
+    app.add_option("--image", options->images,
+                   "write frame images or views (stage/technique:view) as .exr, or a single one as .png")
         ->delimiter(',');
-    app.add_flag("--gltf", options->gltf, "meshes, materials, lights and camera as a .glb");
-    app.add_flag("--json", options->json, "the frame as JSON with the schema's names; bulk data by its hashes");
-    app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_option("--sample", options->sample, "--deep: which sample of a pixel, where there are several")->needs(deep);
+    app.add_flag("--gltf", options->gltf, "write meshes, materials, lights and camera as a .glb");
+    app.add_flag("--json", options->json, "write the frame as JSON with the schema's field names; bulk data appears as hashes");
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_option("--sample", options->sample,
+                   "index of the sample to write with --deep, in a frame with several samples per pixel")
+        ->needs(deep);
     app.add_option("--transmittance", options->transmittance,
-                   "--deep: colored glass is refused (the default), made grey by the mean, or kept in channels AR, AG, AB")
+                   "how --deep treats colored transmittance: refuse it (default), write its mean, or write channels AR, AG, AB")
         ->check(CLI::IsMember({"refused", "mean", "channels"}))
         ->needs(deep);
     app.add_option("-o,--output", options->output, "file to write")->required()->type_name(output_file);

@@ -73,9 +73,9 @@ std::function<Result<void>()> declare_graph(CLI::App& app) {
     const auto options = std::make_shared<GraphArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
-    app.add_option("--frame", options->frame, "which frame, default 0");
-    CLI::Option* dot = app.add_flag("--dot", options->dot, "Graphviz instead of text");
-    app.add_flag("--json", options->json, "one JSON object on stdout")->excludes(dot);
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    CLI::Option* dot = app.add_flag("--dot", options->dot, "print Graphviz instead of text");
+    app.add_flag("--json", options->json, "print JSON instead of text")->excludes(dot);
     return [options] { return graph(*options); };
 }
 

@@ -46,6 +46,23 @@ RecorderOptions room_for(const Frame& frame) {
     return options;
 }
 
+/// A black picture is the most frequent disappointment of an import: no light, a camera in a closed box, mirrors of nothing.
+void warn_of_darkness(const Texture& picture) {
+    constexpr auto black = std::byte{2};  // of 255, in sRGB
+    constexpr double most = 0.8;          // of the picture
+    std::size_t dark = 0;
+    const std::size_t pixels = picture.texels.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::byte* texel = &picture.texels[4 * i];
+        dark += std::max({texel[0], texel[1], texel[2]}) <= black ? 1 : 0;
+    }
+    const double share = double(dark) / double(pixels);
+    if (share > most)
+        to_stderr(
+            "strata: warning: {:.0f} % of the picture is black; move the camera with --eye and --target, or with --inside\n",
+            100 * share);
+}
+
 /// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
 Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count,
                              const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
@@ -55,7 +72,12 @@ Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count
     if (!file) return file.error();
     auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), room_for(*frame));
     if (!recorder) return recorder.error();
-    if (const auto done = add_thumbnail(*recorder, *frame, options.device); !done) return done.error();
+    const auto thumbnail = make_thumbnail(*frame, options.device);
+    if (!thumbnail) return thumbnail.error();
+    if (*thumbnail) {
+        if (const auto done = recorder->thumbnail(**thumbnail); !done) return done.error();
+        warn_of_darkness(**thumbnail);
+    }
     const Progress progress = progress_line();
     Counts counts;
     for (std::uint32_t index = 0; index < count; ++index) {
@@ -95,7 +117,6 @@ Result<void> import_deep_image(const ImportArguments& options) {
     return {};
 }
 
-/// Whether a picture is black only a render can tell; whether anything is in it, the triangles can.
 std::vector<std::string> notes_on_view(const Frame& frame) {
     constexpr double little = 0.03;  // of the picture
     const double share = frame.draws.empty() ? 0 : seen_share(frame);
@@ -140,42 +161,43 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
 
 std::function<Result<void>()> declare_import(CLI::App& app) {
     const auto options = std::make_shared<ImportArguments>();
-    app.add_option("scene", options->scene, "a .gltf or .glb file, or with --deep a deep OpenEXR image")
+    app.add_option("scene", options->scene, "a .gltf or .glb file; with --deep, a deep OpenEXR image")
         ->required()
         ->type_name(input_file);
-    CLI::Option* deep =
-        app.add_flag("--deep", options->deep, "the file is a deep image: its samples become transparent fragments");
-    app.add_option("--part", options->of_deep.part, "part of a deep file by name or number; default its first deep one")
+    CLI::Option* deep = app.add_flag("--deep", options->deep, "read a deep image; its samples become transparent fragments");
+    app.add_option("--part", options->of_deep.part, "name or index of the part of a deep file; default: its first deep part")
         ->needs(deep);
-    app.add_option("--window", options->window, "X,Y,WIDTH,HEIGHT: pixels of a deep file; default its display window")
+    app.add_option("--window", options->window, "pixels of a deep file to read, as X,Y,WIDTH,HEIGHT; default: its display window")
         ->delimiter(',')
         ->expected(4)
         ->needs(deep);
-    app.add_option("-o,--output", options->output, "capture to write; default the scene's name with .strata")
+    app.add_option("-o,--output", options->output, "capture to write; default: the scene's name with .strata")
         ->type_name(output_file);
-    app.add_option("--size", options->size, "WIDTHxHEIGHT, default 640x360");
+    app.add_option("--size", options->size, "extent as WIDTHxHEIGHT, default 640x360");
     app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
     app.add_option("--camera", options->gltf.camera,
-                   "index of the scene's camera; default its first, or one that frames the scene")
+                   "index of the scene's camera; default: the first, or without cameras one that frames the scene")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--azimuth", options->gltf.azimuth,
-                   "degrees from the front towards the right of a framing camera, default 22");
-    app.add_option("--elevation", options->gltf.elevation, "degrees above the horizon of a framing camera, default 16");
+                   "azimuth of the framing camera in degrees, 0 in front, positive to the right; default 22");
+    app.add_option("--elevation", options->gltf.elevation,
+                   "elevation of the framing camera in degrees above the horizon, default 16");
     const auto point = [&](const char* name, std::vector<double>& to, const char* help) {
         app.add_option(name, to, help)->delimiter(',')->expected(3);
     };
-    point("--eye", options->eye, "X,Y,Z in meters: where the camera is, instead of the scene's");
-    point("--target", options->target, "X,Y,Z: what the camera of --eye looks at; default the middle of the scene");
-    app.add_option("--fov", options->gltf.fov, "vertical degrees of a camera that is not the scene's");
-    app.add_flag("--inside", options->gltf.inside, "camera where it sees farthest within the scene, for closed rooms");
-    app.add_option("--frames", options->frames, "how many frames; an animation begins again after its end")
-        ->check(CLI::Range(1, 100000));
-    app.add_option("--fps", options->gltf.fps, "frames per second of the animation, default 30");
-    app.add_option("--animation", options->gltf.animation, "name or index of the animation; default the first");
-    app.add_option("--budget,--memory-budget", options->memory_budget,
-                   "most memory for the scene, like 4GiB; default half of the machine's; more is refused (4)")
+    point("--eye", options->eye, "position of the camera as X,Y,Z in meters; replaces the scene's camera");
+    point("--target", options->target, "point the --eye camera looks at, as X,Y,Z in meters; default: the center of the scene");
+    app.add_option("--fov", options->gltf.fov, "vertical field of view in degrees, for a camera that is not from the scene");
+    app.add_flag("--inside", options->gltf.inside,
+                 "place the camera inside the scene, at the point with the longest view (for closed rooms)");
+    app.add_option("--frames", options->frames, "number of frames; the animation loops")->check(CLI::Range(1, 100000));
+    app.add_option("--fps", options->gltf.fps, "frames per second at which the animation is sampled, default 30");
+    app.add_option("--animation", options->gltf.animation, "name or index of the animation; default: the first");
+    app.add_option(
+           "--budget,--memory-budget", options->memory_budget,
+           "largest memory for the scene, like 4GiB; default: half of the machine's memory; exit code 4 if more is needed")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
-    app.add_option("--gpu", options->device.gpu, "device that makes the thumbnail");
+    app.add_option("--gpu", options->device.gpu, "device that renders the thumbnail, by index or part of its name");
     return [options, &app] { return import(*options, app); };
 }
 

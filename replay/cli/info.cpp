@@ -137,18 +137,18 @@ Result<void> validate(const InfoArguments& options) {
 
 std::function<Result<void>()> declare_info(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
-    app.add_option("--frame", options->frame, "which frame to describe, default 0");
-    app.add_flag("--allow-partial", options->allow_partial, "read a file that was cut short up to the cut");
+    app.add_option("capture", options->capture, "capture (.strata file)")->required()->type_name(input_file);
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_flag("--allow-partial", options->allow_partial, "read the complete frames of a truncated file");
     add_memory_budget(app, options->memory_budget);
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_flag("--json", options->json, "print JSON instead of text");
     return [options] { return info(*options); };
 }
 
 std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "a .strata file")->required()->type_name(input_file);
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_option("capture", options->capture, "capture (.strata file)")->required()->type_name(input_file);
+    app.add_flag("--json", options->json, "print JSON instead of text");
     add_memory_budget(app, options->memory_budget);
     return [options] { return validate(*options); };
 }

@@ -13,6 +13,7 @@
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/isa/isa_report.h"
 #include "replay/plural.h"
+#include "replay/progress_line.h"
 
 namespace strata {
 namespace {
@@ -162,9 +163,12 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
     if (!planned) return planned.error();
     const PipelineRequests requests = pipelines_of(planned->plan);
     const DeviceInfo& device = (*session)->device();
+    const Progress progress = progress_line();
+    progress("compiling pipelines", 0);
     // Before the frame is run: what cannot be compiled is known at once.
     const auto made = compile_all(options, requests, models, device.index);
     if (!made) return made.error();
+    progress("running the frame", .5);
     auto counts =
         options.no_run || !needs_a_run(planned->plan) ? Result<StepCounts>(StepCounts{}) : count_steps(**session, *request);
     if (!counts) return counts.error();
@@ -191,10 +195,10 @@ Result<void> run_isa(const IsaArguments& options, const CLI::App& app) {
         const auto listing =
             check_not_given(app,
                             {"--gpu", "--without", "--validation", "--memory-budget", "--allow-partial", "--use", "--set",
-                             "--force", "--samples", "--gpu-model", "--frame", "--dump", "--no-run", "--tiles", "--json"},
+                             "--force", "--samples", "--gpu-model", "--frame", "--dump", "--no-run", "--tiles"},
                             "without a capture the known GPU models are listed");
         if (!listing) return listing;
-        to_stdout("{}", gpu_models_text());
+        to_stdout("{}", options.json ? gpu_models_json() : gpu_models_text());
         return {};
     }
     if (const auto fine = check_tiles(options, *models); !fine) return fine;
@@ -206,21 +210,24 @@ Result<void> run_isa(const IsaArguments& options, const CLI::App& app) {
 std::function<Result<void>()> declare_isa(CLI::App& app) {
     const auto options = std::make_shared<IsaArguments>();
     add_options(app, options->open);
-    app.get_option("capture")->required(false)->description("a .strata file; without one, the GPU models that are known");
+    app.get_option("capture")->required(false)->description(
+        "capture (.strata file); without one, the known GPU models are listed");
     add_options(app, options->choices);
-    app.add_option("--gpu-model", options->models,
-                   "a,b: GPUs to compile for, without hardware (Mesa's RADV); default: the device itself, where it tells")
+    app.add_option(
+           "--gpu-model", options->models,
+           "GPU models to compile for without hardware, as a,b (Mesa's RADV); default: the device, if it reports statistics")
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_option("--dump", options->dump, "folder for the disassembly of every program, made when missing");
-    auto* no_run =
-        app.add_flag("--no-run", options->no_run, "do not run the frame to count what indirect dispatches and draws invoke");
-    app.add_option("--tiles", options->tiles,
-                   "waves per SIMD of the shader of each tile, where a technique has several: .png in colors, .exr the numbers")
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_option("--dump", options->dump, "write the disassembly of every shader to this folder; it is created if missing");
+    auto* no_run = app.add_flag("--no-run", options->no_run,
+                                "do not run the frame; invocations of indirect dispatches and draws stay unknown");
+    app.add_option(
+           "--tiles", options->tiles,
+           "write waves per SIMD by screen tile, for techniques with several shader variants: .png in colors, .exr as numbers")
         ->excludes(no_run)
         ->type_name(output_file);
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+    app.add_flag("--json", options->json, "print JSON instead of text");
     return [options, &app] { return run_isa(*options, app); };
 }
 

@@ -33,7 +33,7 @@ std::function<Result<void>()> declare_isa_compile(CLI::App& app) {
     const auto options = std::make_shared<IsaCompileArguments>();
     app.group("");  // no part of the help: strata isa starts it
     app.add_option("--device", options->device, "index of the device");
-    app.add_flag("--texts", options->texts, "what was compiled as text, too");
+    app.add_flag("--texts", options->texts, "return the disassembly, too");
     return [options] { return compile(*options); };
 }
 

@@ -127,10 +127,10 @@ Result<void> list(const ListArguments& options) {
 std::function<Result<void>()> declare_list(CLI::App& app) {
     const auto options = std::make_shared<ListArguments>();
     CLI::Option* what =
-        app.add_option("what,--stage", options->what, "a stage or a technique: then with parameters, counters and views");
-    app.add_flag("--scenarios", options->scenarios, "the scenarios that strata record knows")->excludes(what);
-    CLI::Option* names = app.add_flag("--names", options->names, "names only, one a line");
-    app.add_flag("--json", options->json, "one JSON object on stdout")->excludes(names);
+        app.add_option("what,--stage", options->what, "stage or technique to list with parameters, counters and views");
+    app.add_flag("--scenarios", options->scenarios, "list the scenarios of strata record")->excludes(what);
+    CLI::Option* names = app.add_flag("--names", options->names, "print only names, one per line");
+    app.add_flag("--json", options->json, "print JSON instead of text")->excludes(names);
     return [options] { return list(*options); };
 }
 

@@ -1,5 +1,6 @@
 // strata probe: the fragments of one pixel, and T(z) of every method beside the exact step function.
 #include "replay/probe/probe.h"
+#include "replay/progress_line.h"
 
 #include <charconv>
 #include <memory>
@@ -63,7 +64,10 @@ Result<void> run_probe(const ProbeArguments& options) {
     if (!session) return session.error();
     ProbeOptions wanted = options.probe;
     wanted.axis = options.axis == "linear" ? DepthAxis::linear : DepthAxis::logarithmic;
+    const Progress progress = progress_line();
+    progress("replaying the frame with every method", 0);
     const auto made = probe(**session, *request, *at, wanted);
+    progress("", 1);
     if (!made) return made.error();
     write_stdout(options.json ? as_json(*made) : as_text(*made));
     return write_files(stem_of(options, *at), *made);
@@ -75,20 +79,21 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
     const auto options = std::make_shared<ProbeArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
-    app.add_option("--at", options->at, "the pixel: x,y from the left top")->required();
-    app.add_option("--sample", options->sample, "which of the pixel's samples, default 0");
-    app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_option(
-           "--methods", options->probe.methods,
-           "a,b,c: techniques of transparency, each with its settings: 'moments kind=power6,wavelet rank=3'; default: all")
+    app.add_option("--at", options->at, "pixel as x,y from the top left corner")->required();
+    app.add_option("--sample", options->sample, "index of the sample in the pixel, default 0");
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_option("--methods", options->probe.methods,
+                   "transparency techniques with their settings, like 'moments kind=power6,wavelet rank=3'; default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--axis", options->axis, "of depth: log or linear, default log")->check(CLI::IsMember({"log", "linear"}));
-    app.add_option("--depths", options->probe.samples, "where T is sampled along the ray, default 512");
-    app.add_option("--from", options->probe.from, "first depth in metres, default: a little before the first fragment");
-    app.add_option("--to", options->probe.to, "last depth in metres, default: a little behind the last fragment");
-    app.add_option("-o,--output", options->output, "folder/name of the .json, .csv and .svg; default: capture.f0000.x0.y0");
-    app.add_flag("--json", options->json, "one JSON object on stdout instead of the text");
+    app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")
+        ->check(CLI::IsMember({"log", "linear"}));
+    app.add_option("--depths", options->probe.samples, "number of depths at which transmittance is evaluated, default 512");
+    app.add_option("--from", options->probe.from, "first depth in meters; default: just in front of the first fragment");
+    app.add_option("--to", options->probe.to, "last depth in meters; default: just behind the last fragment");
+    app.add_option("-o,--output", options->output,
+                   "path of the .json, .csv and .svg without extension; default: capture.f0000.x0.y0");
+    app.add_flag("--json", options->json, "print JSON instead of text");
     return [options] { return run_probe(*options); };
 }
 

@@ -260,33 +260,34 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     const auto options = std::make_shared<ReplayArguments>();
     add_options(app, options->open);
     add_options(app, options->choices);
-    app.add_option("--frames", options->frames, "which frames, like 0,4-8; default all");
+    app.add_option("--frames", options->frames, "indices of frames, like 0,4-8; default all");
     app.add_option("--outputs", options->outputs,
-                   "images to write: frame images or stage/technique:view; tables of numbers go into the .json")
+                   "images to write: frame images or views (stage/technique:view); tables go into the .json")
         ->delimiter(',');
-    auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this");
-    app.add_option("--repeat", options->repeat, "replay this many times and fail (7) when an image of any act differs")
+    auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this text");
+    app.add_option("--repeat", options->repeat, "replay this many times; exit code 7 if any image of any pass differs")
         ->check(CLI::Range(1, 100000))
         ->excludes(until);
-    app.add_option("--time", options->timed, "time every step this many times after a warm-up: median and deviation")
+    app.add_option("--time", options->timed, "time every step over this many repeats after a warm-up; print median and deviation")
         ->check(CLI::Range(1, 10000));
     app.add_option(
         "-o,--output", options->folder,
-        "folder for .exr, .png and .json of each frame, named for what --use and --set choose; without it nothing is written");
-    app.add_flag("--json", options->json, "one JSON object on stdout");
+        "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
+        "nothing");
+    app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("--tolerance", options->tolerance,
-                   "largest relative rmse to what is expected, where its images are kept; fail (6) where nothing is")
+                   "largest allowed relative RMSE to the expected images; exit code 6 if the capture has none")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--eye", options->eye,
-                   "look from elsewhere: dolly, truck, pedestal (metres ahead, right, up), pan, tilt, roll (radians), "
+                   "move the camera: dolly, truck, pedestal (meters ahead, right, up), pan, tilt, roll (radians), "
                    "like pan=0.5,dolly=1");
     app.add_option("--shaders", options->shaders,
-                   "a folder whose passes/... hold shaders to use in place of those built in; needs "
+                   "replace built-in shaders by those in the passes/ folder of this folder; needs "
                    "glslangValidator");
     app.add_flag("--strict", options->strict,
-                 "fail (1) when a technique cannot do what the frame has; without it that is a warning");
-    app.add_flag("--expect", options->expect, "fail (6) when the capture expects nothing of a frame");
-    app.add_flag("--no-expect", options->no_expect, "do not compare with what the capture expects");
+                 "exit code 1 instead of a warning if a technique does not support a feature of the frame");
+    app.add_flag("--expect", options->expect, "exit code 6 if the capture has no expected results for a frame");
+    app.add_flag("--no-expect", options->no_expect, "do not compare with the capture's expected results");
     return [options, &app] { return check_options(*options, app).and_then([&] { return replay(*options); }); };
 }
 

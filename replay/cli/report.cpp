@@ -1,4 +1,6 @@
 // strata report: error against time for every technique of a stage.
+#include <charconv>
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
+#include "replay/report/variants.h"
 
 namespace strata {
 namespace {
@@ -19,7 +22,9 @@ struct ReportArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string stage = "transparency";
-    std::vector<std::string> sweeps;
+    std::vector<std::string> sweeps, methods;
+    std::string error, within;
+    bool defaults = false;
     std::size_t frame = 0, repeats = 7;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
@@ -37,6 +42,19 @@ Result<Sweep> parse_sweep(const std::string& text) {
         begin = end + 1;
     }
     return sweep;
+}
+
+/// A number above 0 with an optional unit at its end: "1%" is .01, "2x" is 2.
+Result<std::optional<double>> parse_limit(const char* option, std::string text, char unit, double factor) {
+    if (text.empty()) return std::optional<double>();
+    const std::string given = text;
+    const bool has_unit = text.back() == unit;
+    if (has_unit) text.pop_back();
+    double value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
+        return fail(Fault::usage, "{} takes a number above 0, like 2{}, not '{}'", option, unit, given);
+    return std::optional(has_unit ? value * factor : value);
 }
 
 std::string written(const ReportArguments& options, std::span<const Report> made) {
@@ -63,6 +81,13 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
         if (!sweep) return sweep.error();
         wanted.sweeps.push_back(*sweep);
     }
+    wanted.methods = options.methods;
+    wanted.defaults_only = options.defaults;
+    const auto error = parse_limit("--error", options.error, '%', .01), within = parse_limit("--within", options.within, 'x', 1);
+    if (!error) return error.error();
+    if (!within) return within.error();
+    wanted.question = {.error = *error, .within = *within};
+    if (const auto rows = variants(wanted); !rows) return rows.error();  // before a capture is opened
     if (options.flicker) wanted.flicker = Walk{.frames = *options.flicker, .dolly = options.dolly};
     if (options.pan) wanted.flicker->pan = *options.pan;
     return wanted;
@@ -85,10 +110,11 @@ Result<void> report_hard_cases(const ReportArguments& options) {
 
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (options.hard_cases) {
-        const auto fits = check_not_given(app,
-                                          {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage",
-                                           "--sweep", "--frame", "--repeats", "--flicker"},
-                                          "--hard-cases brings frames and settings of its own and writes text or --json");
+        const auto fits =
+            check_not_given(app,
+                            {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--methods",
+                             "--defaults", "--error", "--within", "--sweep", "--frame", "--repeats", "--flicker"},
+                            "--hard-cases brings frames and settings of its own and writes text or --json");
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
@@ -115,36 +141,46 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
 std::function<Result<void>()> declare_report(CLI::App& app) {
     const auto options = std::make_shared<ReportArguments>();
     CLI::Option* captures =
-        app.add_option("captures", options->captures, ".strata files; of several, each one's report and a pooled one")
+        app.add_option("captures", options->captures, "captures (.strata files); several are also pooled into one table")
             ->type_name(input_file);
     CLI::Option* hard_cases =
         app.add_flag("--hard-cases", options->hard_cases,
-                     "every transparency technique on the frames such methods fail on: holds, or by how much it does not")
+                     "run every transparency technique on frames built to break it; print pass or the size of the error")
             ->excludes(captures);
-    app.add_flag("--points", options->points, "the same at the techniques' own points, too, not only at their defaults")
+    app.add_flag("--points", options->points,
+                 "run --hard-cases also at each technique's other settings, not only at the defaults")
         ->needs(hard_cases);
     add_options(app, options->open.device);
-    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
+    app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file");
     add_options(app, options->choices);
-    app.add_option("--stage", options->stage, "whose techniques, default transparency");
-    app.add_option("--sweep", options->sweeps, "key=a,b,c: measure each value, not the techniques' own points; repeatable")
+    app.add_option("--stage", options->stage, "stage whose techniques are measured, default transparency");
+    CLI::Option* methods =
+        app.add_option("--methods", options->methods,
+                       "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
+    methods->delimiter(',')->allow_extra_args(false);
+    app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(methods);
+    app.add_option("--error", options->error, "answer which technique is cheapest with at most this error, like 1%");
+    app.add_option("--within", options->within,
+                   "answer which technique is most accurate within this multiple of the baseline's time, like 2x");
+    app.add_option("--sweep", options->sweeps,
+                   "measure each value of a parameter, as key=a,b,c, instead of each technique's own settings; repeatable")
         ->allow_extra_args(false);
-    app.add_option("--frame", options->frame, "which frame, default 0");
-    app.add_option("--repeats", options->repeats, "timed runs of each row after a warm-up, default 7")
+    app.add_option("--frame", options->frame, "index of the frame, default 0");
+    app.add_option("--repeats", options->repeats, "timed repeats of each row after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
     app.add_option("--flicker", options->flicker,
-                   "measure how errors change while the eye walks ahead and turns; every row is replayed at so many places, 64 "
-                   "without a number")
+                   "measure how errors change while the camera moves ahead and turns, over this many positions (64 if "
+                   "no number follows)")
         ->expected(0, 1)
         ->default_str("64")
         ->check(CLI::Range(2, 10000));
     app.add_option("--dolly", options->dolly,
-                   "metres it walks in all; default a twentieth of the distance to the middle of what is transparent")
+                   "meters that the camera moves in all; default: 1/20 of the distance to the center of the transparent geometry")
         ->needs("--flicker");
-    app.add_option("--pan", options->pan, "degrees it turns to the right in all, default 5")->needs("--flicker");
-    CLI::Option* json = app.add_flag("--json", options->json, "one JSON object");
-    app.add_flag("--csv", options->csv, "comma-separated values")->excludes(json);
-    app.add_option("-o,--output", options->output, "write to a file instead of stdout")->type_name(output_file);
+    app.add_option("--pan", options->pan, "degrees that the camera turns to the right in all, default 5")->needs("--flicker");
+    CLI::Option* json = app.add_flag("--json", options->json, "print JSON instead of text");
+    app.add_flag("--csv", options->csv, "print comma-separated values instead of text")->excludes(json);
+    app.add_option("-o,--output", options->output, "write the report to this file instead of stdout")->type_name(output_file);
     return [options, &app] { return report(*options, app); };
 }
 

@@ -120,7 +120,7 @@ Result<void> spectra(const SpectraArguments& options) {
 }
 
 std::string help_of_costs() {
-    std::string help = "what a mode costs";
+    std::string help = "source of a shader variant's cost";
     for (const CostSource& source : cost_sources()) help += fmt::format("; {}: {}", source.name, source.help);
     return help + "; default weights, with --gpu-model isa";
 }
@@ -129,25 +129,26 @@ std::string help_of_costs() {
 
 std::function<Result<void>()> declare_spectra(CLI::App& app) {
     const auto options = std::make_shared<SpectraArguments>();
-    app.add_option("captures", options->captures, ".strata files; every frame of each counts alike")
+    app.add_option("captures", options->captures, "captures (.strata files); every frame has the same weight")
         ->required()
         ->type_name(input_file);
     add_options(app, options->open.device);
-    app.add_flag("--allow-partial", options->open.allow_partial, "read a file that was cut short up to the cut");
+    app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file");
     add_options(app, options->choices);
-    app.add_option("--frames", options->frames, "which frames of each, like 0,4-8; default all");
-    app.add_option("--modes", options->wish.modes, "how many shading modes at most, the full one included, default 8")
+    app.add_option("--frames", options->frames, "indices of frames of each capture, like 0,4-8; default all");
+    app.add_option("--modes", options->wish.modes, "largest number of shader variants (modes), including the full one; default 8")
         ->check(CLI::Range(std::size_t(1), most_settable_modes));
     app.add_option("--cost", options->cost, help_of_costs());
-    app.add_option("--gpu-model", options->gpu_model, "the GPU to compile modes for; `strata isa` lists them");
-    app.add_option("--aim", options->aim, "sum: least for all frames together; worst: least for the dearest frame; default sum")
+    app.add_option("--gpu-model", options->gpu_model, "GPU model to compile shader variants for (strata isa lists them)");
+    app.add_option("--aim", options->aim,
+                   "what to minimize: sum (default), the cost of all frames; worst, the most expensive frame")
         ->check(CLI::IsMember({"sum", "worst"}));
-    app.add_option("--dispatch", options->wish.dispatch, "what one mode more costs every frame, in the unit of costs, default 0")
+    app.add_option("--dispatch", options->wish.dispatch, "cost of one more mode per frame, in the unit of --cost; default 0")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--repeats", options->repeats, "timed runs of each mode after a warm-up, default 7")
+    app.add_option("--repeats", options->repeats, "timed repeats of each shader variant after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
-    app.add_flag("--json", options->json, "one JSON object on stdout");
-    app.add_option("-o,--output", options->output, "write the JSON to a file, too")->type_name(output_file);
+    app.add_flag("--json", options->json, "print JSON instead of text");
+    app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
     return [options, &app] { return check_options(*options, app).and_then([&] { return spectra(*options); }); };
 }
 

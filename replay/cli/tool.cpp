@@ -6,12 +6,14 @@
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
 #include "replay/gpu/device.h"
+#include "replay/json_text.h"
 #include "replay/revision.h"
 #include "replay/standard_streams.h"
 
@@ -23,12 +25,31 @@ constexpr const char* exit_codes =
     "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable,\n"
     "8 a mistake of strata, 130 interrupted";
 
-Result<void> list_gpus() {
+struct GpusArguments {
+    bool list = false, json = false;
+};
+
+nlohmann::ordered_json json_of(const DeviceInfo& device) {
+    return {{"index", device.index},
+            {"name", device.name},
+            {"kind", device.kind},
+            {"driver", device.driver},
+            {"driver_version", device.driver_version},
+            {"can_replay", device.lacks.empty()},
+            {"lacks", device.lacks.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(device.lacks)}};
+}
+
+Result<void> list_gpus(const GpusArguments& options) {
     const auto devices = list_devices();
     if (!devices) return devices.error();
-    for (const DeviceInfo& device : *devices)
+    nlohmann::ordered_json json{{"schema", "strata.gpus"}, {"schema_version", 1}, {"gpus", nlohmann::ordered_json::array()}};
+    for (const DeviceInfo& device : *devices) {
+        json["gpus"].push_back(json_of(device));
+        if (options.json) continue;
         to_stdout("{}  {}  ({}, {} {}){}\n", device.index, device.name, device.kind, device.driver, device.driver_version,
                   device.lacks.empty() ? "" : "  cannot replay: lacks " + device.lacks);
+    }
+    if (options.json) write_stdout(json_text(json));
     return {};
 }
 
@@ -103,13 +124,14 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
                  "strata");
     app.footer(exit_codes);
     app.set_version_flag("--version", std::string("strata 0.1.0 ") + tool_revision);
-    bool gpus = false;
-    app.add_flag("--list-gpus", gpus, "devices of this machine and whether they can replay");
+    GpusArguments gpus;
+    CLI::Option* list = app.add_flag("--list-gpus", gpus.list, "list the devices of this machine and whether they can replay");
+    app.add_flag("--json", gpus.json, "print JSON instead of text, with --list-gpus")->needs(list);
     app.require_subcommand(0, 1);
 
     std::string help_about;
-    CLI::App* help = app.add_subcommand("help", "how a verb is used");
-    help->add_option("verb", help_about, "a verb");
+    CLI::App* help = app.add_subcommand("help", "show the options of a verb");
+    help->add_option("verb", help_about, "verb to explain");
 
     std::vector<std::pair<CLI::App*, std::function<Result<void>()>>> runs;
     for (const Verb& verb : verbs) {
@@ -120,7 +142,7 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     const auto goes_on = parse(app, std::move(arguments));
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
-    if (gpus) return list_gpus();
+    if (gpus.list) return list_gpus(gpus);
     if (help->parsed() && !help_about.empty())
         return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)

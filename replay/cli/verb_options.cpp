@@ -55,21 +55,21 @@ Frame small(Frame frame) {
 
 void add_options(CLI::App& app, DeviceChoice& device) {
     constexpr const char* group = "Device";
-    app.add_option("--gpu", device.gpu, "device by index or part of its name; see strata --list-gpus")->group(group);
+    app.add_option("--gpu", device.gpu, "device by index or part of its name (strata --list-gpus)")->group(group);
     app.add_option("--without", device.without, "treat the device as lacking this Vulkan feature or capability; repeatable")
         ->allow_extra_args(false)
         ->group(group);
-    app.add_flag("--validation", device.validation, "validation layer on; any message is an error")->group(group);
+    app.add_flag("--validation", device.validation, "turn on the validation layer; any message fails the run")->group(group);
     app.add_option("--memory-budget", device.memory_budget,
-                   "most memory to take from the device, and to unpack files into, like 256MiB; more is refused (4)")
+                   "largest device memory and largest size of unpacked files, like 256MiB; exit code 4 if more is needed")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false))
         ->group(group);
 }
 
 void add_options(CLI::App& app, OpenOptions& options) {
-    app.add_option("capture", options.capture, "a .strata file")->required()->type_name(input_file);
+    app.add_option("capture", options.capture, "capture (.strata file)")->required()->type_name(input_file);
     add_options(app, options.device);
-    app.add_flag("--allow-partial", options.allow_partial, "read a file that was cut short up to the cut");
+    app.add_flag("--allow-partial", options.allow_partial, "read the complete frames of a truncated file");
 }
 
 Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
@@ -79,8 +79,9 @@ Result<std::unique_ptr<Session>> open(const OpenOptions& options) {
 }
 
 void add_memory_budget(CLI::App& app, std::uint64_t& bytes) {
-    app.add_option("--memory-budget", bytes,
-                   "most memory to unpack a file into, like 4GiB; default half of the machine's; more is refused (4)")
+    app.add_option(
+           "--memory-budget", bytes,
+           "largest size of an unpacked file, like 4GiB; default: half of the machine's memory; exit code 4 if more is needed")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
 }
 
@@ -93,10 +94,11 @@ Result<Capture> open_capture(const std::filesystem::path& path, Partial partial,
 }
 
 void add_options(CLI::App& app, ChoiceOptions& options) {
-    app.add_option("--use", options.uses, "stage/technique; may be repeated")->allow_extra_args(false);
-    app.add_option("--set", options.sets, "key=value or stage/technique:key=value; may be repeated")->allow_extra_args(false);
-    app.add_option("--force", options.force, "feature or 'all': switch it on though the frame lacks it")->allow_extra_args(false);
-    app.add_option("--samples", options.samples, "samples per pixel instead of the recorded ones")->check(CLI::IsMember({1, 4}));
+    app.add_option("--use", options.uses, "technique to use, as stage/technique; repeatable")->allow_extra_args(false);
+    app.add_option("--set", options.sets, "parameter to set, as key=value or stage/technique:key=value; repeatable")
+        ->allow_extra_args(false);
+    app.add_option("--force", options.force, "turn on a feature that the frame lacks, or 'all'")->allow_extra_args(false);
+    app.add_option("--samples", options.samples, "replace the recorded samples per pixel")->check(CLI::IsMember({1, 4}));
 }
 
 Result<Request> request_of(const ChoiceOptions& options) {
@@ -170,17 +172,17 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
     return extent;
 }
 
-Result<void> add_thumbnail(Recorder& recorder, const Frame& frame, const DeviceChoice& device) {
+Result<std::optional<Texture>> make_thumbnail(const Frame& frame, const DeviceChoice& device) {
     // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
     auto session = Session::open(std::vector<Frame>{small(frame)}, device);
     const auto run = session ? (*session)->run({.variant = {.samples = 1}}) : Result<Run>(session.error());
     if (!run && run.error().fault == Fault::usage) return run.error();  // no such device
     if (!run) {
         to_stderr("strata: no thumbnail: {}\n", run.error().sentence);
-        return {};
+        return std::optional<Texture>();
     }
     const auto display = run->images.find("display");
-    return display == run->images.end() ? Result<void>() : recorder.thumbnail(thumbnail_of(display->second));
+    return display == run->images.end() ? std::optional<Texture>() : thumbnail_of(display->second);
 }
 
 }  // namespace strata

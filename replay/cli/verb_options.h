@@ -46,8 +46,7 @@ std::string command_line(const CLI::App& verb);
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 
-/// Makes a capture's thumbnail by replaying its first frame at about that size. Without a usable device there is none, and a line
-/// says so.
-Result<void> add_thumbnail(class Recorder&, const Frame&, const DeviceChoice&);
+/// A capture's thumbnail: its first frame, replayed at about that size. Without a usable device there is none; a line says so.
+Result<std::optional<Texture>> make_thumbnail(const Frame&, const DeviceChoice&);
 
 }  // namespace strata

@@ -15,9 +15,10 @@ struct AccessRow {
     DeviceAccess device;
 };
 
-// Reads name every shader stage: a plan puts no barrier between equal reads, whichever stages do them.
-constexpr vk::PipelineStageFlags2 shaders = PipelineStage::eVertexShader | PipelineStage::eGeometryShader |
-                                            PipelineStage::eFragmentShader | PipelineStage::eComputeShader;
+// Reads name every shader stage: a plan puts no barrier between equal reads, whichever stages do them. The stages before
+// rasterization have one name, because a device without geometry shaders must not be told theirs.
+constexpr vk::PipelineStageFlags2 shaders =
+    PipelineStage::ePreRasterizationShaders | PipelineStage::eFragmentShader | PipelineStage::eComputeShader;
 constexpr vk::PipelineStageFlags2 depth_tests = PipelineStage::eEarlyFragmentTests | PipelineStage::eLateFragmentTests;
 
 // `none` waits for everything: what touched the memory before is another run, or is not known.

@@ -8,6 +8,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "replay/gpu/feature_table.h"
+#include "replay/gpu/library_build.h"
 #include "replay/gpu/opened_device.h"
 
 namespace strata {
@@ -43,6 +44,12 @@ int rank(const DeviceInfo& device) {
     return static_cast<int>(std::ranges::find(order, device.kind) - std::begin(order));
 }
 
+/// SwiftShader says nothing of itself that changes with its code.
+std::string driver_version(const vk::PhysicalDeviceDriverProperties& driver) {
+    if (driver.driverID != vk::DriverId::eGoogleSwiftshader || driver.driverInfo[0] != '\0') return driver.driverInfo;
+    return "build " + build_of_library("vk_swiftshader").value_or("unknown");
+}
+
 DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index) {
     const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
                                              vk::PhysicalDeviceSubgroupProperties>();
@@ -51,7 +58,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index)
     return {.index = index,
             .name = properties.deviceName,
             .driver = driver.driverName,
-            .driver_version = driver.driverInfo,
+            .driver_version = driver_version(driver),
             .cpu = cpu_name(),
             .kind = kind_of(properties.deviceType),
             .software = properties.deviceType == vk::PhysicalDeviceType::eCpu,
@@ -91,7 +98,8 @@ Result<void> leave_out(std::vector<DeviceInfo>& devices, const std::vector<std::
 std::string list_of(const std::vector<DeviceInfo>& devices) {
     std::string list;
     for (const DeviceInfo& device : devices) {
-        list += fmt::format("\n  {}: {} ({})", device.index, device.name, device.kind);
+        list +=
+            fmt::format("\n  {}: {} ({}, {} {})", device.index, device.name, device.kind, device.driver, device.driver_version);
         if (!device.lacks.empty()) list += fmt::format(", lacks {}", device.lacks);
     }
     return list.empty() ? " none" : list;
@@ -104,7 +112,9 @@ std::string lower(std::string text) {
 
 bool is_meant(const DeviceInfo& device, const std::string& gpu) {
     const bool is_index = !gpu.empty() && std::ranges::all_of(gpu, [](unsigned char c) { return std::isdigit(c) != 0; });
-    return is_index ? gpu == std::to_string(device.index) : lower(device.name).find(lower(gpu)) != std::string::npos;
+    if (is_index) return gpu == std::to_string(device.index);
+    const auto has_it = [&](const std::string& text) { return lower(text).find(lower(gpu)) != std::string::npos; };
+    return has_it(device.name) || has_it(device.driver) || has_it(device.driver_version);
 }
 
 /// The best of those that are meant; one that can replay before one that cannot.

@@ -13,7 +13,9 @@ namespace strata {
 
 struct DeviceInfo {
     std::uint32_t index = 0;
-    std::string name, driver, driver_version, cpu;
+    std::string name, driver;
+    std::string driver_version;  ///< as the driver states it, or the build of its library
+    std::string cpu;
     std::string kind;                    ///< "discrete", "integrated", "cpu", ...
     bool software = false;               ///< times are the CPU's and no model of a GPU
     std::uint32_t vector_width = 0;      ///< lanes of a subgroup: on a CPU driver the width of its vectors in 32-bit numbers
@@ -24,7 +26,9 @@ struct DeviceInfo {
 };
 
 struct DeviceChoice {
-    std::string gpu;                  ///< index, part of a name, or empty: the first that can replay, real GPUs before CPUs
+    /// Index, part of the name of a device or of its driver and its version, or empty: the first that can replay, real GPUs
+    /// before CPUs.
+    std::string gpu;
     bool validation = false;          ///< core, synchronization and queue-submit validation; messages become errors
     std::uint64_t memory_budget = 0;  ///< most bytes to take from the device; 0: as much as it gives
     /// Capabilities and features of the baseline that every device is taken to lack, to see what becomes of a frame without them.

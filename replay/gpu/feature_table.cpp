@@ -41,15 +41,10 @@ constexpr FeatureRow baseline[] = {
     feature<&V12::timelineSemaphore>("timelineSemaphore"),
     feature<&V12::hostQueryReset>("hostQueryReset"),
     feature<&V12::scalarBlockLayout>("scalarBlockLayout"),
-    feature<&V12::drawIndirectCount>("drawIndirectCount"),
-    feature<&V11::shaderDrawParameters>("shaderDrawParameters"),
     feature<&Core::fragmentStoresAndAtomics>("fragmentStoresAndAtomics"),
     feature<&Core::vertexPipelineStoresAndAtomics>("vertexPipelineStoresAndAtomics"),
     feature<&Core::independentBlend>("independentBlend"),
-    feature<&Core::dualSrcBlend>("dualSrcBlend"),
-    feature<&Core::geometryShader>("geometryShader"),
     feature<&Core::sampleRateShading>("sampleRateShading"),
-    feature<&Core::multiViewport>("multiViewport"),
     feature<&Core::samplerAnisotropy>("samplerAnisotropy"),
     feature<&Core::occlusionQueryPrecise>("occlusionQueryPrecise"),
     feature<&Core::multiDrawIndirect>("multiDrawIndirect"),
@@ -57,10 +52,29 @@ constexpr FeatureRow baseline[] = {
     feature<&Core::fullDrawIndexUint32>("fullDrawIndexUint32"),
     feature<&Core::shaderStorageImageExtendedFormats>("shaderStorageImageExtendedFormats"),
     feature<&Core::shaderStorageImageWriteWithoutFormat>("shaderStorageImageWriteWithoutFormat"),
-    feature<&Core::shaderInt64>("shaderInt64"),
     feature<&Core::shaderClipDistance>("shaderClipDistance"),
     feature<&Core::shaderCullDistance>("shaderCullDistance"),
 };
+
+/// A capability that is a feature of the device, and another one that its shaders use.
+struct CapabilityRow {
+    Capability capability;
+    FeatureRow feature, other = feature;
+};
+
+constexpr CapabilityRow beyond_baseline[] = {
+    {Capability::buffer_int64_atomics, feature<&V12::shaderBufferInt64Atomics>("shaderBufferInt64Atomics"),
+     feature<&Core::shaderInt64>("shaderInt64")},
+    {Capability::shader_output_layer, feature<&V12::shaderOutputLayer>("shaderOutputLayer")},
+    {Capability::geometry_shaders, feature<&Core::geometryShader>("geometryShader")},
+    {Capability::dual_source_blending, feature<&Core::dualSrcBlend>("dualSrcBlend")},
+    {Capability::counted_draws, feature<&V12::drawIndirectCount>("drawIndirectCount")},
+};
+
+bool ends_long_loops(const vk::raii::PhysicalDevice& device) {
+    const auto properties = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan12Properties>();
+    return properties.get<vk::PhysicalDeviceVulkan12Properties>().driverID == vk::DriverId::eMesaLlvmpipe;
+}
 
 FeatureChain features_of(const vk::raii::PhysicalDevice& device) {
     return device.getFeatures2<vk::PhysicalDeviceFeatures2, V11, V12, V13>();
@@ -132,10 +146,11 @@ std::vector<std::string_view> baseline_features() {
 Capabilities capabilities_of(const vk::raii::PhysicalDevice& device) {
     Capabilities found;
     if (device.getProperties().apiVersion < VK_API_VERSION_1_3) return found;
-    const auto features = features_of(device);
-    if (features.get<V12>().shaderBufferInt64Atomics) found.push_back(Capability::buffer_int64_atomics);
-    if (features.get<V12>().shaderOutputLayer) found.push_back(Capability::shader_output_layer);
+    auto features = features_of(device);
+    for (const CapabilityRow& row : beyond_baseline)
+        if (row.feature.of(features) && row.other.of(features)) found.push_back(row.capability);
     if (has_interlock(device)) found.push_back(Capability::fragment_interlock);
+    if (!ends_long_loops(device)) found.push_back(Capability::long_loops);
     return found;
 }
 
@@ -162,8 +177,8 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, const Cap
                              PipelineDescriptions descriptions) {
     FeatureChain wanted;
     for (const FeatureRow& row : baseline) row.of(wanted) = VK_TRUE;
-    wanted.get<V12>().shaderBufferInt64Atomics = has(capabilities, Capability::buffer_int64_atomics);
-    wanted.get<V12>().shaderOutputLayer = has(capabilities, Capability::shader_output_layer);
+    for (const CapabilityRow& row : beyond_baseline)
+        if (has(capabilities, row.capability)) row.feature.of(wanted) = row.other.of(wanted) = VK_TRUE;
     wanted.get<vk::PhysicalDeviceFeatures2>().features.pipelineStatisticsQuery = counts_invocations(physical);
 
     std::vector<const char*> extensions;

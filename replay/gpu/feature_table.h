@@ -15,7 +15,7 @@ namespace strata {
 using FeatureChain = vk::StructureChain<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
                                         vk::PhysicalDeviceVulkan12Features, vk::PhysicalDeviceVulkan13Features>;
 
-/// Empty when the device can replay, else the first thing it lacks, as it reads after "lacks": "the feature dualSrcBlend".
+/// Empty when the device can replay, else the first thing it lacks, as it reads after "lacks": "the feature timelineSemaphore".
 std::string first_missing(const vk::raii::PhysicalDevice&);
 
 /// The features of the baseline by Vulkan's names for them.

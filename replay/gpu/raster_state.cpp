@@ -16,6 +16,7 @@ struct BlendRow {
     vk::Bool32 enabled;
     Factor source, color, alpha;  ///< of the source; of what is there, for color and for alpha
     Op op;
+    Factor source_alpha = source;
 };
 
 constexpr BlendRow blend_rows[] = {
@@ -25,6 +26,7 @@ constexpr BlendRow blend_rows[] = {
     {Blend::dual_source_over, VK_TRUE, Factor::eOne, Factor::eSrc1Color, Factor::eSrc1Alpha, Op::eAdd},
     {Blend::max, VK_TRUE, Factor::eOne, Factor::eOne, Factor::eOne, Op::eMax},
     {Blend::min, VK_TRUE, Factor::eOne, Factor::eOne, Factor::eOne, Op::eMin},
+    {Blend::alpha_over, VK_TRUE, Factor::eOne, Factor::eSrcAlpha, Factor::eOne, Op::eAdd, Factor::eZero},
 };
 static_assert(std::ranges::is_sorted(blend_rows, {}, &BlendRow::blend));
 
@@ -67,7 +69,7 @@ vk::PipelineColorBlendAttachmentState blend_state(const RasterState& state, Blen
     using Bit = vk::ColorComponentFlagBits;
     const BlendRow& row = blend_rows[static_cast<std::uint32_t>(blend)];
     const vk::Bool32 enabled = row.enabled || state.keeps_side_effects;
-    return {enabled, row.source, row.color, row.op, row.source, row.alpha, row.op, Bit::eR | Bit::eG | Bit::eB | Bit::eA};
+    return {enabled, row.source, row.color, row.op, row.source_alpha, row.alpha, row.op, Bit::eR | Bit::eG | Bit::eB | Bit::eA};
 }
 
 }  // namespace strata

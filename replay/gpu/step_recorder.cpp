@@ -93,11 +93,13 @@ void StepRecorder::record(const PlannedStep& planned, const DrawWork& work) {
     const DrawList& list = work.list;
     constexpr std::uint32_t stride = sizeof(vk::DrawIndexedIndirectCommand);
     const vk::Buffer commands = resources_->buffer(list.commands).handle();
-    commands_->bindIndexBuffer(resources_->buffer(list.indices).handle(), 0, vk::IndexType::eUint32);
+    if (list.indices) commands_->bindIndexBuffer(resources_->buffer(list.indices).handle(), 0, vk::IndexType::eUint32);
     const vk::DeviceSize first = vk::DeviceSize{list.first} * stride;
     if (work.count) {
         const vk::Buffer count = resources_->buffer(work.count).handle();
         commands_->drawIndexedIndirectCount(commands, first, count, work.count_offset, list.count, stride);
+    } else if (list.count > 0 && !list.indices) {
+        commands_->drawIndirect(commands, first, list.count, stride);
     } else if (list.count > 0) {
         commands_->drawIndexedIndirect(commands, first, list.count, stride);
     }

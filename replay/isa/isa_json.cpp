@@ -109,4 +109,18 @@ std::string as_json(const IsaReport& report) {
     return json_text(json);
 }
 
+std::string gpu_models_json() {
+    ordered_json json{{"schema", "strata.gpu_models"}, {"schema_version", 1}, {"gpus", ordered_json::array()}};
+    for (const GpuModel& model : gpu_models()) {
+        ordered_json& row = json["gpus"].emplace_back(json_of(model));
+        const UnitModel& unit = *model.unit;
+        row["wave_slots"] = unit.wave_slots;
+        row["registers"] = unit.registers;
+        row["register_granule"] = unit.register_granule;
+        row["lds_bytes"] = unit.lds_bytes;
+        row["radv_family"] = model.family.empty() ? ordered_json() : ordered_json(model.family);
+    }
+    return json_text(json);
+}
+
 }  // namespace strata

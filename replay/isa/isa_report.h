@@ -70,5 +70,6 @@ std::string as_text(const IsaReport&);
 std::string as_json(const IsaReport&);
 /// Every model of the table.
 std::string gpu_models_text();
+std::string gpu_models_json();
 
 }  // namespace strata

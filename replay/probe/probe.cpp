@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "capture_format/nearest_name.h"
 #include "passes/reference/ordering.h"
@@ -25,47 +24,35 @@ constexpr double disturbance_noted = 2e-3;
 // Off the steps: farther from every one than this share of the axis.
 constexpr double off_steps = .01;
 
-struct Method {
+struct ProbedMethod {
     std::string name;
     const Technique* technique = nullptr;
     Request request;
 };
 
-/// "transparency/name key=value ...", or the name without its stage.
-Result<Method> parse_method(const std::string& text) {
-    std::istringstream words(text);
-    std::string technique;
-    words >> technique;
-    if (technique.find('/') == technique.npos) technique = fmt::format("{}/{}", name(Stage::transparency), technique);
-    const auto found = find_technique(technique);
-    if (!found) return Error{Fault::usage, found.error().sentence};
-    if ((*found)->stage != Stage::transparency)
-        return fail(Fault::usage, "{} is of the stage {}; a probe measures methods of {}", technique, name((*found)->stage),
-                    name(Stage::transparency));
-    Method method{technique, *found, {.choices = {}, .outputs = {"color"}}};
-    if (const std::string_view slices_table = (*found)->abilities.slices_table; !slices_table.empty())
-        method.request.outputs.push_back(fmt::format("{}:{}", technique, slices_table));
-    method.request.choices.use(**found);
-    for (std::string set; words >> set;) {
-        auto change = parse_setting(**found, set);
-        if (!change) return change.error();
-        method.request.choices.settings.push_back(*std::move(change));
-        method.name += " " + set;
-    }
-    const auto choices = choose(Frame(), method.request.choices);
-    return choices ? Result<Method>(std::move(method)) : choices.error();
+Result<ProbedMethod> probed(const std::string& text) {
+    auto parsed = parse_method(Stage::transparency, text);
+    if (!parsed) return parsed.error();
+    const Technique& technique = *parsed->technique;
+    ProbedMethod method{std::string(technique.name), &technique, {.choices = {}, .outputs = {"color"}}};
+    if (const std::string_view slices_table = technique.abilities.slices_table; !slices_table.empty())
+        method.request.outputs.push_back(fmt::format("{}:{}", technique.name, slices_table));
+    method.request.choices.use(technique);
+    method.request.choices.settings = std::move(parsed->settings);
+    if (!parsed->text.empty()) method.name += " " + parsed->text;
+    return method;
 }
 
-Result<std::vector<Method>> parse_methods(std::span<const std::string> texts) {
-    std::vector<Method> methods;
+Result<std::vector<ProbedMethod>> parse_methods(std::span<const std::string> texts) {
+    std::vector<ProbedMethod> methods;
     for (const std::string& text : texts) {
-        auto method = parse_method(text);
+        auto method = probed(text);
         if (!method) return method.error();
         methods.push_back(*std::move(method));
     }
     if (texts.empty())
         for (const Technique* technique : techniques_of(Stage::transparency))
-            methods.push_back(*parse_method(std::string(technique->name)));
+            methods.push_back(*probed(std::string(technique->name)));
     return methods;
 }
 
@@ -122,9 +109,9 @@ struct Picture {
 };
 
 /// What the device makes of one frame by each of several methods: the row of pixels, and the slices of those that have some.
-Result<std::vector<Picture>> pictures_of(Session& session, const ProbeScene& scene, std::span<const Method> methods) {
+Result<std::vector<Picture>> pictures_of(Session& session, const ProbeScene& scene, std::span<const ProbedMethod> methods) {
     std::vector<Request> requests;
-    for (const Method& method : methods) requests.push_back(method.request);
+    for (const ProbedMethod& method : methods) requests.push_back(method.request);
     const auto runs = session.run(probe_frame(scene), requests);
     if (!runs) return runs.error();
     std::vector<Picture> pictures;
@@ -148,7 +135,7 @@ struct Measured {
 };
 
 /// Methods that take the same kind of probe, measured together: a frame is uploaded once for all.
-Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const Method> methods) {
+Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::span<const ProbedMethod> methods) {
     const bool is_additive = scene.kind == ProbeKind::additive;
     std::vector<std::vector<Picture>> pictures;
     const auto take = [&](ProbeKind kind, float background) -> Result<void> {
@@ -197,13 +184,13 @@ std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind) {
 }
 
 /// Fills Probe::curves, in the order of the methods.
-Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const std::vector<Method>& methods) {
+Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const std::vector<ProbedMethod>& methods) {
     ProbeScene bare = scene;
     bare.kind = ProbeKind::none;
     const Features features = frame_features(probe_frame(bare));
     probe.curves.resize(methods.size());
     for (const ProbeKind kind : {ProbeKind::additive, ProbeKind::thin_black}) {
-        std::vector<Method> together;
+        std::vector<ProbedMethod> together;
         std::vector<ProbeCurve*> curves;
         for (std::size_t i = 0; i < methods.size(); ++i) {
             const bool has_additive =

@@ -77,6 +77,22 @@ ordered_json json_of_best(const std::vector<Row>& rows, const std::vector<Standi
     return json;
 }
 
+ordered_json json_of_answer(const Report& report) {
+    const Answer answer = find_answer(standings(report.rows), baseline_of(report), report.question);
+    const auto row = [&](std::optional<std::size_t> i) {
+        return i ? ordered_json{{"technique", report.rows[*i].technique}, {"settings", report.rows[*i].settings}}
+                 : ordered_json();
+    };
+    ordered_json json{{"error", nullptr}, {"within", nullptr}, {"keeps_all", answer.keeps_all}};
+    if (report.question.error) json["error"] = *report.question.error;
+    if (report.question.within) json["within"] = *report.question.within;
+    json["cheapest"] = row(answer.cheapest);
+    json["most_accurate"] = row(answer.most_accurate);
+    json["as_fast"] = ordered_json::array();
+    for (const std::size_t i : answer.as_fast) json["as_fast"].push_back(row(i));
+    return json;
+}
+
 ordered_json json_of(const Report& report) {
     ordered_json json{{"schema", "strata.report"},
                       {"schema_version", 1},
@@ -97,6 +113,7 @@ ordered_json json_of(const Report& report) {
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
     for (const Measurement& row : report.rows) json["rows"].push_back(json_of(row));
     json["best_within"] = json_of_best(report.rows, standings(report.rows), report.time_unit);
+    if (report.question.is_asked()) json["answer"] = json_of_answer(report);
     return json;
 }
 

@@ -70,6 +70,16 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
     return text;
 }
 
+std::string answer_text(const Report& report) {
+    if (!report.question.is_asked()) return "";
+    AnswerNames names{.rows = {}, .error = {}, .unit = below_stage(report.time_unit)};
+    for (const Measurement& row : report.rows) {
+        names.rows.push_back(short_label(row));
+        if (names.error.empty() && !row.accuracy.method.empty()) names.error = row.accuracy.method.front().name;
+    }
+    return "\n" + answer_text(standings(report.rows), baseline_of(report), report.question, names);
+}
+
 std::string counters_text(const Measurement& row) {
     std::string text;
     for (const CounterRecord& counter : row.counters)
@@ -146,7 +156,8 @@ std::string as_text(const Report& report) {
     const std::string text = heading(report);
     if (!report.skipped.empty()) return text;
     return text + "\n" + as_text(table_of(report)) + "\n" + std::string(legend) + implementation_text(report) +
-           mirrors_text(report) + best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report);
+           mirrors_text(report) + best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report) +
+           answer_text(report);
 }
 
 std::string as_text(const Pool& pool) {

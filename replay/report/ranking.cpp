@@ -8,8 +8,9 @@ namespace strata {
 
 std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
     const auto beats = [&](const Standing& one, const Standing& other) {
-        const bool no_worse = *one.error <= *other.error && one.*cost <= other.*cost;
-        return no_worse && (*one.error < *other.error || one.*cost < other.*cost);
+        const double apart = cost == &Standing::time ? one.spread + other.spread : 0;
+        const bool no_worse = *one.error <= *other.error && one.*cost <= other.*cost + apart;
+        return no_worse && (*one.error < *other.error || one.*cost + apart < other.*cost);
     };
     std::vector<bool> front;
     for (const Standing& row : rows)
@@ -33,8 +34,9 @@ std::string name(const Budget& budget) {
 
 std::optional<std::size_t> best_within(std::span<const Standing> rows, const Budget& budget) {
     std::optional<std::size_t> best;
+    const auto spent = [&](const Standing& row) { return row.*budget.cost + (budget.cost == &Standing::time ? row.spread : 0); };
     for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].error && rows[i].*budget.cost <= budget.most && (!best || *rows[i].error < *rows[*best].error)) best = i;
+        if (rows[i].error && spent(rows[i]) <= budget.most && (!best || *rows[i].error < *rows[*best].error)) best = i;
     return best;
 }
 

@@ -12,11 +12,12 @@ namespace strata {
 struct Standing {
     std::optional<double> error;
     double time = 0;             ///< in whatever unit all rows have
+    double spread = 0;           ///< of time: two times that differ by less than both spreads are equal
     double bytes_per_pixel = 0;  ///< whole ones: the few bytes of a counter are no cost
 };
 using Cost = double Standing::*;
 
-/// For each row whether nothing is both more accurate and cheaper; equal rows share the front.
+/// For each row whether no other is more accurate and no dearer, or cheaper and no less accurate; equal rows share the front.
 std::vector<bool> pareto_front(std::span<const Standing>, Cost);
 
 /// A most that may be spent: "time" 2, "bytes per pixel" 32.
@@ -29,7 +30,7 @@ std::span<const Budget> budgets();
 /// "time <= 2", "bytes per pixel <= 32".
 std::string name(const Budget&);
 
-/// The most accurate row within a budget, or nothing.
+/// The most accurate row within a budget, also with its spread, or nothing.
 std::optional<std::size_t> best_within(std::span<const Standing>, const Budget&);
 
 }  // namespace strata

@@ -100,7 +100,10 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
     const auto runs = session.time(timed, report.repeats, tell);
     if (!runs) return runs.error();
     const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
-    const auto unit = std::ranges::find_if(places, [&](std::size_t i) { return all[i].technique->abilities.is_time_unit; });
+    // At its defaults, where they are measured.
+    const auto is_unit = [&](std::size_t i) { return all[i].technique->abilities.is_time_unit; };
+    auto unit = std::ranges::find_if(places, [&](std::size_t i) { return is_unit(i) && all[i].settings.empty(); });
+    if (unit == places.end()) unit = std::ranges::find_if(places, is_unit);
     std::vector<double> unit_times;
     if (unit != places.end()) unit_times = times((*runs)[std::size_t(unit - places.begin())]);
     const bool measurable = !unit_times.empty() && std::ranges::min(unit_times) > 0;  // 0: a clock too coarse for the frame
@@ -140,11 +143,19 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
     std::vector<Standing> all;
     for (const Measurement& row : rows) {
         Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
+                          .spread = row.time ? row.time->mad : row.stage_ms.mad,
                           .bytes_per_pixel = std::round(row.bytes_per_pixel)};
         if (!row.accuracy.method.empty()) standing.error = row.accuracy.method.front().value;
         all.push_back(standing);
     }
     return all;
+}
+
+std::optional<std::size_t> baseline_of(const Report& report) {
+    const auto found = std::ranges::find_if(report.rows, [&](const Measurement& row) {
+        return row.technique == report.time_unit && row.settings.empty() && row.accuracy.not_supported.empty();
+    });
+    return found == report.rows.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - report.rows.begin()));
 }
 
 void mark_fronts(std::vector<Measurement>& rows) {
@@ -181,7 +192,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
                   .width = view.width,
                   .height = view.height,
                   .samples = view.samples,
-                  .device = session.device()};
+                  .device = session.device(),
+                  .question = wanted.question};
     const auto planned = session.plan(wanted.base);
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped)

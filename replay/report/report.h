@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "replay/report/answer.h"
 #include "replay/report/ranking.h"
 #include "replay/session/session.h"
 
@@ -28,7 +29,10 @@ struct Walk {
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
     Stage stage = Stage::transparency;
-    std::vector<Sweep> sweeps;  ///< none: every technique's defaults and its own points
+    std::vector<std::string> methods;  ///< "technique key=value ..."; none: every technique of the stage
+    bool defaults_only = false;        ///< without the techniques' own points
+    std::vector<Sweep> sweeps;         ///< instead of their own points
+    Question question;
     std::size_t repeats = 7;
     std::optional<Walk> flicker;
 };
@@ -58,8 +62,9 @@ struct Report {
     std::size_t frame = 0, repeats = 0;
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
-    std::string time_unit;          ///< the technique whose time is 1; empty: none could be measured
-    std::optional<Walk> flicker;    ///< with its dolly
+    std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured
+    std::optional<Walk> flicker;  ///< with its dolly
+    Question question;
     std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
 };
@@ -70,6 +75,8 @@ Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {})
 void mark_fronts(std::vector<Measurement>&);
 /// What the rows are ranked by: the first figure of the stage's judge; time in the time unit, or in milliseconds without one.
 std::vector<Standing> standings(std::span<const Measurement>);
+/// The row whose time is 1, if it was measured.
+std::optional<std::size_t> baseline_of(const Report&);
 
 /// The figures of the stage's judge, and FLIP's mean behind them where there is one.
 std::vector<Figure> errors_of(const Measurement&);

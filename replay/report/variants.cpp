@@ -38,6 +38,18 @@ std::vector<Variant> swept(const Variant& defaults, std::span<const Sweep> sweep
     return variants;
 }
 
+/// Times are multiples of the time unit's: it is measured, asked for or not.
+std::vector<Variant> with_the_time_unit(std::vector<Variant> listed, const ReportRequest& wanted) {
+    for (const Technique* technique : techniques_of(wanted.stage)) {
+        const auto is_listed = [&](const Variant& variant) { return variant.technique == technique && variant.settings.empty(); };
+        if (!technique->abilities.is_time_unit || std::ranges::any_of(listed, is_listed)) continue;
+        Variant unit{technique, wanted.base, ""};
+        unit.request.choices.use(*technique);
+        listed.push_back(std::move(unit));
+    }
+    return listed;
+}
+
 }  // namespace
 
 std::string label(std::string_view technique, std::string_view settings) {
@@ -63,11 +75,20 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
         if (std::ranges::none_of(techniques, [&](const Technique* technique) { return has_param(*technique, sweep.key); }))
             return fail(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
     std::vector<Variant> all;
+    for (const std::string& text : wanted.methods) {
+        auto method = parse_method(wanted.stage, text);
+        if (!method) return method.error();
+        Variant listed{method->technique, wanted.base, method->text};
+        listed.request.choices.use(*method->technique);
+        std::ranges::move(method->settings, std::back_inserter(listed.request.choices.settings));
+        std::ranges::move(swept(listed, wanted.sweeps), std::back_inserter(all));
+    }
+    if (!wanted.methods.empty()) return with_the_time_unit(std::move(all), wanted);
     for (const Technique* technique : techniques) {
         Variant defaults{technique, wanted.base, ""};
         defaults.request.choices.use(*technique);
         std::ranges::move(swept(defaults, wanted.sweeps), std::back_inserter(all));
-        if (!wanted.sweeps.empty()) continue;
+        if (!wanted.sweeps.empty() || wanted.defaults_only) continue;
         for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));
     }
     return all;

@@ -66,6 +66,7 @@ void DeviceScene::describe(const SceneRecords& scene) {
     opaque_ = scene.opaque;
     casters_ = scene.casters;
     transparent_ = scene.transparent;
+    numbered_ = scene.numbered;
     back_to_front_ = scene.back_to_front;
 }
 
@@ -90,6 +91,8 @@ void DeviceScene::import_into(Graph& graph, FrameImages& images) const {
     images.all_opaque = images.opaque = list(opaque_);
     images.casters = list(casters_);
     images.transparent = list(transparent_);
+    images.numbered = list(numbered_);
+    images.numbered.indices = {};
     images.back_to_front = list(back_to_front_);
 }
 

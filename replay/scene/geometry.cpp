@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -134,6 +135,13 @@ CommandRange add_commands(std::span<const std::uint32_t> listed, std::span<const
     return range;
 }
 
+/// As VkDrawIndirectCommand in the same 20 bytes: the first vertex is the first place in the list of indices.
+std::vector<DrawCommand> not_indexed(std::vector<DrawCommand> commands) {
+    for (DrawCommand& command : commands)
+        command.vertex_offset = static_cast<std::int32_t>(std::exchange(command.first_instance, 0u));
+    return commands;
+}
+
 }  // namespace
 
 void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
@@ -167,11 +175,16 @@ void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
         sorted.push_back({count, 1, add_quads(back_to_front_particles(frame, emitter), scene), vertex_offset, index});
         scene.draws.push_back(emitter_record(frame, e));
     }
-    for (std::uint32_t i = 0; i < scene.draws.size(); ++i) scene.draws[i].submission = i;
+    for (std::uint32_t i = 0; i < scene.draws.size(); ++i) {
+        scene.draws[i].submission = i;
+        scene.draws[i].first_index = submitted[i].first_index;
+        scene.draws[i].vertex_offset = static_cast<uint>(submitted[i].vertex_offset);
+    }
 
     scene.opaque = add_commands(facts.lists().opaque, submitted, scene);
     scene.casters = add_commands(facts.lists().casters, submitted, scene);
     scene.transparent = add_commands(facts.lists().transparent, submitted, scene);
+    scene.numbered = add_commands(facts.lists().transparent, not_indexed(submitted), scene);
     scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
 }
 

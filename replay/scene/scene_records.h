@@ -34,7 +34,7 @@ struct SceneRecords : LightRecords {
     std::vector<std::uint32_t> texels;
     std::vector<ShadowRecord> shadows;
     std::vector<DrawCommand> commands;
-    CommandRange opaque, casters, transparent, back_to_front;
+    CommandRange opaque, casters, transparent, numbered, back_to_front;
 };
 
 SceneRecords scene_records(const SceneFacts&);

@@ -1,6 +1,7 @@
 #include "replay/session/choice_text.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -76,6 +77,28 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
 
 Result<SettingChange> parse_setting(const Technique& technique, std::string_view text) {
     return parse_set(fmt::format("{}:{}", technique.name, text));
+}
+
+Result<Method> parse_method(Stage stage, std::string_view text) {
+    std::istringstream words{std::string(text)};
+    std::string word;
+    words >> word;
+    const auto found = find_technique(word.find('/') == word.npos ? fmt::format("{}/{}", name(stage), word) : word);
+    if (!found) return found.error();
+    if ((*found)->stage != stage)
+        return fail(Fault::usage, "{} is of the stage {}, not of {}", word, name((*found)->stage), name(stage));
+    Method method{*found, {}, ""};
+    Settings settings((*found)->params);
+    while (words >> word) {
+        auto change = parse_setting(**found, word);
+        if (!change) return change.error();
+        if (const auto done = std::visit([&](const auto& value) { return settings.set(change->key, value); }, change->value);
+            !done)
+            return done.error();
+        method.settings.push_back(*std::move(change));
+        method.text += fmt::format("{}{}", method.text.empty() ? "" : " ", word);
+    }
+    return method;
 }
 
 std::vector<std::string> use_texts(const ChoiceChanges& changes) {

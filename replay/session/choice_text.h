@@ -18,6 +18,15 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
 /// "key=value", of this technique.
 Result<SettingChange> parse_setting(const Technique&, std::string_view text);
 
+/// A technique with settings, of a list of methods.
+struct Method {
+    const Technique* technique = nullptr;
+    std::vector<SettingChange> settings;
+    std::string text;  ///< of the settings: "key=value ..."
+};
+/// "technique key=value ...", with or without its stage, which must be the given one. Fails for values out of range, too.
+Result<Method> parse_method(Stage, std::string_view text);
+
 /// "stage/technique" of every technique, in the order of the stages.
 std::vector<std::string> use_texts(const ChoiceChanges&);
 /// "stage/technique:key=value", or "key=value" of a change for every chosen technique that has the key.

@@ -43,13 +43,6 @@ Result<void> apply(Choices& choices, const SettingChange& change) {
     return {};
 }
 
-Result<void> check_needs(const Technique& technique, const Capabilities& device) {
-    for (const Capability needed : technique.needs)
-        if (!has(device, needed))
-            return fail(Fault::device_lacks, "{} needs {}, which this device does not have", technique.name, name(needed));
-    return {};
-}
-
 /// Declares what the technique does at one place of the frame, in a scope of its own.
 DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const StageWork& what) {
     const Technique& technique = *choice.technique;
@@ -91,6 +84,15 @@ Result<Choices> choose(const Frame& frame, const ChoiceChanges& changes) {
     return choices;
 }
 
+std::optional<std::string> beyond_device(const Choice& choice, const FrameImages& images) {
+    const Technique& technique = *choice.technique;
+    for (const Capability needed : technique.needs)
+        if (!has(images.capabilities, needed))
+            return fmt::format("{} needs {}, which this device does not have", technique.name, name(needed));
+    if (!technique.beyond_device) return std::nullopt;
+    return technique.beyond_device(images, choice.settings);
+}
+
 Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Choices& choices, const Capabilities& device,
                                     const AfterAct& after) {
     DeclaredFrame frame;
@@ -103,7 +105,9 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
         } else if (choice == choices.end()) {
             frame.skipped.push_back({stage.stage, "no technique of this stage is built in"});
         } else {
-            if (const auto fits = check_needs(*choice->second.technique, device); !fits) return fits.error();
+            if (const auto why = beyond_device(choice->second, images)) return fail(Fault::device_lacks, "{}", *why);
+            if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt)
+                return fail(Fault::device_lacks, "{}", *why);
             wanted.insert(*choice);
         }
     }

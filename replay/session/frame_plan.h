@@ -48,6 +48,9 @@ struct ChoiceChanges {
 /// that no chosen technique has, and for a value that one of them refuses.
 Result<Choices> choose(const Frame&, const ChoiceChanges& = {});
 
+/// Why the device of the images cannot do their frame as chosen, or nothing.
+std::optional<std::string> beyond_device(const Choice&, const FrameImages&);
+
 struct SkippedStage {
     Stage stage;
     std::string reason;

@@ -260,9 +260,25 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
 }
 
+std::optional<std::string> DeviceSession::lacking(const Request& request, Stage stage) const {
+    if (!loaded_) return std::nullopt;
+    const auto choices = choose(loaded_->frame, request.choices);
+    if (!choices || !choices->contains(stage)) return std::nullopt;
+    const FrameImages images{.recorded = &loaded_->frame,
+                             .features = &loaded_->features,
+                             .facts = &loaded_->facts,
+                             .capabilities = device().capabilities};
+    return beyond_device(choices->at(stage), images);
+}
+
 Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Against against, const ImageSet* truth) {
     const auto inspected = inspect(request, stage);
-    if (!inspected) return inspected.error();
+    if (!inspected) {
+        // A loop over techniques goes on to the next one.
+        const auto why = inspected.error().fault == Fault::device_lacks ? lacking(request, stage) : std::nullopt;
+        if (why) return Accuracy{.not_supported = *why};
+        return inspected.error();
+    }
     const auto rounding = against == Against::truth ? Result(BlendRounding()) : this->rounding();
     if (!rounding) return rounding.error();
     Accuracy accuracy = judge_stage({.frame = loaded_->frame,

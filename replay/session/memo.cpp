@@ -103,7 +103,8 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     for (const Step& step : graph.steps()) {
         if (step.scope != act.scope) continue;
         for (const std::string& shader : step.shaders) hash.add(shaders_->replaced(shader));
-        if (std::holds_alternative<DrawWork>(step.work)) hash.add(shaders_->replaced(mesh_vertex_shader));
+        if (const auto* draw = std::get_if<DrawWork>(&step.work))
+            hash.add(shaders_->replaced(draw->list.indices ? mesh_vertex_shader : numbered_vertex_shader));
         for (const Use& use : uses(step)) {
             use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
             if (!use.image && graph.record(use.buffer).remembered) hash.add(run_);

@@ -15,6 +15,8 @@
 
 #include "capture_format/reader.h"
 #include "consumer/engine.h"
+#include "tests/support/file_text.h"
+#include "tests/support/readme_blocks.h"
 
 namespace strata {
 namespace {
@@ -105,6 +107,57 @@ TEST_F(Consumer, LinksNoVulkanAndNoImporter) {
     EXPECT_EQ(libraries.code, 0);
     EXPECT_THAT(libraries.output, testing::AllOf(HasSubstr("libzstd"), Not(HasSubstr("vulkan")), Not(HasSubstr("meshoptimizer")),
                                                  Not(HasSubstr("OpenEXR"))));
+}
+
+/// What CMake says of the consumer without a package; CMake breaks lines anywhere.
+std::string configured_without(const std::string& package) {
+    const Outcome refused =
+        run(fmt::format("cmake -S '{}/tests/1_capture/consumer' -B '{}' -DCMAKE_PREFIX_PATH='{}' -DCMAKE_CXX_COMPILER='{}' "
+                        "-DCMAKE_DISABLE_FIND_PACKAGE_{}=ON 2>&1 | tr -s ' \\n' ' '",
+                        STRATA_SOURCE_DIR, (work / "incomplete").string(), (work / "installed").string(), STRATA_CXX, package));
+    fs::remove_all(work / "incomplete");
+    return refused.output;
+}
+
+TEST_F(Consumer, WhatTheLibraryNeedsAndIsNotInstalledIsNamedWithItsDebianPackage) {
+    EXPECT_THAT(configured_without("fmt"),
+                HasSubstr("strata::capture links these, which were not found: fmt. On Debian: apt install libfmt-dev"));
+    EXPECT_THAT(configured_without("PkgConfig"), HasSubstr("PkgConfig. On Debian: apt install pkg-config"));
+}
+
+TEST_F(Consumer, InstalledHeadersIncludeEachOtherWhereTheyAreInstalled) {
+    std::size_t headers = 0;
+    for (const auto& header : fs::directory_iterator(work / "installed/include/strata")) {
+        ++headers;
+        EXPECT_THAT(file_text(header.path()), Not(HasSubstr("#include \""))) << header.path();
+        const Outcome alone = run(fmt::format("'{}' -std=c++20 -fsyntax-only -x c++ -I '{}' '{}'", STRATA_CXX,
+                                              (work / "installed/include").string(), header.path().string()));
+        EXPECT_EQ(alone.code, 0) << alone.output;
+    }
+    EXPECT_EQ(headers, 6u);
+}
+
+/// The README's own commands, in a folder that looks like the project's after `./build.sh`.
+TEST_F(Consumer, TheReadmesProgramIsBuiltAndWhatItRecordsIsReplayed) {
+    const fs::path root = work / "readme";
+    fs::remove_all(root);
+    fs::create_directories(root);
+    fs::create_directory_symlink(STRATA_BINARY_DIR, root / "build");
+    fs::create_directory_symlink(fs::path(STRATA_SOURCE_DIR) / "docs", root / "docs");
+    std::size_t commands = 0;
+    for (const ReadmeBlock& block : blocks_of(file_text(fs::path(STRATA_SOURCE_DIR) / "README.md"))) {
+        if (block.section != "Record your own renderer") continue;
+        for (const ReadmeCommand& command : commands_of(block, {"cmake", "out/engine/engine", "build/strata"})) {
+            ++commands;
+            const Outcome outcome = run(fmt::format("cd '{}' && export CXX='{}' && {}", root.string(), STRATA_CXX, command.text));
+            ASSERT_EQ(outcome.code, 0) << "README.md:" << command.line << ": " << command.text << "\n" << outcome.output;
+        }
+    }
+    EXPECT_EQ(commands, 7u);
+    const auto capture = Capture::open(root / "frames.strata");
+    ASSERT_TRUE(capture) << capture.error().sentence;
+    EXPECT_EQ(capture->frame_count(), 12u);
+    EXPECT_TRUE(fs::exists(root / "out/frames/frames.f0011.png"));
 }
 
 TEST_F(Consumer, SixtyFramesOfTwoThousandMovingDrawsAreReadBackBitForBit) {

@@ -1,5 +1,7 @@
 // What shaders say about themselves, on shaders that are built in.
 #include <algorithm>
+#include <set>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,6 +60,28 @@ TEST(Reflection, AShaderThatChoosesALayerIsKnown) {
     EXPECT_TRUE(chooses("transparency/voxel/factors/choose_slice.geom"));
     EXPECT_FALSE(chooses("shaders/draw.vert"));
     EXPECT_EQ(ShaderLibrary::built_in().find("transparency/voxel/factors/choose_slice.geom")->stage, ShaderStage::geometry);
+}
+
+/// What the shader declares to use of a device, as SPIR-V numbers it.
+std::set<std::uint32_t> device_features_of(std::span<const std::uint32_t> code) {
+    constexpr std::uint32_t op_capability = 17, header_words = 5;
+    std::set<std::uint32_t> found;
+    for (std::size_t at = header_words; at + 1 < code.size() && (code[at] & 0xffffu) == op_capability; at += 2)
+        found.insert(code[at + 1]);
+    return found;
+}
+
+// A device runs a shader that asks for more than it has, or crashes; only the validation layer would say so.
+TEST(Reflection, ShadersAskForCapabilitiesThatTheirTechniquesName) {
+    constexpr std::uint32_t geometry = 2, int64 = 11, int64_atomics = 12, draw_parameters = 4427, viewport_layer = 5254;
+    for (const EmbeddedShader& shader : embedded_shaders()) {
+        const auto uses = device_features_of(shader.code);
+        const bool is_k_buffer = shader.name.starts_with("transparency/k_buffer/");
+        EXPECT_EQ(uses.contains(geometry), shader.name.ends_with(".geom")) << shader.name << ": geometry_shaders";
+        EXPECT_TRUE(is_k_buffer || !(uses.contains(int64) || uses.contains(int64_atomics))) << shader.name << ": int64_atomics";
+        EXPECT_FALSE(uses.contains(draw_parameters)) << shader.name << ": gl_BaseVertex, gl_DrawID";
+        EXPECT_FALSE(uses.contains(viewport_layer)) << shader.name << ": gl_ViewportIndex";
+    }
 }
 
 TEST(Reflection, NestedStructsAreFlattened) {

@@ -75,7 +75,9 @@ std::vector<Record> geometry_records() {
               {"layer", offsetof(D, layer)},
               {"bound_center", offsetof(D, bound_center)},
               {"bound_radius", offsetof(D, bound_radius)},
-              {"motion", offsetof(D, motion)}}}};
+              {"motion", offsetof(D, motion)},
+              {"first_index", offsetof(D, first_index)},
+              {"vertex_offset", offsetof(D, vertex_offset)}}}};
 }
 
 std::vector<Record> material_records() {

@@ -82,11 +82,14 @@ TEST(RoundTrip, ADrawArrivesWithItsMatrices) {
     draw.bound_radius = 33;
     for (int column = 0; column < 4; ++column)
         for (int i = 0; i < 4; ++i) draw.motion[column][i] = static_cast<float>(4 * column + i + 34);
+    draw.first_index = 50;
+    draw.vertex_offset = 51;
     const auto seen =
         members_seen_by_a_shader(draw, "DrawRecord",
                                  "see(r.to_view); see(r.normal_to_view); see(r.material); see(r.submission);"
-                                 "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius); see(r.motion);");
-    ASSERT_EQ(seen.size(), 49u);
+                                 "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius); see(r.motion);"
+                                 "see(r.first_index); see(r.vertex_offset);");
+    ASSERT_EQ(seen.size(), 51u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 

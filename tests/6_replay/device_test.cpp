@@ -1,8 +1,10 @@
-// Finding devices: by index, by a part of the name, and what is said where there is none.
+// Finding devices: by index, by a part of a name, and what is said where there is none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "replay/gpu/library_build.h"
 #include "tests/support/device.h"
+#include "tests/support/second_device.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -29,6 +31,22 @@ TEST(Devices, AreChosenByIndexOrByPartOfTheNameInAnyCase) {
     for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     EXPECT_EQ(must(Device::open({.gpu = part}))->info().name, shared.name);
     EXPECT_EQ(must(Device::open({.gpu = std::to_string(shared.index)}))->info().name, shared.name);
+}
+
+TEST(Devices, AreAlsoChosenByPartOfTheirDriversNameAndVersion) {
+    const DeviceInfo& shared = shared_device().info();
+    ASSERT_THAT(shared.driver_version, Not(IsEmpty()));
+    EXPECT_EQ(must(Device::open({.gpu = shared.driver}))->info().name, shared.name);
+    EXPECT_EQ(must(Device::open({.gpu = shared.driver_version}))->info().name, shared.name);
+}
+
+TEST(Devices, WhoseDriverHasNoVersionAreToldApartByTheBuildOfItsLibrary) {
+    EXPECT_EQ(build_of_library("no such library"), std::nullopt);
+    ASSERT_TRUE(build_of_library("libvulkan.so")) << "Debian's libraries have build IDs";
+    EXPECT_EQ(build_of_library("libvulkan.so")->size(), 40u);
+    if (second_driver().empty() || second_gpu() != "SwiftShader") GTEST_SKIP() << no_second_driver;
+    const auto session = second_session(scenario_frames("one_pane"));
+    EXPECT_EQ(session->device().driver_version, "build " + build_of_library("vk_swiftshader").value());
 }
 
 TEST(Devices, ThatDoNotExistAreAnsweredWithTheList) {

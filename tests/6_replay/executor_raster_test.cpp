@@ -219,6 +219,17 @@ TEST(Raster, CompositesWithATransmittancePerChannel) {
     EXPECT_EQ(texel(frame.result(target), 9, 3), glm::dvec4(5, 4, 3, 12));
 }
 
+TEST(Raster, CompositesWithOneTransmittanceAndKeepsAlpha) {
+    RasterFrame frame;
+    frame.shader("grey.frag", R"(
+        layout(location = 0) out vec4 out_light;  // a: transmittance
+        void main() { out_light = vec4(1, 2, 3, 0.25); })");
+    Image target = frame.graph.create("target", {.extent = {16, 8}, .format = Format::rgba32f});
+    frame.graph.clear(target, {{8, 8, 8, 7}});
+    frame.graph.fullscreen("grey").composites_grey(target);
+    EXPECT_EQ(texel(frame.result(target), 9, 3), glm::dvec4(3, 4, 5, 7));
+}
+
 TEST(Raster, KeepsTheCountsOfFragmentsThatLaterOnesCover) {
     RasterFrame frame;
     frame.shader("counting.vert", pulling_vertex);

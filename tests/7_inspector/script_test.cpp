@@ -134,6 +134,10 @@ TEST(Inspect, WhatNoWindowCouldShowEndsBeforeOneOpens) {
     EXPECT_EQ(code("panes.strata --frame 7"), 2);
     EXPECT_EQ(code("panes.strata --use transparency/nothing"), 2);
     EXPECT_EQ(code("panes.strata --set nothing=1"), 2);
+    EXPECT_EQ(code("panes.strata --gpu nosuch"), 2);
+    EXPECT_EQ(code("panes.strata --shaders nosuchfolder"), 2);
+    EXPECT_EQ(code("panes.strata --force badstage"), 2);
+    EXPECT_EQ(code("panes.strata --without nosuch"), 2);
     EXPECT_EQ(code("panes.strata"), 4) << "no display";
 }
 

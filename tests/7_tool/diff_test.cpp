@@ -1,12 +1,14 @@
 // strata diff: what it says of captures, settings and images that are and are not the same.
 #include <fstream>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/7_tool/process.h"
 #include "tests/support/file_text.h"
+#include "tests/support/second_device.h"
 
 namespace strata {
 namespace {
@@ -57,6 +59,26 @@ TEST_F(Diff, OfTwoDevicesOpensBothAndSaysWhichTheyAre) {
     EXPECT_THAT(none.err, HasSubstr("no_such_device"));
     const Finished lacking = strata("diff panes.strata --use transparency/weighted --memory-budget 1KiB");
     EXPECT_EQ(lacking.code, 4) << lacking.err;
+}
+
+TEST_F(Diff, OfTwoIndependentDevicesNamesBothAndTheFirstActThatDiverges) {
+    if (second_driver().empty()) GTEST_SKIP() << no_second_driver;
+    const std::string both = "export VK_ADD_DRIVER_FILES=" + second_driver();
+    const std::string devices = fmt::format("--gpu-a llvmpipe --gpu-b {}", second_gpu());
+    const Finished other = strata_after(both, "diff panes.strata --json " + devices);
+    EXPECT_EQ(other.code, 1) << other.err;
+    const json diff = json::parse(other.out), frame = diff["frames"][0];
+    EXPECT_THAT(diff["a"]["device"]["name"].get<std::string>(), HasSubstr("llvmpipe"));
+    EXPECT_THAT(diff["b"]["device"]["name"].get<std::string>(), HasSubstr(second_gpu()));
+    EXPECT_FALSE(frame["first_difference"].is_null());
+    // Two roundings of the same arithmetic: nothing that an eye sees.
+    EXPECT_EQ(strata_after(both, "diff panes.strata --limit 0.05 " + devices).code, 0);
+    EXPECT_EQ(strata_after(both, "replay panes.strata --repeat 2 --gpu " + second_gpu()).code, 0);
+    const Finished chromatic = strata_after(both, "record red_and_green_glass --size 16x9 -o glass.strata");
+    ASSERT_EQ(chromatic.code, 0) << chromatic.err;
+    const Finished refused = strata_after(both, "replay glass.strata --use alpha_blend --gpu " + second_gpu());
+    EXPECT_EQ(refused.code, 4);
+    EXPECT_THAT(refused.err, HasSubstr("dual_source_blending"));
 }
 
 TEST_F(Diff, FindsTheStepThatDiffersFirst) {

@@ -25,7 +25,8 @@ std::string contents_of(const std::string& name) { return file_text(folder() / n
 
 TEST(Export, WantsExactlyOneKind) {
     ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
-    EXPECT_THAT(strata("export panes.strata -o x").err, HasSubstr("say what to export: one of --deep, --image, --gltf, --json"));
+    EXPECT_THAT(strata("export panes.strata -o x").err,
+                HasSubstr("choose what to export: one of --deep, --image, --gltf, --json"));
     const Finished both = strata("export panes.strata --deep --json -o x");
     EXPECT_EQ(both.code, 2);
     EXPECT_THAT(both.err, HasSubstr("--deep and --json cannot be asked for together"));

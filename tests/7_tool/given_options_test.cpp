@@ -117,7 +117,7 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
         {images + " --gpu nosuch", "--gpu does not apply"},
         {mixed + " --use weighted", "--use does not apply: B is an image"},
         {"diff sound.strata sound.strata --warn-percent 3", "--warn-percent"},
-        {"isa --json", "--json does not apply"},
+        {"isa --no-run", "--no-run does not apply"},
         {"spectra sound.strata --repeats 3", "--repeats does not apply: --cost is weights"},
         {"spectra sound.strata --cost measured --gpu-model navi21", "--gpu-model does not apply"},
         {"replay sound.strata --samples 0", "--samples"},

@@ -1,4 +1,6 @@
 // strata isa: what RADV makes of a frame's pipelines for GPUs that are not there, against our own arithmetic.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -130,6 +132,10 @@ TEST(Isa, WithoutACaptureListsTheGpusThatAreKnown) {
     EXPECT_EQ(listed.code, 0) << listed.err;
     for (const char* name : {"bonaire", "ps4", "polaris10", "navi10", "navi21", "gfx1100"})
         EXPECT_THAT(listed.out, HasSubstr(name));
+    const json models = json::parse(strata("isa --json").out);
+    EXPECT_EQ(models["schema"], "strata.gpu_models");
+    for (const json& model : models["gpus"]) EXPECT_THAT(listed.out, HasSubstr(model["board"].get<std::string>()));
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(models["gpus"].size()), std::ranges::count(listed.out, '\n') - 2) << listed.out;
 }
 
 TEST(Isa, WrongRequestsAreUsageErrorsWithASentence) {

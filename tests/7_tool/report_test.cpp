@@ -62,6 +62,59 @@ TEST(ParetoFront, WhatIsNotSupportedIsNeverOnIt) {
     EXPECT_FALSE(rows[1].on_memory_front);
 }
 
+TEST(ParetoFront, ATimeWithinTheSpreadIsNotFaster) {
+    const std::vector<Standing> rows = {{.error = .01, .time = 1, .spread = .05}, {.error = .1, .time = .93, .spread = .03}};
+    EXPECT_EQ(pareto_front(rows, &Standing::time), (std::vector<bool>{true, false}));
+    const std::vector<Standing> apart = {{.error = .01, .time = 1, .spread = .05}, {.error = .1, .time = .9, .spread = .03}};
+    EXPECT_EQ(pareto_front(apart, &Standing::time), (std::vector<bool>{true, true}));
+}
+
+TEST(Budgets, OfTimeAreKeptWithTheSpread) {
+    const std::vector<Standing> rows = {{.error = .1, .time = .99, .spread = .05}, {.error = .2, .time = .9, .spread = .05}};
+    EXPECT_EQ(best_within(rows, {&Standing::time, 1}), 1u);
+}
+
+const std::vector<Standing> four_methods = {{.error = 0, .time = 1},
+                                            {.error = .001, .time = 2.7, .spread = .1},
+                                            {.error = .004, .time = 1.8, .spread = .1},
+                                            {.error = .005, .time = 1.9, .spread = .1},
+                                            {.error = .02, .time = 1.1, .spread = .02},
+                                            {.time = 0}};  // not supported
+
+TEST(Answers, NameTheCheapestBelowTheErrorAndTheMostAccurateWithinTheTime) {
+    const Answer answer = find_answer(four_methods, 0, {.error = .01, .within = 2});
+    EXPECT_TRUE(answer.keeps_all);
+    EXPECT_EQ(answer.cheapest, 2u);
+    EXPECT_EQ(answer.most_accurate, 2u);
+    EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{3});
+}
+
+TEST(Answers, OfNoMethodThatKeepsBothAreThoseThatKeepEither) {
+    const Answer answer = find_answer(four_methods, 0, {.error = .002, .within = 1.5});
+    EXPECT_FALSE(answer.keeps_all);
+    EXPECT_EQ(answer.cheapest, 1u);
+    EXPECT_EQ(answer.most_accurate, 4u);
+    EXPECT_EQ(find_answer(four_methods, 0, {.error = 1e-6, .within = .5}).cheapest, std::nullopt);
+}
+
+TEST(Answers, CountTheBaselineOnlyWhereThereIsNone) {
+    EXPECT_EQ(find_answer(four_methods, 0, {.error = .01}).cheapest, 2u);
+    EXPECT_EQ(find_answer(four_methods, std::nullopt, {.error = .01}).cheapest, 0u);
+}
+
+TEST(Answers, AreSentences) {
+    const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, "relative rmse", "alpha"};
+    EXPECT_EQ(
+        answer_text(four_methods, 0, {.error = .01, .within = 2}, names),
+        "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
+        "spread d; most accurate c (relative rmse 0.004, 1.80x)\n"
+        "the baseline alpha is not counted; here it has relative rmse 0, 1.00x\n");
+    EXPECT_EQ(
+        answer_text(four_methods, 0, {.error = 1e-6, .within = 1.5}, names),
+        "answer for relative rmse up to 1e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
+        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x\n");
+}
+
 TEST(Budgets, AreOfWholeBytes) {
     const std::vector<Measurement> rows = {row("with a counter", .1, 1, 16.0007)};
     EXPECT_EQ(best_within(standings(rows), {&Standing::bytes_per_pixel, 16}), 0u);

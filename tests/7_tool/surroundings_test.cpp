@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/capability.h"
 #include "replay/images/image_io.h"
 #include "tests/1_capture/temporary_file.h"
 #include "tests/7_tool/forged_captures.h"
@@ -131,22 +132,25 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
 
 TEST(Device, ThatLacksAFeatureIsNamedWithIt) {
     write_sound_capture();
-    for (const char* feature : {"dynamicRendering", "scalarBlockLayout", "dualSrcBlend", "shaderInt64"}) {
+    for (const char* feature : {"dynamicRendering", "scalarBlockLayout", "independentBlend", "timelineSemaphore"}) {
         const Finished failed = strata(fmt::format("replay sound.strata --without {}", feature));
         EXPECT_EQ(failed.code, 4) << feature;
         EXPECT_THAT(failed.err, HasSubstr(fmt::format("lacks the feature {}", feature)));
     }
-    const Finished unknown = strata("replay sound.strata --without dualSourceBlend");
+    const Finished unknown = strata("replay sound.strata --without independantBlend");
     EXPECT_EQ(unknown.code, 2);
-    EXPECT_THAT(unknown.err, HasSubstr("did you mean dualSrcBlend?"));
+    EXPECT_THAT(unknown.err, HasSubstr("did you mean independentBlend?"));
     EXPECT_EQ(files_made(), 0u);
 }
 
-TEST(Device, WithoutACapabilityBeyondTheBaselineTheFrameIsTheSame) {
+TEST(Device, WithoutCapabilitiesBeyondTheBaselineTheFrameIsTheSame) {
     write_sound_capture();
     ASSERT_EQ(strata("replay sound.strata --frames 0 -o with").code, 0);
-    const Finished without =
-        strata("replay sound.strata --frames 0 -o without --without buffer_int64_atomics --without fragment_interlock");
+    std::string options;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Capability::count_); ++i)
+        if (const auto capability = static_cast<Capability>(i); capability != Capability::long_loops)
+            options += fmt::format(" --without {}", name(capability));
+    const Finished without = strata("replay sound.strata --frames 0 --validation -o without" + options);
     ASSERT_EQ(without.code, 0) << without.err;
     EXPECT_EQ(read_file(folder() / "with/sound.f0000.exr"), read_file(folder() / "without/sound.f0000.exr"));
 }
@@ -163,6 +167,21 @@ TEST(ShaderCache, ThatIsBrokenChangesNothing) {
         EXPECT_EQ(replayed.code, 0) << broken << replayed.err;
         EXPECT_EQ(read_file(folder() / "good/sound.f0000.exr"), read_file(folder() / "broken/sound.f0000.exr")) << broken;
     }
+}
+
+TEST(Import, OfABlackPictureWarns) {
+    const auto write = [](const char* color) {
+        const std::string material = fmt::format(
+            R"(,"materials":[{{"doubleSided":true,"pbrMetallicRoughness":{{"baseColorFactor":[{}],"roughnessFactor":1}}}}])",
+            color);
+        std::ofstream(folder() / "wall.gltf")
+            << Gltf().with_triangle().text(showing(R"({"attributes":{"POSITION":0},"material":0})", material));
+    };
+    const char* verb = "import wall.gltf --size 32x18 --eye 0.2,0.2,0.05 --target 0.2,0.2,0";
+    write("0,0,0,1");
+    EXPECT_THAT(strata(verb).err, HasSubstr("% of the picture is black"));
+    write("0.8,0.8,0.8,1");
+    EXPECT_THAT(strata(verb).err, Not(HasSubstr("black")));
 }
 
 TEST(Memory, OfFilesIsBoundedByABudget) {

@@ -35,7 +35,7 @@ TEST(Tool, EveryVerbHasHelpInBothForms) {
 TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
     write_file(folder() / "sound.strata", sound_capture());
     for (const char* command :
-         {"list", "list --scenarios", "info sound.strata", "validate sound.strata", "replay sound.strata",
+         {"list", "list --scenarios", "--list-gpus", "isa", "info sound.strata", "validate sound.strata", "replay sound.strata",
           "accept sound.strata --dry-run", "graph sound.strata", "report sound.strata --repeats 1 --sweep pool=2",
           "bench voxel sound.strata --repeats 1 --only wrap", "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
           "probe sound.strata --at 8,4 --methods sorted_lists -o probed"}) {
@@ -43,6 +43,19 @@ TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
         ASSERT_EQ(printed.code, 0) << command << printed.err;
         EXPECT_THAT(json::parse(printed.out)["schema"].get<std::string>(), HasSubstr("strata.")) << command;
     }
+}
+
+TEST(Tool, GpusAreListedAsTextAndAsJson) {
+    const std::string text = strata("--list-gpus").out;
+    const json listed = json::parse(strata("--list-gpus --json").out);
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(listed["gpus"].size()), std::ranges::count(text, '\n'));
+    for (const json& gpu : listed["gpus"]) {
+        EXPECT_THAT(text, HasSubstr(fmt::format("{}  {}  (", gpu["index"].get<int>(), gpu["name"].get<std::string>())));
+        EXPECT_EQ(gpu["can_replay"].get<bool>(), gpu["lacks"].is_null());
+    }
+    const Finished alone = strata("--json");
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_THAT(alone.err, HasSubstr("--list-gpus"));
 }
 
 TEST(Tool, WithoutAVerbItListsThem) {
@@ -104,6 +117,23 @@ TEST(Record, AnUnknownScenarioIsAUsageError) {
     EXPECT_EQ(failed.code, 2);
     EXPECT_THAT(failed.err, HasSubstr("did you mean three_panes"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+}
+
+TEST(Record, ABudgetThatIsTooSmallIsAUsageErrorThatNamesTheSmallestThatIsEnough) {
+    // At 160 x 90 the thumbnail of one pane is larger than its frame. No scenario has a frame larger than its first.
+    for (const std::string scenario : {"smoke_grenade --size 16x9 --frames 3", "one_pane --size 160x90"}) {
+        const Finished refused = strata(fmt::format("record {} -o x.strata --budget 1KiB", scenario));
+        EXPECT_EQ(refused.code, 2) << scenario;
+        EXPECT_THAT(refused.err,
+                    testing::MatchesRegex("strata: --budget 1024 bytes is too small: (frame [0-2]|the thumbnail) takes "
+                                          "[0-9]+ bytes; pass --budget [0-9]+ or more\n"));
+        EXPECT_FALSE(std::filesystem::exists(folder() / "x.strata"));
+        const std::uint64_t enough = std::strtoull(refused.err.c_str() + refused.err.find("pass --budget ") + 14, nullptr, 10);
+        EXPECT_EQ(strata(fmt::format("record {} -o x.strata --budget {}", scenario, enough - 1)).code, 2) << scenario;
+        const Finished recorded = strata(fmt::format("record {} -o x.strata --budget {}", scenario, enough));
+        EXPECT_EQ(recorded.code, 0) << recorded.err;
+        std::filesystem::remove(folder() / "x.strata");
+    }
 }
 
 TEST(Record, FramesOfAnyShapeHaveASmallThumbnail) {
@@ -290,6 +320,26 @@ TEST(Report, ASweepReplacesThePointsAndTimesAreMultiplesOfTheUnits) {
         EXPECT_EQ(row["bytes_per_pixel"], row["stage_bytes"].get<double>() / (64 * 36));
     }
     EXPECT_EQ(report["best_within"].size(), 6u);
+}
+
+TEST(Report, AnswersWhichMethodKeepsAnErrorAndATime) {
+    record_panes();
+    const std::string verb =
+        "report panes.strata --repeats 3 --methods 'sorted_lists,weighted weight=w9' --error 1% --within 1000x";
+    const Finished made = strata(verb + " --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json report = json::parse(made.out);
+    EXPECT_EQ(report["rows"].size(), 3u) << "the time unit is measured, too";
+    EXPECT_EQ(report["answer"]["error"], .01);
+    EXPECT_EQ(report["answer"]["most_accurate"]["technique"], "transparency/sorted_lists");
+    EXPECT_EQ(report["answer"]["cheapest"]["technique"], "transparency/sorted_lists");
+    EXPECT_THAT(strata(verb).out,
+                HasSubstr("answer for relative rmse up to 0.01 within 1000x of alpha_blend: cheapest sorted_lists"));
+    const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
+    EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
+    for (const char* wrong : {"--methods nothing", "--methods 'weighted weight=w0'", "--methods lighting/tiled", "--error nan",
+                              "--error 0", "--within -2x", "--within 2y", "--defaults --methods weighted"})
+        EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
 }
 
 TEST(Report, FlickerIsNothingForWhatIsExactWhereverTheEyeGoes) {

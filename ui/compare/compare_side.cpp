@@ -126,7 +126,7 @@ void ComparedSide::show_replay(const SideWish& wish, Services& services) {
     const Error* error = services.replayer.error(place_);
     message_ = error ? error->sentence : "";
     const auto replay = services.replayer.shown(place_);
-    if (!replay || replay->request != wish.request) return;
+    if (!replay || replay->request != wish.request || replay->shaders != wish.shaders) return;
     picture_.set(wish, {.image = replay->image(replay, wish.subject.image)});
     if (!picture().image) message_ = fmt::format("this frame has no '{}'", wish.subject.image);
 }

@@ -31,8 +31,9 @@ struct Subject {
 struct SideWish {
     Source source = Source::replay;
     Subject subject;
-    Request request;        ///< the replay; of a truth: the replay that it is the truth of
-    std::string file = {};  ///< path
+    Request request;            ///< the replay; of a truth: the replay that it is the truth of
+    std::string file = {};      ///< path
+    std::uint64_t shaders = 0;  ///< see Replayer::shaders()
     friend bool operator==(const SideWish&, const SideWish&) = default;
 };
 

@@ -211,7 +211,9 @@ SideWish CompareSides::wish_of(const ChosenSide& side, const ChosenSide& other, 
 }
 
 void CompareSides::update(const Model& model, Services& services) {
-    const SideWish a = wish_of(a_, b_, model), b = wish_of(b_, a_, model);
+    SideWish a = wish_of(a_, b_, model), b = wish_of(b_, a_, model);
+    for (SideWish* wish : {&a, &b})
+        if (wish->source != Source::file) wish->shaders = services.replayer.shaders();
     a_.picture.show(a, services);
     b_.picture.show(b, services);
     for (ChosenSide* side : {&a_, &b_})

@@ -49,8 +49,16 @@ FrameRows frame_rows(const Replay& replay, const FrameTimes* times) {
     return rows;
 }
 
+namespace {
+
+/// What makes a view is no act of the frame: looking at one changes no count.
+bool counts(const FrameAct& act) { return act.scope.kind != ScopeKind::view; }
+
+}  // namespace
+
 std::size_t FrameRows::executed() const {
-    return static_cast<std::size_t>(std::ranges::count(acts, true, &FrameAct::is_executed));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(acts, [](const FrameAct& act) { return counts(act) && act.is_executed; }));
 }
 
 std::optional<std::size_t> FrameRows::step_timed_as(std::size_t place) const {
@@ -84,8 +92,8 @@ std::string face_of(const Scope& scope) {
 std::string short_name(std::string_view step) { return std::string(step.substr(step.rfind('/') + 1)); }
 
 std::string executed_text(const FrameRows& rows) {
-    const std::size_t executed = rows.executed();
-    return fmt::format("{} of {} executed, {} kept", executed, plural(rows.acts.size(), "act"), rows.acts.size() - executed);
+    const std::size_t executed = rows.executed(), all = static_cast<std::size_t>(std::ranges::count_if(rows.acts, counts));
+    return fmt::format("{} of {} executed, {} kept", executed, plural(all, "act"), all - executed);
 }
 
 std::optional<std::size_t> step_beside(const std::vector<std::size_t>& steps, std::optional<std::size_t> selected,

@@ -14,6 +14,7 @@ namespace strata::ui {
 struct FrameTimes {
     Request request;
     Run run;
+    std::uint64_t shaders = 0;  ///< see Replayer::shaders()
 };
 
 /// Consecutive steps of one scope.
@@ -29,7 +30,7 @@ struct FrameAct {
 struct FrameRows {
     std::vector<FrameAct> acts;
     std::vector<std::optional<std::size_t>> timed;  ///< of each step of the plan: its place among those measured
-    std::size_t executed() const;
+    std::size_t executed() const;                   ///< acts, without what makes views
     /// The plan's step that was measured as the one in that place.
     std::optional<std::size_t> step_timed_as(std::size_t place) const;
 };

@@ -23,6 +23,8 @@ public:
             return;
         }
         if (replay) take_outline(model, services, *replay);
+        const bool is_of_label = tables_of_ == model.edits().variant.frame;
+        const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, "tables"));
         draw_head(model, widgets);
         draw_table(model, widgets, tables_[table_]);
     }
@@ -43,8 +45,12 @@ private:
             });
         }
         if (!reading_ || !reading_->result()) return;
-        if (*reading_->result()) tables_ = **reading_->result();
-        else services.log.push_back({LogLine::Kind::failed, services.seconds, reading_->result()->error().sentence});
+        if (*reading_->result()) {
+            tables_ = **reading_->result();
+            tables_of_ = frame;
+        } else {
+            services.log.push_back({LogLine::Kind::failed, services.seconds, reading_->result()->error().sentence});
+        }
         reading_.reset();
         table_ = std::min(table_, tables_.size() - 1);
         order_is_known_ = false;
@@ -107,7 +113,9 @@ private:
 
     /// What is known of the selected draw's pixels.
     void draw_cover_line(Model& model, Widgets& widgets) const {
-        const Outline* outline = model.outline && model.outline->draw == model.draw ? model.outline.get() : nullptr;
+        const bool is_of_label =
+            model.outline && model.outline->draw == model.draw && model.outline->request == without_outputs(model.request());
+        const Outline* outline = is_of_label ? model.outline.get() : nullptr;
         if (!outline) return widgets.text("cover", "looking for its pixels\xe2\x80\xa6", &palette().dim);
         if (outline->shown + outline->hidden == 0) return widgets.text("cover", "not in the picture", &palette().warning);
         const std::string hidden =
@@ -195,6 +203,7 @@ private:
     std::optional<std::size_t> frame_, selected_;  ///< selected: a row of what is not seen in the picture
     JobOf<Tables> reading_;
     Tables tables_;
+    std::optional<std::size_t> tables_of_;  ///< frame
     std::size_t table_ = 0;
     std::string find_;
     std::vector<std::size_t> order_;

@@ -27,9 +27,15 @@ public:
         sides_.draw(model, widgets, services.replayer.shown("A"));
         update(model, services);
         draw_modes(model, widgets);
-        draw_pictures(model, services);
-        draw_legend(model, services);
-        draw_numbers(model, widgets);
+        // Each covers all that it is true of: a word stands once.
+        const auto of_sides = widgets.updating(word(is_of_choice(services)));
+        {
+            const auto of_map = widgets.updating(word(!shows_map() || map_is_current()));
+            draw_pictures(model, services);
+            draw_legend(model, services);
+            const auto of_numbers = widgets.updating(word(numbers_are_current()));
+            draw_numbers(model, widgets);
+        }
         draw_values(model, widgets);
     }
 
@@ -82,13 +88,10 @@ private:
         job_ = start<std::shared_ptr<const ComparedPictures>>(services.host, [pair](Progress&) { return compared(pair); });
     }
 
-    /// The word over the pictures: of A and B, and of the map where one is looked at.
-    std::string word_over() const {
-        const bool is_map = !shows_pictures() && map_image();
-        const bool is_current = !is_map || (numbers_are_current() && maps_[*map_index()].is_current());
-        return word(sides_.is_of_choice() && is_current);
-    }
-    bool numbers_are_current() const { return sides_.is_of_choice() && compared_of_ == compared_images_; }
+    bool is_of_choice(const Services& services) const { return sides_.is_of_choice() && !services.replayer.awaits_shaders(); }
+    bool shows_map() const { return !shows_pictures() && map_image(); }
+    bool map_is_current() const { return numbers_are_current() && maps_[*map_index()].is_current(); }
+    bool numbers_are_current() const { return compared_of_ == compared_images_; }
     std::string word(bool is_of_choice) const {
         if (is_of_choice) return {};
         return fmt::format("{} {}: A {}, B {}", sides_.trouble().empty() ? "updating" : "not replayed:", sides_.image(),
@@ -211,7 +214,6 @@ private:
         if (const PictureInfo* map = map_picture(); map && map_image())
             view.map = {map, is_flip ? flip_colors_.texture() : maps_[*map_index()].texture(), map_look(), map_caption()};
         else view.map.label = is_flip && compared_ ? flip_help(*compared_) : trouble();
-        const auto updating = services.widgets.updating(word_over());
         canvas_.draw(view, model, services);
     }
 
@@ -233,7 +235,6 @@ private:
 
     void draw_legend(const Model& model, Services& services) {
         Widgets& widgets = services.widgets;
-        const auto updating = widgets.updating(numbers_are_current() ? "" : word_over());
         if (legend_ == 0) make_legend(services.layer);
         Look look = shows_pictures() ? look_of(model) : map_look();
         const double stops = std::exp2(-double{look.exposure});
@@ -273,7 +274,6 @@ private:
         const std::string why = trouble();
         if (!compared_)
             return widgets.text("state", why.empty() ? "being compared" : why, why.empty() ? &palette().dim : &palette().bad);
-        const auto updating = widgets.updating(word(numbers_are_current()));
         if (compared_->measured.error.identical) {
             widgets.text("state", "bit for bit the same", &palette().good);
         } else {
@@ -308,7 +308,6 @@ private:
         const PictureInfo *a = sides_.a().shown.picture(), *b = sides_.b().shown.picture();
         if (!at || !a || !b || !a->contains(*at) || !b->contains(*at)) return;
         const bool is_pin = !canvas_.under();
-        const auto updating = widgets.updating(word(sides_.is_of_choice()));
         widgets.text("values",
                      fmt::format("{} {} {}   A  {}   B  {}", is_pin ? "\xe2\x8a\x95" : " ", at->x, at->y, values_text(*a, *at),
                                  values_text(*b, *at)),

@@ -6,6 +6,7 @@
 #include "ui/frame/frame_columns.h"
 #include "ui/frame/timeline.h"
 #include "ui/panel.h"
+#include "ui/picture/eye_lag.h"
 #include "ui/widgets/find_text.h"
 #include "ui/window/theme.h"
 
@@ -31,6 +32,10 @@ public:
         // Those of another frame of the capture say nothing here.
         const FrameTimes* times = times_ && times_->request.variant.frame == replay->request.variant.frame ? &*times_ : nullptr;
         const ShownFrame frame{*replay, times, is_stale(*replay), frame_rows(*replay, times)};
+        // It stands for the latest replay, and while the eye moves there is always a later one on its way.
+        const bool is_of_label = !services.replayer.awaits_shaders() &&
+                                 differs_by_the_eye_alone(replay->made_of(), services.replayer.made_of(model.request()));
+        const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, "frame"));
         draw_head(widgets, frame);
         if (times && timeline_.ms > 0) draw_measured(model, widgets, frame);
         ImGui::BeginChild("tree");
@@ -82,19 +87,20 @@ private:
     void measure(const Model& model, Services& services) {
         if (is_busy()) return;
         const Request request = model.request();
-        tried_ = without_outputs(request);
-        timing_ = services.replayer.start<FrameTimes>([request](Session& session, Progress& progress) -> Result<FrameTimes> {
-            if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
-            return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) {
-                return FrameTimes{request, std::move(runs.front())};
+        tried_ = services.replayer.made_of(request);
+        timing_ = services.replayer.start<FrameTimes>(
+            [request, shaders = tried_->shaders](Session& session, Progress& progress) -> Result<FrameTimes> {
+                if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
+                return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) {
+                    return FrameTimes{request, std::move(runs.front()), shaders};
+                });
             });
-        });
     }
 
     void measure_after_change(const Model& model, Services& services, const Replay* replay) {
         const auto wanted = services.settings.find(always);
         if (wanted == services.settings.end() || !wanted->second || !replay || !services.replayer.is_current("A")) return;
-        if (services.replayer.error("A") || (tried_ && *tried_ == without_outputs(replay->request))) return;
+        if (services.replayer.error("A") || (tried_ && *tried_ == replay->made_of())) return;
         measure(model, services);
     }
 
@@ -113,7 +119,7 @@ private:
 
     /// Whether what was measured is not what is shown any more; which of its images are brought back does not matter.
     bool is_stale(const Replay& replay) const {
-        return times_ && without_outputs(times_->request) != without_outputs(replay.request);
+        return times_ && MadeOf{without_outputs(times_->request), times_->shaders} != replay.made_of();
     }
 
     void draw_controls(Model& model, Services& services, const Replay* replay) {
@@ -283,7 +289,7 @@ private:
     std::optional<FrameTimes> times_;
     Timeline timeline_;              ///< of them
     std::optional<AxisRange> seen_;  ///< of the timeline; none: all of it
-    std::optional<Request> tried_;   ///< what was measured last, with success or without
+    std::optional<MadeOf> tried_;    ///< what was measured last, with success or without
     FrameColumns columns_;
     std::string find_;
     bool focus_find_ = false;

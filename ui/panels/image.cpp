@@ -5,6 +5,7 @@
 #include "replay/plural.h"
 #include "ui/panel.h"
 #include "ui/picture/camera.h"
+#include "ui/picture/eye_lag.h"
 #include "ui/picture/legend.h"
 #include "ui/picture/outline.h"
 #include "ui/picture/outputs.h"
@@ -22,30 +23,43 @@ struct Peek {
     friend bool operator==(const Peek&, const Peek&) = default;
 };
 
+/// What is to be seen, and whether it is what the list says.
+struct WantedImage {
+    std::shared_ptr<const HostImage> image = nullptr;
+    bool is_of_label = false;
+    MadeOf made_of = {};
+};
+
 class ImagePanel final : public Panel {
 public:
     void draw(Model& model, Services& services) override {
         const auto scope = services.widgets.in("Image");
-        const auto image = wanted_image(model, services);
-        shown_.show(image, model.image.layer, services.host, services.layer);
+        const WantedImage wanted = wanted_image(model, services);
+        shown_.show(wanted.image, model.image.layer, services.host, services.layer);
         const PictureInfo* picture = shown_.picture();
-        if (image && shown_.is_current()) {
+        if (wanted.image && shown_.is_current()) {
+            shown_of_ = wanted.made_of;
             shown_name_ = model.image.name;
             shown_step_ = model.image.step;
             if (model.image.made) made_look_ = model.image.made->look;
             else made_look_.reset();
         }
         if (picture) default_ = made_look_ ? *made_look_ : default_look(shown_name_, *picture);
-        const std::string word = word_over(model, services, image != nullptr);
+        const std::string word = word_over(model, services, wanted);
+        const Widgets::Veil veil = veil_of(model, services);
         take_saved(services);
         draw_choice(model, services.widgets, picture);
-        if (picture) draw_size(services.widgets, *picture, word.empty());
+        if (picture) draw_size(services.widgets, *picture, word.empty() || veil == Widgets::Veil::held_back);
         ImGui::BeginDisabled(!is_of_name(model));  // they would change another picture's look than the one they show
-        draw_look(model, services.widgets, picture, word);
+        {
+            const auto updating = services.widgets.updating(word.empty() ? "" : "updating", veil);
+            draw_look(model, services.widgets, picture);
+        }
         ImGui::EndDisabled();
         draw_eye(model, services.widgets);
-        const auto updating = services.widgets.updating(word);
+        const auto updating = services.widgets.updating(word, veil);
         draw_canvas(model, services, picture);
+        const auto of_numbers = services.widgets.updating(word);
         draw_line(model, services.widgets, picture);
         model.under = under_;
     }
@@ -101,29 +115,30 @@ public:
     }
 
 private:
-    std::shared_ptr<const HostImage> wanted_image(Model& model, Services& services) {
+    WantedImage wanted_image(Model& model, Services& services) {
         const auto replay = services.replayer.shown("A");
         message_.clear();
         if (const Error* error = services.replayer.open_error()) message_ = error->sentence;
         if (const auto& made = model.image.made) {
-            if (replay && made->of != without_outputs(replay->request))
+            if (replay && made->of != replay->made_of())
                 message_ = "this picture was made of an earlier replay; the panel that made it makes it anew";
-            return made->image;
+            return {made->image, services.replayer.is_of(made->of, model.request()) && made->which == model.image.which_made,
+                    made->of};
         }
         if (!model.image.step) {
             peeked_.withdraw();
             model.want(model.image.name);
-            if (!replay) return nullptr;
+            if (!replay) return {};
             auto image = replay->image(replay, model.image.name);
             if (!image && services.replayer.is_current("A") && !services.replayer.error("A"))
                 message_ = fmt::format("this frame has no '{}'", model.image.name);
-            return image;
+            return {std::move(image), services.replayer.is_of("A", model.request()), replay->made_of()};
         }
-        return replay ? peeked_image(model, services, *replay) : nullptr;
+        return replay ? peeked_image(model, services, *replay) : WantedImage();
     }
 
     /// What a step wrote, asked of the device once per replay.
-    std::shared_ptr<const HostImage> peeked_image(const Model& model, Services& services, const Replay& replay) {
+    WantedImage peeked_image(const Model& model, Services& services, const Replay& replay) {
         Peek peek{replay.request, model.image};
         peek.image.layer = 0;  // all of them come at once
         peeked_.ask(services.replayer, peek,
@@ -133,17 +148,30 @@ private:
                         });
                     });
         message_ = peeked_.error();
-        return peeked_.answer() ? *peeked_.answer() : nullptr;
+        // Of another step, or of the replay before: no picture of this one.
+        if (!peeked_.is_answered(services.replayer, peek)) return {};
+        return {*peeked_.answer(), services.replayer.is_of("A", model.request()), replay.made_of()};
     }
 
     bool is_of_name(const Model& model) const { return shown_name_ == model.image.name && shown_step_ == model.image.step; }
 
     /// A picture has the key of its image: which replay, which of its images, which layer.
-    std::string word_over(const Model& model, const Services& services, bool has_image) const {
+    std::string word_over(const Model& model, const Services& services, const WantedImage& wanted) const {
         if (!shown_.picture()) return {};
-        const bool is_of_label =
-            has_image && shown_.is_current() && is_of_name(model) && services.replayer.is_of("A", model.request());
+        const bool is_of_label = wanted.image && wanted.is_of_label && shown_.is_current() && is_of_name(model);
+        const auto& made = model.image.made;
+        // Its panel makes it anew, while it is in front and if nobody has to ask for it.
+        if (made && services.replayer.is_of("A", model.request()) && !services.replayer.is_of(made->of, model.request()))
+            return fmt::format("of an earlier replay: {}", model.image.name);
         return updating_word(is_of_label, services.replayer, model.image.name);
+    }
+
+    /// Held back while somebody flies, unless the numbers of texels are to be read.
+    Widgets::Veil veil_of(const Model& model, const Services& services) {
+        lag_.note(services.replayer.made_of(model.request()), shown_of_, services.seconds);
+        const bool is_held_back = lag_.is_small() && is_of_name(model) && !services.replayer.awaits_shaders() &&
+                                  !model.image.made && !shows_numbers(placement_);
+        return is_held_back ? Widgets::Veil::held_back : Widgets::Veil::drawn;
     }
 
     /// Of the picture that is shown, whatever is chosen meanwhile.
@@ -156,11 +184,15 @@ private:
         else model.looks[model.image.name] = look;
     }
 
+    static std::string made_text(const ImageChoice& image) {
+        return fmt::format("made: {}{}{}", image.name, image.which_made.empty() ? "" : ", ", image.which_made);
+    }
+
     static void draw_choice(Model& model, Widgets& widgets, const PictureInfo* picture) {
         const std::vector<std::string> outputs = outputs_of(model);
         std::vector<std::string_view> items(outputs.begin(), outputs.end());
         const std::string own = model.image.step   ? fmt::format("step {}: {}", *model.image.step, model.image.name)
-                                : model.image.made ? fmt::format("made: {}", model.image.name)
+                                : model.image.made ? made_text(model.image)
                                                    : "";
         if (!own.empty()) items.insert(items.begin(), own);
         const auto current =
@@ -187,8 +219,7 @@ private:
         widgets.help("a pixel per texel");
     }
 
-    void draw_look(Model& model, Widgets& widgets, const PictureInfo* picture, const std::string& word) {
-        const auto updating = widgets.updating(word.empty() ? "" : "updating");
+    void draw_look(Model& model, Widgets& widgets, const PictureInfo* picture) {
         constexpr std::array<std::string_view, 7> channels = {"RGB", "R", "G", "B", "A", "Luminance", "False color"};
         Look look = look_of(model);
         ImGui::SetNextItemWidth(104);
@@ -349,6 +380,8 @@ private:
     std::string shown_name_ = "display", message_;
     Look default_;
     std::optional<std::size_t> shown_step_;
+    MadeOf shown_of_;
+    EyeLag lag_;
     std::optional<Look> made_look_;
     LiveQuery<Peek, std::shared_ptr<const HostImage>> peeked_;
     JobOf<std::filesystem::path> saved_;

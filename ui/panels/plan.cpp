@@ -22,6 +22,8 @@ public:
         Widgets& widgets = services.widgets;
         const auto scope = widgets.in("Plan");
         take_picture(services);
+        const bool is_of_label = !pictured_ || services.replayer.is_of(*pictured_, model.request());
+        const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, "plan"));
         draw_head(widgets);
         if (!picture_) return;
         if (mode_ == PlanMode::left_out) return draw_left_out(widgets);
@@ -49,8 +51,12 @@ private:
             });
         }
         if (!job_ || !job_->result()) return;
-        if (*job_->result()) picture_ = **job_->result();
-        else services.log.push_back({LogLine::Kind::failed, services.seconds, job_->result()->error().sentence});
+        if (*job_->result()) {
+            picture_ = **job_->result();
+            pictured_ = planned_of_->made_of();
+        } else {
+            services.log.push_back({LogLine::Kind::failed, services.seconds, job_->result()->error().sentence});
+        }
         job_.reset();
     }
 
@@ -319,6 +325,7 @@ private:
     std::shared_ptr<const Replay> planned_of_;
     JobOf<PlanPicture> job_;
     std::optional<PlanPicture> picture_;
+    std::optional<MadeOf> pictured_;
     PlanMode mode_ = PlanMode::steps;
     bool with_buffers_ = false, with_imported_ = false;
     ChartView view_;

@@ -26,6 +26,9 @@ public:
             return;
         }
         draw_head(model, widgets, services);
+        // Recorded choices are those of a frame that was read.
+        const bool is_of_label = model.facts().index == model.edits().variant.frame;
+        const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, "techniques"));
         ImGui::BeginChild("stages");
         const auto replay = services.replayer.shown("A");
         for (const StageInfo& stage : stages())

@@ -15,8 +15,8 @@ constexpr float thumbnail_gap = 6, least_thumbnail = 110;
 /// The views of a technique in use, as of a request.
 struct Group {
     const Technique* technique;
-    Request of;     ///< of the job
-    Request shown;  ///< of the views
+    MadeOf of;     ///< of the job
+    MadeOf shown;  ///< of the views
     JobOf<TechniqueViews> job;
     std::shared_ptr<const TechniqueViews> views;
     std::string error;
@@ -54,12 +54,7 @@ public:
         if (!chosen.view) return;
         ImGui::Separator();
         ImGui::BeginChild("readouts");
-        {
-            const auto group = std::ranges::find(groups_, chosen.technique, &Group::technique);
-            const bool is_of_label = !chosen.found || group->shown == without_outputs(model.request());
-            const auto updating = services.widgets.updating(updating_word(is_of_label, services.replayer, chosen.view->name));
-            readouts_.draw(model, services, chosen);
-        }
+        { readouts_.draw(model, services, chosen); }
         ImGui::EndChild();
     }
 
@@ -102,7 +97,7 @@ private:
 
     /// One technique at a time, once the picture is there that people wait for; the one that is looked at first.
     void update(Services& services, const Replay& replay) {
-        const Request now = without_outputs(replay.request);
+        const MadeOf now = replay.made_of();
         bool is_running = false;
         for (Group& group : groups_) {
             take_result(services, group);
@@ -118,7 +113,7 @@ private:
         stale->job = services.replayer.start<TechniqueViews>(
             [now, technique = stale->technique](Session& session, ui::Progress& progress) -> Result<TechniqueViews> {
                 if (!progress.at(0, std::string(technique->name))) return fail(Fault::usage, "stopped");
-                return views_of(session, now, *technique);
+                return views_of(session, now.request, *technique);
             });
     }
 
@@ -151,7 +146,8 @@ private:
             for (const DebugView& view : choice.technique->views) {
                 if (shown != output_name(*choice.technique, view.name)) continue;
                 const auto group = std::ranges::find(groups_, choice.technique, &Group::technique);
-                return {choice.technique, &view, group == groups_.end() ? nullptr : group->views};
+                if (group == groups_.end()) return {choice.technique, &view};
+                return {choice.technique, &view, group->views, group->shown};
             }
         return {};
     }
@@ -172,7 +168,7 @@ private:
         if (skipped != replay.skipped.end()) widgets.text("left out", skipped->reason, &palette().dim);
         else if (!group.error.empty()) widgets.text("error", group.error, &palette().bad);
         ImGui::PopTextWrapPos();
-        const bool is_of_label = !group.views || group.shown == without_outputs(model.request());
+        const bool is_of_label = !group.views || services.replayer.is_of(group.shown, model.request());
         const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, technique.name));
         if (skipped == replay.skipped.end()) draw_thumbnails(model, services, replay, group);
         ImGui::Dummy({0, 4});

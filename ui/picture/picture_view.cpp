@@ -142,6 +142,8 @@ void draw_details(const Placement& placement, const PictureInfo& picture) {
     list.PopClipRect();
 }
 
+bool shows_numbers(const Placement& placement) { return placement.zoom >= numbers_zoom; }
+
 void draw_pin(const Placement& placement, glm::ivec2 pin) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(placement.from, placement.to, true);

@@ -38,6 +38,8 @@ struct Columns {
 void draw_picture(ImguiLayer&, const Placement&, TextureId, const Look&, const Columns& = {});
 /// Lines between texels from 8 pixels each, their values where these fit.
 void draw_details(const Placement&, const PictureInfo&);
+/// Whether draw_details() has room for the numbers of a one-channel picture.
+bool shows_numbers(const Placement&);
 void draw_pin(const Placement&, glm::ivec2);
 
 /// "0.25 0.5 1 1": as many as the image has channels.

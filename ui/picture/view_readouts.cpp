@@ -81,6 +81,9 @@ void draw_overflow(Widgets& widgets, const Replay& replay, const Technique& tech
     }
 }
 
+/// Which slice of a view.
+std::string text_of(double at, double half) { return fmt::format("{:.4g} \xc2\xb1 {:.3g}", at, half); }
+
 }  // namespace
 
 Look look_of(const DebugView& view) {
@@ -96,11 +99,12 @@ void ViewReadouts::take_results(Model& model) {
         const auto slice = **slice_job_->result();
         slice_job_.reset();
         if (!model.image.step && model.image.name == sliced_)
-            model.image.made = std::make_shared<MadePicture>(MadePicture{sliced_of_, slice, look_of(*find_view(sliced_))});
+            model.image.made = std::make_shared<MadePicture>(
+                MadePicture{sliced_of_, slice, look_of(*find_view(sliced_)), text_of(made_.at, made_.half)});
     }
     if (!waves_job_ || !waves_job_->result()) return;
     const Result<TileWaves>& result = *waves_job_->result();
-    if (result) waves_ = std::make_shared<TileWaves>(*result);
+    if (result) waves_.set(waves_asked_, std::make_shared<TileWaves>(*result));
     else waves_error_ = result.error().sentence;
     waves_job_.reset();
 }
@@ -115,9 +119,18 @@ void ViewReadouts::draw(Model& model, Services& services, const ViewChoice& choi
     draw_legend(model, widgets, *choice.view);
     for (const Param* param : params_of(*choice.technique, *choice.view)) draw_param(model, widgets, *choice.technique, *param);
     if (!choice.view->unit.empty()) draw_slice(model, services, choice);
+    if (choice.technique->abilities.variants) draw_waves(model, services, choice);
+    draw_numbers(model, services, choice);
+}
+
+/// Tables and the rows of a pixel are of the views' run, overflows of the picture's.
+void ViewReadouts::draw_numbers(const Model& model, Services& services, const ViewChoice& choice) {
+    Widgets& widgets = services.widgets;
+    const bool is_of_label = services.replayer.is_of("A", model.request()) &&
+                             (!choice.found || services.replayer.is_of(choice.made_of, model.request()));
+    const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, choice.view->name));
     if (choice.found) draw_pixel(model, widgets, *choice.found);
     if (const auto replay = services.replayer.shown("A")) draw_overflow(widgets, *replay, *choice.technique);
-    if (choice.technique->abilities.variants) draw_waves(model, services, choice);
     if (choice.found) draw_tables(widgets, *choice.found);
 }
 
@@ -156,9 +169,10 @@ void ViewReadouts::make_slice(Model& model, Services& services) {
     const auto replay = services.replayer.shown("A");
     const auto image = replay ? replay->image(replay, sliced_) : nullptr;
     const Slice wanted{image, at_, half_};
+    if (model.image.made) model.image.which_made = text_of(at_, half_);
     if (slice_job_ || !image || (wanted == made_ && model.image.made)) return;
     made_ = wanted;
-    sliced_of_ = without_outputs(replay->request);
+    sliced_of_ = replay->made_of();
     slice_job_ = start<std::shared_ptr<const HostImage>>(
         services.host, [wanted](ui::Progress&) -> Result<std::shared_ptr<const HostImage>> {
             return std::shared_ptr<const HostImage>(std::make_shared<HostImage>(slice_of(*wanted.image, wanted.at, wanted.half)));
@@ -166,11 +180,10 @@ void ViewReadouts::make_slice(Model& model, Services& services) {
 }
 
 void ViewReadouts::start_waves(const Model& model, Services& services, const Technique& technique) {
-    const Request request = without_outputs(model.request());
     if (waves_job_) waves_job_->progress.cancel();
-    waves_.reset();
     waves_error_.clear();
-    waves_of_ = request;
+    waves_asked_ = {&technique, gpu_, services.replayer.made_of(model.request())};
+    const Request request = waves_asked_.made_of.request;
     const ModesOnGpu of{technique, *gpu_, model.program};
     waves_job_ = services.replayer.start<TileWaves>(
         [request, of](Session& session, ui::Progress& progress) { return waves_of_modes(session, progress, request, of); });
@@ -179,7 +192,6 @@ void ViewReadouts::start_waves(const Model& model, Services& services, const Tec
 void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice& choice) {
     Widgets& widgets = services.widgets;
     const auto scope = widgets.in("waves");
-    const Request now = without_outputs(model.request());
     std::vector<std::string_view> items{"choose a GPU"};
     const std::vector<const GpuModel*> gpus = compilable_gpus();
     for (const GpuModel* gpu : gpus) items.push_back(gpu->name);
@@ -192,19 +204,29 @@ void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice
     widgets.help("what a GPU that need not be there holds of the shader of each tile's mode, by its own compiler");
     if (chosen) gpu_ = *chosen == 0 ? nullptr : gpus[*chosen - 1];
     if (chosen && gpu_) start_waves(model, services, *choice.technique);
-    if (!gpu_) return;
-    const bool is_stale = waves_of_ != now;
+    if (gpu_) draw_waves_result(model, services, *choice.technique);
+}
+
+/// Compiling takes seconds, so waves of other settings stay, under a word that says so, until somebody asks anew.
+void ViewReadouts::draw_waves_result(Model& model, Services& services, const Technique& technique) {
+    Widgets& widgets = services.widgets;
+    const WavesOf now{&technique, gpu_, services.replayer.made_of(model.request())};
+    const bool is_asked = waves_asked_ == now && !services.replayer.awaits_shaders();
     if (waves_job_) {
         ImGui::ProgressBar(static_cast<float>(waves_job_->progress.fraction()), {-1, 0}, waves_job_->progress.doing().c_str());
-    } else if (is_stale) {
+    } else if (!is_asked) {
         ImGui::SameLine();
-        if (widgets.button("again", "Again")) start_waves(model, services, *choice.technique);
-        widgets.help("these waves are of other settings");
+        if (widgets.button("again", "Again")) start_waves(model, services, technique);
+        widgets.help("computes the waves of the present settings");
     }
     ImGui::PushTextWrapPos(0);
-    if (!waves_error_.empty()) widgets.text("error", waves_error_, &palette().warning);
+    if (is_asked && !waves_error_.empty()) widgets.text("error", waves_error_, &palette().warning);
     ImGui::PopTextWrapPos();
-    if (waves_) draw_waves_of(model, widgets, *waves_);
+    // Those of another technique or GPU say nothing here.
+    if (!waves_.key() || waves_.key()->technique != &technique || waves_.key()->gpu != gpu_) return;
+    const bool is_of_label = services.replayer.is_of(waves_.key()->made_of, model.request());
+    const auto updating = widgets.updating(is_of_label ? "" : waves_job_ && is_asked ? "updating waves" : "of other settings");
+    draw_waves_of(model, widgets, **waves_.value());
 }
 
 void ViewReadouts::draw_waves_of(Model& model, Widgets& widgets, const TileWaves& waves) {
@@ -215,8 +237,8 @@ void ViewReadouts::draw_waves_of(Model& model, Widgets& widgets, const TileWaves
         model.image = {
             .name = fmt::format("waves per SIMD on {}", gpu_->name),
             .made = std::make_shared<MadePicture>(MadePicture{
-                waves_of_,
-                std::shared_ptr<const HostImage>(waves_, &waves.picture),
+                waves_.key()->made_of,
+                std::shared_ptr<const HostImage>(*waves_.value(), &waves.picture),
                 {.white = static_cast<float>(gpu_->unit->wave_slots), .channels = Channels::false_color, .curve = Curve::raw}})};
     widgets.help("each tile by the waves of its mode, in Image");
     for (const VariantWaves& variant : waves.variants) {

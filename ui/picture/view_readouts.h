@@ -5,6 +5,7 @@
 #include "ui/panel.h"
 #include "ui/picture/mode_waves.h"
 #include "ui/picture/views.h"
+#include "ui/replayer/keyed.h"
 
 namespace strata::ui {
 
@@ -12,6 +13,7 @@ struct ViewChoice {
     const Technique* technique = nullptr;
     const DebugView* view = nullptr;                        ///< null: none is selected
     std::shared_ptr<const TechniqueViews> found = nullptr;  ///< null until they are there
+    MadeOf made_of = {};                                    ///< what was found
 };
 
 /// "black 0, white 64 lights"; of colors that mean something else each what the help says.
@@ -30,7 +32,9 @@ public:
 private:
     void draw_slice(Model&, Services&, const ViewChoice&);
     void make_slice(Model&, Services&);
+    void draw_numbers(const Model&, Services&, const ViewChoice&);
     void draw_waves(Model&, Services&, const ViewChoice&);
+    void draw_waves_result(Model&, Services&, const Technique&);
     void start_waves(const Model&, Services&, const Technique&);
     void draw_waves_of(Model&, Widgets&, const TileWaves&);
     void draw_tables(Widgets&, const TechniqueViews&) const;
@@ -44,14 +48,21 @@ private:
     std::string sliced_;  ///< the output of which a slice is shown, or empty
     double at_ = 0, half_ = 0;
     Slice made_;
-    Request sliced_of_;
+    MadeOf sliced_of_;
     JobOf<std::shared_ptr<const HostImage>> slice_job_;
 
+    /// What waves are of.
+    struct WavesOf {
+        const Technique* technique = nullptr;
+        const GpuModel* gpu = nullptr;
+        MadeOf made_of;
+        friend bool operator==(const WavesOf&, const WavesOf&) = default;
+    };
     const GpuModel* gpu_ = nullptr;
-    Request waves_of_;
+    WavesOf waves_asked_;
     JobOf<TileWaves> waves_job_;
-    std::shared_ptr<const TileWaves> waves_;
-    std::string waves_error_;
+    Keyed<WavesOf, std::shared_ptr<const TileWaves>> waves_;
+    std::string waves_error_;  ///< of what was asked last
 };
 
 }  // namespace strata::ui

@@ -38,9 +38,8 @@ void draw_state_of(Widgets& widgets, LiveQuery<Question, Answer>& asked) {
 template <typename Question, typename Answer>
 std::string updating_word(const LiveQuery<Question, Answer>& asked, const Question& question, const Model& model,
                           const Services& services) {
-    const bool is_answered = asked.answered() && *asked.answered() == question;
-    return updating_word(is_answered && services.replayer.is_of("A", model.request()), services.replayer,
-                         fmt::format("pixel {} {}", model.pin->x, model.pin->y));
+    return updating_word(asked.is_answered(services.replayer, question) && services.replayer.is_of("A", model.request()),
+                         services.replayer, fmt::format("pixel {} {}", model.pin->x, model.pin->y));
 }
 
 /// Light as a square of its color, as bright as the display shows it; the cursor stays on the line.

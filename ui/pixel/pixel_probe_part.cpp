@@ -65,7 +65,7 @@ private:
     /// Curves of the same fragments are kept, so that one method more costs one method.
     void ask(Services& services, const ProbeQuestion& question) {
         std::optional<Probe> known;
-        if (const ProbeQuestion* before = asked_.answered()) {
+        if (const ProbeQuestion* before = asked_.answered(); before && asked_.has_shaders_of(services.replayer)) {
             ProbeQuestion same = *before;
             same.methods = question.methods;
             if (same == question && before->methods != question.methods) known = *asked_.answer();

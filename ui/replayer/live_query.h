@@ -27,9 +27,9 @@ public:
     void ask(Replayer& replayer, const Question& question, const Compute& compute) {
         if (!replayer.is_current("A")) return withdraw();
         take();
-        if (asked_ == question) return;
+        if (asked_ && asked_->first == question && asked_->second == replayer.shaders()) return;
         withdraw();
-        asked_ = question;
+        asked_.emplace(question, replayer.shaders());
         error_.clear();
         job_ = replayer.start<Answer>(
             [question, compute](Session& session, Progress& progress) { return compute(session, progress, question); });
@@ -51,7 +51,14 @@ public:
 
     /// Of the latest question that was answered well; null at first, and where the present one failed.
     const Answer* answer() const { return error_.empty() ? answer_.value() : nullptr; }
-    const Question* answered() const { return answer() ? answer_.key() : nullptr; }
+    const Question* answered() const { return answer() ? &answer_.key()->first : nullptr; }
+    /// Whether that is the answer to this question, with the shaders in use.
+    bool is_answered(const Replayer& replayer, const Question& question) const {
+        return answered() && *answered() == question && has_shaders_of(replayer);
+    }
+    bool has_shaders_of(const Replayer& replayer) const {
+        return !replayer.awaits_shaders() && answer() && answer_.key()->second == replayer.shaders();
+    }
     /// A number that changes with every answer.
     std::size_t version() const { return version_; }
     const std::string& error() const { return error_; }
@@ -75,8 +82,9 @@ private:
         job_.reset();
     }
 
-    std::optional<Question> asked_;
-    Keyed<Question, Answer> answer_;
+    using Key = std::pair<Question, std::uint64_t>;  ///< with Replayer::shaders()
+    std::optional<Key> asked_;
+    Keyed<Key, Answer> answer_;
     std::size_t version_ = 0;
     std::string error_;
     JobOf<Answer> job_;

@@ -46,13 +46,23 @@ std::vector<PlanRow> rows_of(const Plan& plan) {
     return rows;
 }
 
-/// A view or an image more of what is shown: the person changed nothing.
-bool asks_for_more_images(const Request& request, const Replay* before) {
-    return before && before->request != request && without_outputs(before->request) == without_outputs(request);
+/// Images are added or left out of what is shown: the person changed nothing.
+bool asks_for_other_images(const Replay& now, const Replay& before) {
+    return before.request.outputs != now.request.outputs && before.made_of() == now.made_of();
 }
 
-Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& request, const FrameFacts& frame,
-                                             const Replay* before) {
+/// What the last change executed, and the steps that only the images asked for now have brought into the plan.
+void say_what_the_last_change_executed(Replay& now, const Replay& before) {
+    const auto was_planned = [&](const StepRecord& step) {
+        return std::ranges::find(before.steps, step.scope, &PlanRow::scope) != before.steps.end();
+    };
+    std::erase_if(now.run.steps, was_planned);
+    now.run.steps.insert(now.run.steps.begin(), before.run.steps.begin(), before.run.steps.end());
+    now.run.acts_executed = before.run.acts_executed;
+    now.run.acts_from_memo = before.run.acts_from_memo;
+}
+
+Result<std::shared_ptr<Replay>> replay(Session& session, const Request& request, const FrameFacts& frame) {
     HostTimer timer;
     auto planned = session.plan(request);
     if (!planned) return planned.error();
@@ -66,22 +76,15 @@ Result<std::shared_ptr<const Replay>> replay(Session& session, const Request& re
     made->skipped = std::move(planned->skipped);
     made->culled = std::move(planned->plan.culled);
     made->ms = timer();
-    if (asks_for_more_images(request, before)) {
-        made->brings_back_more = true;
-        made->run.steps = before->run.steps;
-        made->run.acts_executed = before->run.acts_executed;
-        made->run.acts_from_memo = before->run.acts_from_memo;
-    }
-    return std::shared_ptr<const Replay>(std::move(made));
+    return made;
 }
 
-/// On a CPU driver both sides draw on the same cores. The driver's threads, which opening makes, have their maker's priority.
+}  // namespace
+
 void let_the_window_go_first() {
     constexpr int niceness = 10;
     setpriority(PRIO_PROCESS, 0, niceness);  // of a thread, on Linux
 }
-
-}  // namespace
 
 std::shared_ptr<const HostImage> Replay::image(const std::shared_ptr<const Replay>& self, const std::string& name) const {
     const auto found = run.images.find(name);
@@ -141,7 +144,9 @@ void Replayer::show(const std::string& place, const Request& request) {
     wish(place);
 }
 
-void Replayer::show_again() {
+void Replayer::take_shaders() {
+    ++shaders_;
+    awaits_shaders_ = false;
     for (const auto& [place, known] : places_) wish(place);
 }
 
@@ -150,7 +155,7 @@ void Replayer::wish(const std::string& place) {
     ++known.wish;
     {
         const std::scoped_lock lock(mutex_);
-        wishes_[place] = {known.wish, known.wished};
+        wishes_[place] = {known.wish, shaders_, known.wished};
     }
     queue_.add_first([this, place] { serve(place); });
     const std::scoped_lock lock(mutex_);
@@ -165,7 +170,7 @@ void Replayer::serve(const std::string& place) {
 }
 
 void Replayer::serve_wish(const std::string& place) {
-    std::pair<std::uint64_t, Request> wish;
+    Wish wish;
     {
         const std::scoped_lock lock(mutex_);
         const auto waiting = wishes_.find(place);
@@ -174,23 +179,29 @@ void Replayer::serve_wish(const std::string& place) {
         wishes_.erase(waiting);
     }
     if (!session_) return;
-    Answer given{place, wish.first, within_memory<std::shared_ptr<const Replay>>([&] { return answer(place, wish.second); })};
+    Answer given{place, wish.number, within_memory<std::shared_ptr<const Replay>>([&] { return answer(place, wish); })};
     // A lost device stays lost: the next wish gets a new one.
     if (!given.replay && given.replay.error().fault == Fault::device_failed) open();
     const std::scoped_lock lock(mutex_);
     answers_.push_back(std::move(given));
 }
 
-Result<std::shared_ptr<const Replay>> Replayer::answer(const std::string& place, const Request& request) {
-    if (!frame_ || frame_->index != request.variant.frame) {
-        auto facts = facts_of(*session_, request.variant.frame);
+Result<std::shared_ptr<const Replay>> Replayer::answer(const std::string& place, const Wish& wish) {
+    if (!frame_ || frame_->index != wish.request.variant.frame) {
+        auto facts = facts_of(*session_, wish.request.variant.frame);
         if (!facts) return facts.error();
         frame_ = *std::move(facts);
     }
+    const auto made = replay(*session_, wish.request, *frame_);
+    if (!made) return made.error();
+    Replay& now = **made;
+    now.shaders = wish.shaders;
     std::shared_ptr<const Replay>& latest = latest_[place];
-    auto made = replay(*session_, request, *frame_, latest.get());
-    if (made) latest = *made;
-    return made;
+    now.change = latest ? latest->change : 0;
+    if (latest && asks_for_other_images(now, *latest)) say_what_the_last_change_executed(now, *latest);
+    else ++now.change;
+    latest = *made;
+    return latest;
 }
 
 void Replayer::take_results() {
@@ -222,7 +233,7 @@ const Error* Replayer::error(const std::string& place) const {
 
 bool Replayer::is_of(const std::string& place, const Request& request) const {
     const auto replay = shown(place);
-    return replay && without_outputs(replay->request) == without_outputs(request);
+    return replay && is_of(replay->made_of(), request);
 }
 
 bool Replayer::is_current(const std::string& place) const {

@@ -9,6 +9,7 @@ namespace strata::ui {
 
 void ShaderReload::start(const Model& model, Replayer& replayer) {
     if (job_) return;
+    replayer.await_shaders();
     job_ = replayer.start<ReloadedShaders>([folder = model.shaders, request = model.request()](Session& session, ui::Progress&) {
         return session.reload_shaders(folder, std::span(&request, 1));
     });
@@ -20,8 +21,9 @@ void ShaderReload::take_result(Model& model, Services& services) {
     job_.reset();
     error_ = done ? "" : done.error().sentence;
     if (!done) {
+        services.replayer.keep_shaders();
         services.log.push_back(
-            {LogLine::Kind::failed, services.seconds, fmt::format("{}\nthe shaders stay as they were", error_)});
+            {LogLine::Kind::failed, services.seconds, fmt::format("{}\nwhat is shown is made with the shaders before", error_)});
         return;
     }
     model.uses_shaders = !done->replaced.empty();
@@ -31,14 +33,14 @@ void ShaderReload::take_result(Model& model, Services& services) {
     services.log.push_back(
         {LogLine::Kind::said, services.seconds,
          fmt::format("shaders: {}, {} compiled now", says_.empty() ? "all are those built in" : says_, done->compiled)});
-    services.replayer.show_again();
+    services.replayer.take_shaders();
 }
 
 void ShaderReload::draw(Widgets& widgets) const {
     if (job_) {
         widgets.text("shaders", "compiling shaders", &palette().warning);
     } else if (!error_.empty()) {
-        widgets.text("shaders", "\xe2\x9a\xa0 shader error", &palette().bad);
+        widgets.text("shaders", "\xe2\x9a\xa0 shader error, shown with the shaders before", &palette().bad);
         widgets.help(error_);
     } else if (!says_.empty()) {
         widgets.text("shaders", "changed shaders", &palette().accent);

@@ -41,6 +41,7 @@ std::string_view name(WidgetKind kind) {
 
 void Widgets::begin_frame() {
     last_ = std::exchange(records_, {});
+    words_on_veils_.clear();
     path_.clear();
     if (!rest_.seen) rest_ = {};
     rest_.seen = false;
@@ -72,17 +73,26 @@ Widgets::Scope::~Scope() {
     widgets_->path_.resize(length_);
 }
 
-Widgets::Updating::Updating(Widgets& widgets, std::string word)
-    : widgets_(&widgets), word_(std::move(word)), first_(widgets.records_.size()), from_(ImGui::GetCursorScreenPos()) {}
+Widgets::Updating::Updating(Widgets& widgets, std::string word, Veil veil)
+    : widgets_(&widgets),
+      word_(std::move(word)),
+      is_drawn_(!word_.empty() && veil == Veil::drawn && !widgets.is_veiled_),
+      first_(widgets.records_.size()),
+      from_(ImGui::GetCursorScreenPos()) {
+    if (is_drawn_) widgets.is_veiled_ = true;
+}
 
 /// A child of its own, because it has to lie over the children (lists, tables) that were drawn before it.
 Widgets::Updating::~Updating() {
     if (word_.empty()) return;
     for (std::size_t i = first_; i < widgets_->records_.size(); ++i) widgets_->records_[i].updating = word_;
+    if (!is_drawn_) return;
+    widgets_->is_veiled_ = false;
     const ImVec2 after = ImGui::GetCursorScreenPos(), window = ImGui::GetWindowPos();
     const float top = std::max(from_.y, window.y), bottom = std::min(after.y, window.y + ImGui::GetWindowHeight());
     const ImVec2 size(window.x + ImGui::GetWindowContentRegionMax().x - from_.x, bottom - top);
     if (size.x < 4 || size.y < 4) return;
+    widgets_->words_on_veils_.push_back(word_);
     ImGui::SetCursorScreenPos({from_.x, top});
     ImGui::PushStyleColor(ImGuiCol_ChildBg, veil);
     ImGui::BeginChild(fmt::format("##updating {}", first_label(first_)).c_str(), size, false,

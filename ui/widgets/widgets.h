@@ -40,6 +40,8 @@ public:
     /// Of the last whole frame; of the present one so far.
     const std::vector<WidgetRecord>& last() const { return last_; }
     const std::vector<WidgetRecord>& records() const { return records_; }
+    /// The words that veils of the present frame have on the screen so far.
+    const std::vector<std::string>& words_on_veils() const { return words_on_veils_; }
     const WidgetRecord* find(std::string_view path) const;
     /// Paths that name two widgets of the last frame.
     std::vector<std::string> conflicts() const;
@@ -60,11 +62,15 @@ public:
     };
     Scope in(std::string_view name) { return {*this, name}; }
 
+    enum class Veil {
+        drawn,
+        held_back,  ///< the records have the word, the screen does not: see ui/README.md
+    };
     /// What is drawn while it lives lies under a veil with this word over it: it was made of something else than its label says.
-    /// An empty word changes nothing. Not inside of a table.
+    /// An empty word changes nothing. Of veils within each other the outermost alone is drawn. Not inside of a table.
     class [[nodiscard]] Updating {
     public:
-        Updating(Widgets&, std::string word);
+        Updating(Widgets&, std::string word, Veil);
         Updating(const Updating&) = delete;
         Updating& operator=(const Updating&) = delete;
         ~Updating();
@@ -74,10 +80,11 @@ public:
 
         Widgets* widgets_;
         std::string word_;
+        bool is_drawn_;
         std::size_t first_;
         ImVec2 from_;
     };
-    Updating updating(std::string word) { return {*this, std::move(word)}; }
+    Updating updating(std::string word, Veil veil = Veil::drawn) { return {*this, std::move(word), veil}; }
 
     // Each is named by its label; `face` is what is shown instead. What is not shown ends at "##".
     bool button(std::string_view label, std::string_view face = {});
@@ -121,6 +128,8 @@ private:
     std::string path_, revealed_;
     std::vector<std::size_t> tree_lengths_;  ///< of path_ before each open row
     std::vector<WidgetRecord> records_, last_;
+    std::vector<std::string> words_on_veils_;
+    bool is_veiled_ = false;  ///< what is drawn now lies under a veil
     Rest rest_;
     std::optional<ImVec2> pressed_at_;  ///< while the mouse is still there
 };

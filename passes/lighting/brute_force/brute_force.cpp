@@ -35,7 +35,8 @@ Technique brute_force() {
             "Loops over all lights for each sample; exact up to half floats, and its time grows with the lights that miss.",
         .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
                      counter<&BruteForceCounters::samples_shaded>(
-                         {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"})},
+                         {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
+                     counter<&BruteForceCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(BruteForceCounters),
         .declare = declare,
         .model = brute_force_model,

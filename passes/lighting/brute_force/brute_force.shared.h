@@ -9,6 +9,7 @@ namespace strata::lighting {
 struct BruteForceCounters {
     uint evaluations;
     uint samples_shaded;
+    uint unfinished;
 };
 
 #ifdef __cplusplus

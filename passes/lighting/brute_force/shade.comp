@@ -7,6 +7,7 @@
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/light_term.glsl"
 #include "passes/lighting/stored_light.glsl"
+#include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,6 +22,7 @@ vec3 every_light(MaterialPoint m, ivec3 at) {
 
 void count_shaded(bool shaded) {
     const uint here = subgroupAdd(shaded ? 1u : 0u);
+    if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
     if (!subgroupElect()) return;
     atomicAdd(counters.samples_shaded, here);
     atomicAdd(counters.evaluations, here * view.light_count);

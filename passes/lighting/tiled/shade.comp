@@ -7,6 +7,7 @@
 #include "passes/lighting/light_arrives.glsl"
 #include "passes/lighting/stored_light.glsl"
 #include "passes/lighting/tiled/tiled.shared.h"
+#include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 256) in;
 layout(constant_id = 82) const uint has_shadows = 0u;
@@ -45,6 +46,7 @@ void shade_sample(uint tile, ivec3 at, inout Shaded shaded) {
 
 void count(Shaded shaded) {
     const uvec3 all = subgroupAdd(uvec3(shaded.samples, shaded.evaluations, shaded.blocker_tests));
+    if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
     if (!subgroupElect()) return;
     atomicAdd(counters.samples_shaded, all.x);
     atomicAdd(counters.evaluations, all.y);

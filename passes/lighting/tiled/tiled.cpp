@@ -182,6 +182,7 @@ std::vector<Counter> counters() {
         counter<&TiledCounters::evaluations>({.name = "evaluations", .help = "listed lights, summed over samples shaded"}),
         counter<&TiledCounters::blocker_tests>(
             {.name = "blocker tests", .help = "(light, blocker) asked for, summed over samples shaded"}),
+        counter<&TiledCounters::unfinished>(unfinished_row),
     };
 }
 

@@ -139,6 +139,7 @@ struct TiledCounters {
     uint samples_shaded;
     uint evaluations;
     uint blocker_tests;
+    uint unfinished;
 };
 
 #ifdef __cplusplus

@@ -7,6 +7,7 @@
 #include "passes/lighting/light_term.glsl"
 #include "passes/lighting/stored_light.glsl"
 #include "passes/lighting/z_binned/lists.glsl"
+#include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint merge = 1u;
@@ -48,6 +49,7 @@ vec3 binned_light(MaterialPoint m, ivec3 at) {
 
 void count_shaded(bool shaded) {
     const uint here = subgroupAdd(shaded ? 1u : 0u), tried = subgroupAdd(candidates), read = subgroupAdd(words_read);
+    if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
     if (!subgroupElect()) return;
     atomicAdd(counters.samples_shaded, here);
     atomicAdd(counters.evaluations, tried);

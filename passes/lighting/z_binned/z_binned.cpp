@@ -147,7 +147,8 @@ Technique z_binned() {
                      counter<&ZBinnedCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
                      counter<&ZBinnedCounters::tile_lights>(
-                         {.name = "tile lights", .help = "bits set in the masks of all tiles"})},
+                         {.name = "tile lights", .help = "bits set in the masks of all tiles"}),
+                     counter<&ZBinnedCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(ZBinnedCounters),
         .views = {{.name = "pixel lights",
                    .help = "lights of the pixel's bin and tile",

@@ -58,6 +58,7 @@ struct ZBinnedCounters {
     uint words_read;
     uint samples_shaded;
     uint tile_lights;
+    uint unfinished;
 };
 
 #ifdef __cplusplus

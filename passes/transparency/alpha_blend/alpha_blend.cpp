@@ -13,8 +13,18 @@ namespace {
 void declare(Graph& graph, FrameImages& images, const Settings&) {
     distort_background(graph, images);
     Image color = gather(graph, images.color, "alpha_blend color");
-    draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
+    if (has(images.capabilities, Capability::dual_source_blending)) {
+        draw_events(graph, "transparency/alpha_blend/composite", images.back_to_front, images).composites(color);
+    } else {
+        draw_events(graph, "transparency/alpha_blend/composite_grey", images.back_to_front, images).composites_grey(color);
+    }
     images.color = spread(graph, color, graph.record(images.color).name);
+}
+
+std::optional<std::string> beyond_device(const FrameImages& images, const Settings&) {
+    if (has(images.capabilities, Capability::dual_source_blending) || !images.features->has(Feature::chromatic))
+        return std::nullopt;
+    return "transparency/alpha_blend blends colored transmittance with dual_source_blending, which this device does not have";
 }
 
 }  // namespace
@@ -31,6 +41,7 @@ Technique alpha_blend() {
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),
         .abilities = {.is_time_unit = true},
+        .beyond_device = beyond_device,
         .declare = declare,
         .model = alpha_blend_model,
         .tolerance =

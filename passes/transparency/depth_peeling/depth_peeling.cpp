@@ -42,7 +42,8 @@ Image peel(Graph& graph, const FrameImages& images, std::uint32_t pass, Targets&
     graph.clear(targets.depth, {});
     DrawPass draw = draw_events_untested(graph, "transparency/depth_peeling/peel", images.transparent, images);
     draw.covers(targets.color).covers(targets.through).writes_depth(targets.depth).samples("peeled_depth", peeled_depth);
-    if (pass > 0) draw.counted(draw_counts, pass * sizeof(std::uint32_t));
+    // Without counted draws the passes behind the last layer draw and find nothing.
+    if (pass > 0 && has(images.capabilities, Capability::counted_draws)) draw.counted(draw_counts, pass * sizeof(std::uint32_t));
     return spread(graph, targets.depth, "depth_peeling peeled depth");
 }
 

@@ -17,7 +17,7 @@ void distort_background(Graph& graph, FrameImages& images) {
     Image offsets =
         graph.create("distortion", Shape{.extent = images.extent, .format = Format::rgba32f, .samples = images.samples});
     graph.clear(offsets, {});
-    draw_events(graph, "transparency/distortion/offsets", images.back_to_front, images).composites(offsets);
+    draw_events(graph, "transparency/distortion/offsets", images.back_to_front, images).composites_grey(offsets);
     const Image layers = by_sample(graph, offsets);
     graph.compute("transparency/distortion/background.comp")
         .updates("color", images.color)

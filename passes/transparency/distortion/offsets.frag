@@ -5,12 +5,10 @@
 #include "passes/transparency/luminance.glsl"
 
 layout(early_fragment_tests) in;
-layout(location = 0, index = 0) out vec4 out_added;
-layout(location = 0, index = 1) out vec4 out_through;
+layout(location = 0) out vec4 out_offset;  // a: what it lets through
 
 void main() {
     const Event event = transparent_event();
     if (!event.visible) discard;
-    out_added = vec4(event.d, 0.0, 0.0);
-    out_through = vec4(luminance(event.t));
+    out_offset = vec4(event.d, 0.0, luminance(event.t));
 }

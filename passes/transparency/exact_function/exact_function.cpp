@@ -18,14 +18,10 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_depth);
-        graph.compute("transparency/exact_function/products.comp")
-            .loads("Counts", lists.counts)
-            .loads("Starts", lists.starts)
-            .loads("GroupStarts", lists.group_starts)
+        read_places(graph.compute("transparency/exact_function/products.comp"), lists, band)
             .loads("Keys", lists.keys)
             .updates("Events", lists.events)
             .fixes("per_turn", fragments_per_turn(lists))
-            .push(band)
             .over(over(band));
         draw_into(graph, "transparency/exact_function/accumulate", images, drawn,
                   [&](DrawPass& draw, Resolution) { read_lists(draw, lists, band); });

@@ -7,8 +7,9 @@
 #include "passes/transparency/lists/event_lists.shared.h"
 
 layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/shaders/finished.glsl"
 #include "passes/transparency/lists/event_lists.glsl"
-#include "passes/transparency/lists/finished.glsl"
+#include "passes/transparency/lists/per_turn.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };

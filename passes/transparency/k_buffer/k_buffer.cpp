@@ -66,6 +66,12 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
         .over({images.extent.width, images.extent.height, images.samples});
 }
 
+std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+    if (settings.as<KBufferParams>().tail != tail_blend || has(images.capabilities, Capability::dual_source_blending))
+        return std::nullopt;
+    return "transparency/k_buffer needs dual_source_blending for tail=blend, which this device does not have";
+}
+
 }  // namespace
 
 Technique k_buffer() {
@@ -101,6 +107,7 @@ Technique k_buffer() {
                    .high = 32,
                    .declare = k_buffer_beyond_view}},
         .needs = {Capability::buffer_int64_atomics},
+        .beyond_device = beyond_device,
         .cannot = {Feature::chromatic},
         .claims = {.failures = {{"H5", 0.067, "alpha is kept in 1/256: .01 is .0117"},
                                 {"H15", 0.25, "of equal depths the bits of color decide which is in front"}}},

@@ -47,7 +47,7 @@ void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, 
 
 void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
     graph.clear(lists.counts, 0);
-    draw_events(graph, "transparency/lists/fill", images.transparent, images)
+    draw_events(graph, "transparency/lists/fill", images.numbered, images)
         .updates("Counts", lists.counts)
         .loads("Starts", lists.starts)
         .loads("GroupStarts", lists.group_starts)
@@ -138,9 +138,7 @@ std::vector<Counter> list_counters() {
         counter<&ListCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
         counter<&ListCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
         counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room", .is_fatal = true}),
-        counter<&ListCounters::unfinished>({.name = "unfinished",
-                                            .help = "threads whose loops the driver ended early: their lists are too long",
-                                            .is_fatal = true}),
+        counter<&ListCounters::unfinished>(unfinished_row),
         counter<&ListCounters::atomics>(atomics_row),
     };
 }

@@ -33,15 +33,16 @@ void sort_lists(Graph&, EventLists&, const Band&, std::uint32_t order);
 /// turns: a shader's specialization constant. 1 for all but very deep frames.
 std::uint32_t fragments_per_turn(const EventLists&);
 
-/// Binds what passes/transparency/lists/event_lists.glsl and events.glsl declare, and pushes the band.
+/// Binds what passes/transparency/lists/event_lists.glsl declares, and pushes the band.
+template <typename Pass>
+Pass& read_places(Pass&& pass, const EventLists& lists, const Band& band) {
+    return pass.loads("Counts", lists.counts).loads("Starts", lists.starts).loads("GroupStarts", lists.group_starts).push(band);
+}
+
+/// The same, and what events.glsl declares.
 template <typename Pass>
 Pass& read_lists(Pass&& pass, const EventLists& lists, const Band& band) {
-    return pass.loads("Counts", lists.counts)
-        .loads("Starts", lists.starts)
-        .loads("GroupStarts", lists.group_starts)
-        .loads("Keys", lists.keys)
-        .loads("Events", lists.events)
-        .push(band);
+    return read_places(pass, lists, band).loads("Keys", lists.keys).loads("Events", lists.events);
 }
 
 /// Threads of a step over a band: one per cell.

@@ -26,7 +26,7 @@ void main() {
         atomicAdd(counters.dropped, 1u);
         return;
     }
-    keys[node] = ListKey(event.z, draws[in_draw].submission, gl_PrimitiveID, node);
+    keys[node] = ListKey(event.z, draws[in_draw].submission, in_triangle, node);
     events[node] = ListEvent(event.p, event.t, event.e);
     if (distorts != 0u) offsets[node] = event.d;
 }

@@ -10,8 +10,9 @@ layout(push_constant, scalar) uniform Push {
     Band band;
     MomentsPush push;
 };
+#include "passes/shaders/finished.glsl"
 #include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/finished.glsl"
+#include "passes/transparency/lists/per_turn.glsl"
 #include "passes/transparency/moments/quantization.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -10,8 +10,9 @@ layout(push_constant, scalar) uniform Push {
     float log_nearest, buckets_per_log;
     uint bucket;
 };
+#include "passes/shaders/finished.glsl"
 #include "passes/transparency/lists/events.glsl"
-#include "passes/transparency/lists/finished.glsl"
+#include "passes/transparency/lists/per_turn.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint layers = 4u;

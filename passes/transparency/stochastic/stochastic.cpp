@@ -58,11 +58,11 @@ Targets create_targets(Graph& graph, const FrameImages& images, const Stochastic
 
 void draw(Graph& graph, const FrameImages& images, Targets& targets, const StochasticBand& band) {
     graph.clear(targets.depths, uncovered_depth);
-    draw_events(graph, "transparency/stochastic/cover", images.transparent, images)
+    draw_events(graph, "transparency/stochastic/cover", images.numbered, images)
         .multiplies(targets.reveal)
         .updates("Depths", targets.depths)
         .push(band);
-    draw_events(graph, "transparency/stochastic/shade", images.transparent, images)
+    draw_events(graph, "transparency/stochastic/shade", images.numbered, images)
         .adds_to(targets.sum)
         .adds_to(targets.emitted)
         .loads("Depths", targets.depths)

@@ -46,8 +46,10 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
     const bool earlier = is_made_before_opaque(params, *images.features);
     Volume volume = earlier ? earlier_volume(graph, images, params) : integrated_volume(graph, images, params);
     FrameImages drawn_before = images;
+    drawn_before.transparent = drawn_triangles(images, params);
     drawn_before.depth = earlier ? earlier_culled_depth(graph) : culled_depth(graph, images, volume, params);
     FunctionSums drawn = create_sums(graph, images, {params.accumulation, voxel_tint(params, *images.features), offsets});
+    drawn.low_images.transparent = drawn_before.transparent;
     draw_into(graph, "transparency/voxel/accumulate", drawn_before, drawn,
               [&](DrawPass& draw, Resolution resolution) { read_volume(draw, volume, params, resolution); });
     return drawn;
@@ -58,6 +60,14 @@ void prepare(Graph& graph, FrameImages& images, const Settings& settings) {
     const auto params = voxel_params(settings, *images.facts);
     if (!is_made_before_opaque(params, *images.features)) return;
     images.depth = depth_to_draw_opaque_into(graph, images, integrated_volume(graph, images, params), params);
+}
+
+std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+    const Capabilities& device = images.capabilities;
+    if (voxel_params(settings, *images.facts).splat != splat_multiply || has(device, Capability::shader_output_layer) ||
+        has(device, Capability::geometry_shaders))
+        return std::nullopt;
+    return "transparency/voxel needs shader_output_layer or geometry_shaders for splat=multiply; this device has neither";
 }
 
 std::vector<Param> code_params() {
@@ -356,6 +366,7 @@ Technique voxel() {
         .views = views(),
         .tables = voxel_tables(),
         .abilities = {.slices_table = "slices"},
+        .beyond_device = beyond_device,
         .claims = {.failures = {{"H4", 0.125, "the panes share a slice: the value of a tie"},
                                 {"H5", 0.129, "8 bits lose layers below .0108 altogether"}},
                    .ratios = voxel_ratios()},

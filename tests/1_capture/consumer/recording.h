@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "capture_format/recorder.h"
+#include <strata/recorder.h>
 #include "consumer/crowd.h"
 
 namespace consumer {

@@ -17,6 +17,7 @@ layout(location = 3) in vec4 in_uv[];
 layout(location = 4) in vec4 in_color[];
 layout(location = 5) in vec4 in_emissive[];
 layout(location = 6) flat in uint in_draw[];
+layout(location = 7) flat in uint in_triangle[];
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec4 out_tangent;
@@ -24,6 +25,7 @@ layout(location = 3) out vec4 out_uv;
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_emissive;
 layout(location = 6) flat out uint out_draw;
+layout(location = 7) flat out uint out_triangle;
 
 void hand_on(uint corner) {
     out_position = in_position[corner];
@@ -33,6 +35,7 @@ void hand_on(uint corner) {
     out_color = in_color[corner];
     out_emissive = in_emissive[corner];
     out_draw = in_draw[corner];
+    out_triangle = in_triangle[corner];
     gl_Position = gl_in[corner].gl_Position;
 }
 

@@ -9,16 +9,6 @@ namespace {
 constexpr Format grey_formats[] = {Format::r8_unorm, Format::r16_unorm, Format::r16_unorm, Format::r32f};
 constexpr Format color_formats[] = {Format::rgba8_unorm, Format::rgba16_unorm, Format::rgba16_unorm, Format::rgba32f};
 
-/// The list with its places as indices: see splat_multiply.vert.
-DrawList by_place(Graph& graph, DrawList list) {
-    constexpr std::uint32_t row = 4096;  // in groups of 64: a dispatch has 65535 along an axis
-    Buffer places = graph.create("places of indices", graph.record(list.indices).bytes);
-    const auto count = static_cast<std::uint32_t>(graph.record(places).bytes / sizeof(std::uint32_t));
-    graph.compute("transparency/voxel/factors/places.comp").stores("Places", places).over({row, (count + row - 1) / row});
-    list.indices = places;
-    return list;
-}
-
 }  // namespace
 
 void splat_factors(Graph& graph, const FrameImages& low, const VoxelParams& params, Volume& volume) {
@@ -27,7 +17,7 @@ void splat_factors(Graph& graph, const FrameImages& low, const VoxelParams& para
     Image factors = graph.create("factors", Shape{.extent = low.extent, .format = format, .layers = push.slices});
     graph.clear(factors, {{1, 1, 1, 1}});
     const bool by_vertex = has(low.capabilities, Capability::shader_output_layer);
-    const DrawList list = by_vertex ? by_place(graph, low.transparent) : low.transparent;
+    const DrawList& list = by_vertex ? low.numbered : low.transparent;
     DrawPass draw = draw_events_untested(graph, "transparency/voxel/factors/splat_multiply", list, low);
     if (!by_vertex) draw.geometry("transparency/voxel/factors/choose_slice");
     draw.multiplies(factors).loads("DepthWarp", volume.warp).fixes("adaptive", is_adaptive(params) ? 1u : 0u).push(push);

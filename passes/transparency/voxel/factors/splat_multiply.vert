@@ -1,5 +1,5 @@
 // Hands a vertex on with its triangle's slice as gl_Layer, which must be the same at all three corners. A vertex may belong to several
-// triangles; so the draw is indexed by the places of the list of indices (places.comp), each of which belongs to one.
+// triangles; so the draw is not indexed and told places in the list of indices, each of which belongs to one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_ARB_shader_viewport_layer_array : require
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push { VoxelPush push; };
 #include "passes/transparency/voxel/factors/triangle_slice.glsl"
 
 void main() {
-    const uint base = gl_BaseVertex, place = gl_VertexIndex - base, first = place / 3u * 3u;
+    const uint base = draws[gl_InstanceIndex].vertex_offset, place = gl_VertexIndex, first = place / 3u * 3u;
     vec3 depths;
     for (uint i = 0u; i < 3u; ++i) {
         const uint vertex = base + indices[first + i];

@@ -61,7 +61,7 @@ Image self_occlusion_view(Graph& graph, const FrameImages& images, const VoxelPa
     Image least = graph.create("least read", Shape{.extent = images.extent, .format = Format::r32ui});
     graph.clear(least, {{double(reads_nothing)}});
     // Against the depth of what is opaque: nothing is culled, what is wholly hidden by itself counts.
-    DrawPass draw = draw_events(graph, "transparency/voxel/views/least_read", images.transparent, images);
+    DrawPass draw = draw_events(graph, "transparency/voxel/views/least_read", drawn_triangles(images, params), images);
     read_volume(draw, volume, params, Resolution::full).updates("least_read", least).drops_other_colors();
     Image picture = picture_of(graph, images);
     graph.compute("transparency/voxel/views/self_occlusion_view.comp")

@@ -190,20 +190,20 @@ void create_parts(Graph& graph, const VoxelParams& params, Volume& volume) {
     volume.zero_slices = graph.create("zero slices", words_of(push.channels, 1));
 }
 
-DrawPass events_of_columns(Graph& graph, const FrameImages& images, std::uint32_t divisor) {
+DrawPass events_of_columns(Graph& graph, const FrameImages& images, const VoxelParams& params, std::uint32_t divisor) {
     const std::string shader = "transparency/voxel/volume/splat";
     if (images.depth) {
         const FrameImages low = prepass_images(graph, images, divisor);
-        return draw_events(graph, shader, low.transparent, low);
+        return draw_events(graph, shader, drawn_triangles(low, params), low);
     }
     FrameImages low = images;
     low.extent = prepass_extent(images.extent, divisor);
     low.samples = 1;
-    return draw_events_untested(graph, shader, low.transparent, low).within(low.extent);
+    return draw_events_untested(graph, shader, drawn_triangles(low, params), low).within(low.extent);
 }
 
 void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& params, Volume& volume) {
-    bind_warp(volume, params, bind_columns(volume, params, events_of_columns(graph, images, volume.divisor)))
+    bind_warp(volume, params, bind_columns(volume, params, events_of_columns(graph, images, params, volume.divisor)))
         .updates("voxels", volume.voxels)
         .fixes("thickness", volume.thickness)
         .fixes("splatting", params.splatting)
@@ -211,6 +211,10 @@ void splat_codes(Graph& graph, const FrameImages& images, const VoxelParams& par
 }
 
 }  // namespace
+
+const DrawList& drawn_triangles(const FrameImages& images, const VoxelParams& params) {
+    return params.rounding == rounding_stochastic ? images.numbered : images.transparent;
+}
 
 Volume earlier_volume(const Graph& graph, const FrameImages& images, const VoxelParams& params) {
     Volume volume = described(images, params);

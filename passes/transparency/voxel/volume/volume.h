@@ -29,6 +29,9 @@ Volume integrated_volume(Graph&, const FrameImages&, const VoxelParams&);
 /// The one integrated_volume() made at an earlier stage of the frame, to be read.
 Volume earlier_volume(const Graph&, const FrameImages&, const VoxelParams&);
 
+/// What is drawn into the volume and read from it: numbered triangles where their numbers decide how codes are rounded.
+const DrawList& drawn_triangles(const FrameImages&, const VoxelParams&);
+
 /// To a step that reads the integral at fragments' depths, and to one that knows slices' depths.
 DrawPass& read_volume(DrawPass&, const Volume&, const VoxelParams&, Resolution drawn);
 ComputePass& read_slices(ComputePass&, const Volume&, const VoxelParams&);

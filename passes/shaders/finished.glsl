@@ -1,12 +1,8 @@
 // Whether this invocation's loops ran as long as they asked to. llvmpipe ends all loops of an invocation, together, after 65,535
 // turns (LP_MAX_TGSI_LOOP_ITERATIONS, shared by the lanes of a vector): what was due is not done, and nothing says so but a loop
 // that comes after it, which then takes one turn instead of two.
-#ifndef PASSES_TRANSPARENCY_LISTS_FINISHED_GLSL
-#define PASSES_TRANSPARENCY_LISTS_FINISHED_GLSL
-#extension GL_EXT_control_flow_attributes : require
-
-// Fragments that a loop over a list takes per turn: the inner loop is unrolled, which is what saves turns.
-layout(constant_id = 20) const uint per_turn = 1u;
+#ifndef PASSES_SHADERS_FINISHED_GLSL
+#define PASSES_SHADERS_FINISHED_GLSL
 
 // `one`: a number of at least 1 that no compiler knows, or it would unroll the loop.
 bool finished(uint one) {

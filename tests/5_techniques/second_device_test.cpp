@@ -1,0 +1,85 @@
+// The matrix of model_test.cpp on a second device, at 48 x 27: what only one driver's rounding, subgroup size or order of
+// execution makes agree with the model is found here. By default few cases are judged.
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "tests/support/agreement.h"
+#include "tests/support/print.h"
+#include "tests/support/second_device.h"
+
+namespace strata {
+namespace {
+
+struct OnSecondDevice {
+    std::string technique, scenario;
+    std::uint32_t samples = 1;
+};
+
+void PrintTo(const OnSecondDevice& c, std::ostream* out) { *out << c.technique << " on " << c.scenario << " at " << c.samples; }
+
+std::vector<OnSecondDevice> cases_of_second_device() {
+    std::vector<OnSecondDevice> all;
+    for (const StageInfo& stage : stages())
+        for (const std::string_view scenario : stage.scenarios)
+            for (const std::uint32_t samples : {1u, 4u})
+                for (const Technique* technique : techniques_of(stage.stage))
+                    all.push_back({std::string(technique->name), std::string(scenario), samples});
+    return all;
+}
+
+/// Every other technique on one scenario, at 1 and at 4 samples in turn: a case costs about 3 s of CPU, most of it for pipelines.
+std::vector<OnSecondDevice> few_of_second_device() {
+    std::vector<OnSecondDevice> chosen;
+    for (const StageInfo& stage : stages()) {
+        const auto techniques = techniques_of(stage.stage);
+        for (std::size_t i = 0; i < techniques.size(); i += 2)
+            chosen.push_back({std::string(techniques[i]->name), std::string(stage.scenarios[i % stage.scenarios.size()]),
+                              i % 4 == 0 ? 4u : 1u});
+    }
+    return chosen;
+}
+
+std::string second_device_case_name(const testing::TestParamInfo<OnSecondDevice>& info) {
+    return as_identifier(fmt::format("{}_on_{}_at_{}", info.param.technique, info.param.scenario, info.param.samples));
+}
+
+/// Every scenario's first frame.
+Session& small_scenarios_on_second_device() {
+    static const std::unique_ptr<Session> session = [] {
+        std::vector<Frame> frames;
+        for (const Scenario& scenario : scenarios()) frames.push_back(scenario.build(0, {.width = 48, .height = 27}));
+        return second_session(std::move(frames));
+    }();
+    return *session;
+}
+
+class SecondDevice : public testing::TestWithParam<OnSecondDevice> {};
+
+TEST_P(SecondDevice, AgreesWithTheModel) {
+    if (second_driver().empty()) GTEST_SKIP() << no_second_driver;
+    const Technique& technique = *must(find_technique(GetParam().technique));
+    Request request = on_scenario(GetParam().scenario, GetParam().samples);
+    request.variant.extent_divisor = 1;
+    request.choices = chosen({GetParam().technique});
+    Session& session = small_scenarios_on_second_device();
+    Frame frame = must(session.frame(request.variant.frame));
+    frame.view.samples = GetParam().samples;
+    if (const auto reason = info(technique.stage).unwanted(frame_features(frame)))
+        GTEST_SKIP() << GetParam().scenario << " does not need the stage: " << *reason;
+    const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model));
+    if (!accuracy.not_supported.empty()) GTEST_SKIP() << "not supported: " << accuracy.not_supported;
+    expect_within_tolerance(accuracy, technique, request, GetParam().scenario);
+}
+
+INSTANTIATE_TEST_SUITE_P(Few, SecondDevice, testing::ValuesIn(few_of_second_device()), second_device_case_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, SecondDevice, testing::ValuesIn(cases_of_second_device()), second_device_case_name);
+
+}  // namespace
+}  // namespace strata
