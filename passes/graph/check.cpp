@@ -44,8 +44,7 @@ std::vector<std::string> shaders_of_draw(const Step& step, const ShaderLibrary& 
     const bool own_vertex = library.find(shaders.front()) != nullptr;
     const bool depth_only = own_vertex && !library.find(shaders.back()) && std::ranges::none_of(step.attachments, is_color);
     if (depth_only) shaders.pop_back();
-    const bool indexed = std::get<DrawWork>(step.work).list.indices || std::get<DrawWork>(step.work).list.count == 0;
-    if (!own_vertex) shaders.front() = indexed ? mesh_vertex_shader : numbered_vertex_shader;
+    if (!own_vertex) shaders.front() = scene_vertex_shader(std::get<DrawWork>(step.work).list);
     return shaders;
 }
 

@@ -68,6 +68,11 @@ inline constexpr const char* mesh_vertex_shader = "shaders/draw.vert";
 /// The same for lists that are not indexed.
 inline constexpr const char* numbered_vertex_shader = "shaders/numbered_draw.vert";
 
+/// Which of the two draws a list; an empty list counts as indexed.
+inline const char* scene_vertex_shader(const DrawList& list) {
+    return list.indices || list.count == 0 ? mesh_vertex_shader : numbered_vertex_shader;
+}
+
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.
 Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code);
 

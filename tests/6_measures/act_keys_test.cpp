@@ -127,19 +127,25 @@ TEST(ActKeys, DependOnTheShadersThatReplaceThoseBuiltIn) {
     EXPECT_NE(acts.keys(0).second, before.second);
 }
 
-TEST(ActKeys, OfDrawsDependOnTheVertexShaderOfTheScene) {
-    Graph graph;
-    Image color = graph.create("color", {.extent = {8, 8}, .format = Format::rgba16f});
-    graph.enter({});
-    graph.draw("some/shade", {}).covers(color);
-    const Technique technique{.stage = Stage::gbuffer, .name = "gbuffer/some"};
-    ShaderLibrary replaced(&ShaderLibrary::built_in());
-    replaced.add({.name = mesh_vertex_shader, .hash = 5});
-    const auto key = [&](const ShaderLibrary& shaders) {
+TEST(ActKeys, OfDrawsDependOnTheVertexShaderThatDrawsTheirList) {
+    const auto key = [](bool is_indexed, const ShaderLibrary& shaders) {
+        Graph graph;
+        Image color = graph.create("color", {.extent = {8, 8}, .format = Format::rgba16f});
+        const Buffer commands = graph.create("commands", 20);
+        const Buffer indices = is_indexed ? graph.create("indices", 4) : Buffer();
+        graph.enter({});
+        graph.draw("some/shade", {commands, indices, 0, 1}).covers(color);
+        const Technique technique{.stage = Stage::gbuffer, .name = "gbuffer/some"};
         return ActKeys(frame_key, run_number, shaders)
             .key(graph, {.technique = &technique, .at = Stage::gbuffer, .scope = 1}, {});
     };
-    EXPECT_NE(key(ShaderLibrary::built_in()), key(replaced));
+    for (const bool is_indexed : {false, true})
+        for (const char* shader : {mesh_vertex_shader, numbered_vertex_shader}) {
+            ShaderLibrary replaced(&ShaderLibrary::built_in());
+            replaced.add({.name = shader, .hash = 5});
+            const bool draws_it = is_indexed == (shader == std::string_view(mesh_vertex_shader));
+            EXPECT_EQ(key(is_indexed, ShaderLibrary::built_in()) != key(is_indexed, replaced), draws_it) << shader;
+        }
 }
 
 TEST(ActKeys, OfActsThatReadWhatTheLastRunLeftAreNewInEveryRun) {
