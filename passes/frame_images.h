@@ -79,6 +79,7 @@ enum class Content : std::uint32_t {
 struct FrameImageRow {
     std::string_view name;
     Image FrameImages::*member;
+    std::string_view help;  ///< what a texel is, for people
     Content content = Content::numbers;
 };
 std::span<const FrameImageRow> frame_images();

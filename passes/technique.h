@@ -168,6 +168,8 @@ struct Abilities {
     bool stands_in_for_truth = false;
     /// The common way to do the stage: reports give the others' times as multiples of its time.
     bool is_time_unit = false;
+    /// Draws objects and particles in an order that the host sorts in every frame (passes/scene/object_order.h).
+    bool sorts_objects = false;
 };
 
 /// The method on whole images: returns the stage's outputs.

@@ -21,6 +21,13 @@ std::string bar(double done) {
     return fmt::format("[{:#<{}}{:.<{}}]", "", full, "", cells - full);
 }
 
+/// Nothing until enough is done to tell.
+std::string time_left(double elapsed_s, double done) {
+    if (elapsed_s < 5 || done < .05 || done >= 1) return {};
+    const double left = elapsed_s * (1 - done) / done;
+    return left < 90 ? fmt::format(", about {:.0f} s left", left) : fmt::format(", about {:.0f} min left", left / 60);
+}
+
 /// The last report, and a thread that repeats it.
 class ShownProgress {
 public:
@@ -58,11 +65,12 @@ private:
 
     void show(Time now) {
         const auto elapsed = std::chrono::duration_cast<std::chrono::seconds>(now - begin_).count();
+        const std::string left = time_left(double(elapsed), done_);
         if (is_terminal_) {
-            rewrite_line(done_ < 1 ? fmt::format("{} {} ({} s)", bar(done_), what_, elapsed) : "");
+            rewrite_line(done_ < 1 ? fmt::format("{} {} ({} s{})", bar(done_), what_, elapsed, left) : "");
         } else if (done_ < 1 && now - last_ >= timing_.between_lines) {
             last_ = now;
-            to_stderr("strata: {:.0f} % done after {} s: {}\n", 100 * done_, elapsed, what_);
+            to_stderr("strata: {:.0f} % done after {} s{}: {}\n", 100 * done_, elapsed, left, what_);
         }
     }
 

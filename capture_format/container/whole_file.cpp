@@ -20,9 +20,10 @@
 namespace strata {
 namespace {
 
-// With Pending::first and the kept files the only thing of this program that is global and changes: a signal comes to the process
-// and brings no arguments. None has a destructor, so a signal during exit() finds them, too.
+// With Pending::first, the kept files and the stop the only thing of this program that is global and changes: a signal comes to
+// the process and brings no arguments. None has a destructor, so a signal during exit() finds them, too.
 constinit std::mutex lock;
+constinit std::stop_source* stop_at_signal = nullptr;
 
 /// What keep_files() was given. Every file of the program is written through begin(), and few writers know what a verb reads.
 std::vector<std::filesystem::path>& kept_files() {
@@ -133,6 +134,17 @@ const std::filesystem::path& WholeFile::temporary() const {
     return pending_->temporary;
 }
 
+StopAtSignal::StopAtSignal() {
+    const std::scoped_lock held(lock);
+    assert(!stop_at_signal && "one at a time");
+    stop_at_signal = &source_;
+}
+
+StopAtSignal::~StopAtSignal() {
+    const std::scoped_lock held(lock);
+    stop_at_signal = nullptr;
+}
+
 Result<void> WholeFile::commit() {
     assert(pending_ && "the file was committed");
     const std::unique_ptr<Pending> done = std::move(pending_);
@@ -170,13 +182,21 @@ Result<void> leave_nothing_half_written_when_stopped() {
     for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
     try {
         std::thread([stops] {
+            const auto say = [](std::string_view words) {
+                [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
+            };
             int signal = 0;
-            sigwait(&stops, &signal);
-            lock.lock();  // for good: no writer goes on
+            for (;;) {
+                sigwait(&stops, &signal);
+                lock.lock();  // for good, unless it only asks for a stop: no writer goes on
+                const bool asks = stop_at_signal && (signal == SIGINT || signal == SIGTERM);
+                if (!asks || !stop_at_signal->request_stop()) break;
+                lock.unlock();
+                say("strata: stopping; a second signal ends it at once\n");
+            }
             for (const WholeFile::Pending* each = WholeFile::Pending::first; each; each = each->after)
                 ::unlink(each->temporary.c_str());
-            constexpr std::string_view words = "strata: interrupted; no file is half written\n";
-            [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
+            say("strata: interrupted; no file is half written\n");
             _exit(128 + signal);
         }).detach();
         waits = true;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string_view>
 
 #include "capture_format/result.h"
@@ -44,5 +45,19 @@ Result<void> write_whole_file(const std::filesystem::path&, std::string_view tex
 /// whoever started us ignores it. A file beyond the size limit and a pipe that nobody reads are failed writes and no signals.
 /// Fails (device lacks) where no thread can be started.
 Result<void> leave_nothing_half_written_when_stopped();
+
+/// While it lives, the first SIGINT or SIGTERM asks for a stop instead of ending the program, and the next one ends it. One at a
+/// time.
+class StopAtSignal {
+public:
+    StopAtSignal();
+    ~StopAtSignal();
+    StopAtSignal(const StopAtSignal&) = delete;
+    StopAtSignal& operator=(const StopAtSignal&) = delete;
+    std::stop_token token() const { return source_.get_token(); }
+
+private:
+    std::stop_source source_;
+};
 
 }  // namespace strata

@@ -157,6 +157,20 @@ void rasterize(const Frame& frame, std::span<const std::uint32_t> draws, RasterO
     });
 }
 
+std::vector<bool> samples_near_sides(const Frame& frame, double steps) {
+    const View& view = frame.view;
+    std::vector<std::uint32_t> draws = opaque_draws(frame);
+    std::ranges::copy(transparent_draws(frame), std::back_inserter(draws));
+    const Raster raster(frame, draws, steps);
+    std::vector<std::uint8_t> near(std::size_t(view.width) * view.height * view.samples);  // rows write beside each other
+    oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
+        raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle&) {
+            if (point.undecided) near[(std::size_t(point.sample) * view.height + y) * view.width + point.x] = 1;
+        });
+    });
+    return {near.begin(), near.end()};
+}
+
 std::vector<std::uint32_t> opaque_draws(const Frame& frame) {
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {

@@ -53,13 +53,17 @@ struct RasterPoint {
 enum class ShadeAt { sample, pixel_center };
 struct RasterOptions {
     ShadeAt shade_at = ShadeAt::sample;
-    bool near_misses = false;  ///< visit samples, too, that are outside by less than a snap step (covered = false)
+    bool near_misses = false;  ///< visit samples, too, that are outside by less than is undecided (covered = false)
 };
 
 /// Calls `visit` for every covered sample of the given draws, in submission order within each pixel row. Not thread safe
 /// towards `visit` between different rows: rows run in parallel.
 void rasterize(const Frame&, std::span<const std::uint32_t> draws, RasterOptions,
                const std::function<void(const RasterPoint&)>& visit);
+
+/// Whether some side of some triangle is within so many steps of 1/256 pixel of a sample, so that its coverage is another one
+/// where positions are snapped to steps as coarse. Indexed as texels, layer = sample.
+std::vector<bool> samples_near_sides(const Frame&, double steps);
 
 /// Opaque and masked draws, in submission order.
 std::vector<std::uint32_t> opaque_draws(const Frame&);

@@ -10,9 +10,6 @@
 namespace strata {
 namespace {
 
-// A sample this near to a side may fall on either of its sides on the device: both ends of the side can snap to the next
-// step in x and y, which moves it by sqrt(2) steps.
-constexpr double undecided_steps = 1.5;
 // Farther out than this in NDC, positions are clipped away; devices do the same (their guard band), at their own place.
 constexpr double guard_band = 64;
 // Attributes extrapolated to a pixel's center more than this many triangles away are the device's rounding, not the scene's.
@@ -122,25 +119,25 @@ void set_edges(RasterTriangle& triangle, std::span<const SnappedCorner> corners,
 
 enum class Verdict { outside, near_miss, covered, covered_undecided };
 
-Verdict verdict_at(const RasterTriangle& triangle, const glm::i64vec2& p) {
+Verdict verdict_at(const RasterTriangle& triangle, const glm::i64vec2& p, double undecided_within) {
     bool covered = true, near_side = false;
     for (std::uint32_t i = 0; i < triangle.edge_count; ++i) {
         const RasterEdge& edge = triangle.edges[i];
         const std::int64_t height = edge.dx * p.y - edge.dy * p.x + edge.offset;
         const double distance = double(height) * edge.inverse_length;
-        if (distance < -undecided_steps) return Verdict::outside;
+        if (distance < -undecided_within) return Verdict::outside;
         const bool inside = height > 0 || (height == 0 && edge.top_left);
         if (!inside && !edge.decides) return Verdict::outside;
         covered = covered && inside;
-        near_side = near_side || (edge.decides && distance <= undecided_steps);
+        near_side = near_side || (edge.decides && distance <= undecided_within);
     }
     if (!covered) return Verdict::near_miss;
     return near_side ? Verdict::covered_undecided : Verdict::covered;
 }
 
 // Pixels of the row that the polygon can touch, [x, y).
-glm::i64vec2 columns(const RasterTriangle& triangle, std::int64_t y, std::int64_t width) {
-    const double slack = undecided_steps + 1;
+glm::i64vec2 columns(const RasterTriangle& triangle, std::int64_t y, std::int64_t width, double undecided_within) {
+    const double slack = undecided_within + 1;
     double left = double(triangle.low.x) - slack, right = double(triangle.high.x) + slack;
     const double top = double(y * snap_steps), bottom = top + double(snap_steps);
     for (std::uint32_t i = 0; i < triangle.edge_count; ++i) {
@@ -169,7 +166,8 @@ double depth_tolerance(const RasterPoint& point) {
     return std::abs(point.depth) * 0x1p-22 + point.depth_slope / double(snap_steps);
 }
 
-Raster::Raster(const Frame& frame, std::span<const std::uint32_t> draws) : frame_(&frame) {
+Raster::Raster(const Frame& frame, std::span<const std::uint32_t> draws, double undecided_within)
+    : frame_(&frame), undecided_within_(undecided_within) {
     std::uint32_t ordinal = 0;
     for (const std::uint32_t draw : draws) {
         add_draw(draw, ordinal);
@@ -217,7 +215,7 @@ void Raster::add_triangle(RasterTriangle triangle, const DrawSpace& space, std::
 }
 
 void Raster::sort_into_rows() {
-    const std::int64_t rows = frame_->view.height, slack = 2;
+    const std::int64_t rows = frame_->view.height, slack = static_cast<std::int64_t>(std::ceil(undecided_within_));
     const auto first_row = [&](const RasterTriangle& t) {
         return std::clamp<std::int64_t>((t.low.y - slack) / snap_steps, 0, rows);
     };
@@ -240,7 +238,7 @@ void Raster::sort_into_rows() {
 void Raster::row(std::uint32_t y, RasterOptions options, const Visit& visit) const {
     for (std::size_t i = row_begin_[y]; i < row_begin_[y + 1]; ++i) {
         const RasterTriangle& triangle = triangles_[in_rows_[i]];
-        const glm::i64vec2 x = columns(triangle, y, frame_->view.width);
+        const glm::i64vec2 x = columns(triangle, y, frame_->view.width, undecided_within_);
         for (std::int64_t column = x.x; column < x.y; ++column) {
             visit_pixel(triangle, {static_cast<std::uint32_t>(column), y}, options, visit);
         }
@@ -251,7 +249,7 @@ void Raster::visit_pixel(const RasterTriangle& triangle, glm::uvec2 pixel, Raste
     const View& view = frame_->view;
     for (std::uint32_t sample = 0; sample < view.samples; ++sample) {
         const glm::dvec2 at = glm::dvec2(pixel) + sample_position(view.samples, sample);
-        const Verdict verdict = verdict_at(triangle, glm::i64vec2(at * double(snap_steps)));
+        const Verdict verdict = verdict_at(triangle, glm::i64vec2(at * double(snap_steps)), undecided_within_);
         if (verdict == Verdict::outside || (verdict == Verdict::near_miss && !options.near_misses)) continue;
         const glm::dvec3 sample_ray = pixel_ray(*frame_, at.x, at.y);
         RasterPoint point{.x = pixel.x, .y = pixel.y, .sample = sample, .draw = triangle.draw, .triangle = triangle.triangle};

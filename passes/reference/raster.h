@@ -17,8 +17,11 @@
 
 namespace strata {
 
-/// Steps per pixel that the device snaps positions to (subPixelPrecisionBits is 8 on everything we run on).
+/// Steps per pixel that positions are snapped to here, as devices with 8 bits below the pixel do (subPixelPrecisionBits).
 inline constexpr std::int64_t snap_steps = 256;
+/// A sample this near to a side may fall on either of its sides on the device: both ends of the side can snap to the next step in
+/// x and y, which moves it by sqrt(2) steps.
+inline constexpr double undecided_steps = 1.5;
 
 /// A side of a convex polygon on snapped positions: dx y - dy x + offset is 0 on it, positive inside.
 struct RasterEdge {
@@ -46,7 +49,8 @@ struct RasterTriangle {
 /// All triangles of some draws of a frame.
 class Raster {
 public:
-    Raster(const Frame&, std::span<const std::uint32_t> draws);
+    /// Samples within so many steps of a side are undecided.
+    Raster(const Frame&, std::span<const std::uint32_t> draws, double undecided_within = undecided_steps);
 
     using Visit = std::function<void(const RasterPoint&, const RasterTriangle&)>;
     /// The covered samples of one pixel row, triangle by triangle in submission order.
@@ -59,6 +63,7 @@ private:
     void visit_pixel(const RasterTriangle&, glm::uvec2 pixel, RasterOptions, const Visit&) const;
 
     const Frame* frame_;
+    double undecided_within_;
     std::vector<RasterTriangle> triangles_;
     std::vector<std::size_t> row_begin_;  ///< of in_rows_, one more than there are rows
     std::vector<std::uint32_t> in_rows_;

@@ -80,8 +80,7 @@ public:
             difference_picture(made, a, b,
                                {fmt::format("frame {}  {}: {}  {}", frame, act.label, made.image, strata::name(made.verdict)),
                                 side(options_.a, act.choice_a), side(options_.b, act.choice_b)});
-        const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
-        if (const auto done = write_png(path, extent, std::as_bytes(std::span(canvas.pixels()))); !done) return done;
+        if (const auto done = write_png(path, canvas); !done) return done;
         to_stderr("wrote {}\n", path.string());
         artefacts_[name] = path.string();
         return {};

@@ -7,6 +7,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "captures/scenarios.h"
+#include "passes/frame_images.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"
 
@@ -17,7 +18,7 @@ using nlohmann::ordered_json;
 
 struct ListArguments {
     std::string what;
-    bool names = false, scenarios = false, json = false;
+    bool names = false, scenarios = false, images = false, views = false, json = false;
 };
 
 std::string range_text(const Param& param) {
@@ -94,8 +95,55 @@ Result<void> list_scenarios(const ListArguments& options) {
     return {};
 }
 
+/// What --outputs takes.
+struct Output {
+    std::string name;
+    std::string_view stage, help;
+};
+
+std::vector<Output> images_of_frames() {
+    std::vector<Output> images;
+    for (const FrameImageRow& row : frame_images())
+        for (const StageInfo& stage : stages())
+            if (std::ranges::count(stage.outputs, row.name) > 0) {
+                images.push_back({std::string(row.name), stage.name, row.help});
+                break;  // the first stage that writes it
+            }
+    return images;
+}
+
+std::vector<Output> views_of_techniques() {
+    std::vector<Output> views;
+    for (const Technique& technique : techniques()) {
+        const auto add = [&](const auto& each) {
+            views.push_back({fmt::format("{}:{}", technique.name, each.name), name(technique.stage), each.help});
+        };
+        std::ranges::for_each(technique.views, add);
+        std::ranges::for_each(technique.tables, add);
+    }
+    return views;
+}
+
+Result<void> list_outputs(const ListArguments& options, const char* schema, const char* key, const std::vector<Output>& outputs) {
+    if (options.json) {
+        ordered_json json{{"schema", schema}, {"schema_version", 1}, {key, ordered_json::array()}};
+        for (const Output& output : outputs)
+            json[key].push_back({{"name", output.name}, {"stage", output.stage}, {"help", output.help}});
+        write_stdout(json_text(json));
+        return {};
+    }
+    std::size_t width = 0;
+    for (const Output& output : outputs) width = std::max(width, output.name.size());
+    for (const Output& output : outputs)
+        if (options.names) to_stdout("{}\n", output.name);
+        else to_stdout("  {:<{}}  {}\n", output.name, width, output.help);
+    return {};
+}
+
 Result<void> list(const ListArguments& options) {
     if (options.scenarios) return list_scenarios(options);
+    if (options.images) return list_outputs(options, "strata.images", "images", images_of_frames());
+    if (options.views) return list_outputs(options, "strata.views", "views", views_of_techniques());
     bool found = options.what.empty();
     ordered_json json{{"schema", "strata.list"}, {"schema_version", 1}, {"techniques", ordered_json::array()}};
     for (const StageInfo& stage : stages()) {
@@ -128,7 +176,15 @@ std::function<Result<void>()> declare_list(CLI::App& app) {
     const auto options = std::make_shared<ListArguments>();
     CLI::Option* what =
         app.add_option("what,--stage", options->what, "stage or technique to list with parameters, counters and views");
-    app.add_flag("--scenarios", options->scenarios, "list the scenarios of strata record")->excludes(what);
+    CLI::Option* scenarios =
+        app.add_flag("--scenarios", options->scenarios, "list the scenarios of strata record")->excludes(what);
+    CLI::Option* images = app.add_flag("--images", options->images, "list the images of a frame, for --outputs")
+                              ->excludes(what)
+                              ->excludes(scenarios);
+    app.add_flag("--views", options->views, "list the views and tables of every technique, for --outputs")
+        ->excludes(what)
+        ->excludes(scenarios)
+        ->excludes(images);
     CLI::Option* names = app.add_flag("--names", options->names, "print only names, one per line");
     app.add_flag("--json", options->json, "print JSON instead of text")->excludes(names);
     return [options] { return list(*options); };

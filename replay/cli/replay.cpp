@@ -11,6 +11,7 @@
 
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/output_picture.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation_check.h"
@@ -30,7 +31,7 @@ struct ReplayArguments {
     OpenOptions open;
     ChoiceOptions choices;
     std::string frames, until, eye;
-    std::vector<std::string> outputs = {"color", "depth_layers", "display"};
+    std::vector<std::string> outputs;  ///< none: color, depth_layers and display
     std::size_t repeat = 1, timed = 0;
     std::filesystem::path folder, shaders;  ///< without a folder no file is written
     std::optional<double> tolerance;
@@ -74,6 +75,15 @@ Result<void> write_frame(const Request& request, const Replayed& replayed, const
     if (const auto display = run.images.find("display"); display != run.images.end()) {
         if (const auto done = write_png(base + ".png", display->second); !done) return done;
         to_stderr("wrote {}.png\n", base);
+    }
+    for (const auto& [image, texels] : run.images) {
+        if (options.outputs.empty() || image == "display") continue;
+        std::string path = fmt::format("{}.{}.png", base, image);
+        std::ranges::replace_if(
+            path.begin() + std::ptrdiff_t(base.size()), path.end(), [](char c) { return c == '/' || c == ':' || c == ' '; }, '-');
+        const std::string of = fmt::format("{} frame {}", options.open.capture.filename().string(), request.variant.frame);
+        if (const auto done = write_output_picture(path, run, image, of); !done) return done;
+        to_stderr("wrote {}\n", path);
     }
     if (!run.images.empty()) {
         if (const auto done = write_exr(base + ".exr", run.images, replayed.provenance); !done) return done;
@@ -213,6 +223,7 @@ Result<void> replay(const ReplayArguments& options) {
     if (!request) return request.error();
     request->until = options.until;
     request->outputs = options.outputs;
+    if (options.outputs.empty()) request->outputs = {"color", "depth_layers", "display"};
     const auto eye = eye_move_of(options.eye);
     if (!eye) return eye.error();
     request->variant.eye = *eye;
@@ -262,7 +273,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "indices of frames, like 0,4-8; default all");
     app.add_option("--outputs", options->outputs,
-                   "images to write: frame images or views (stage/technique:view); tables go into the .json")
+                   "images to write as .exr and .png: frame images or views (stage/technique:view); tables go into the .json. "
+                   "Names: strata list --images, --views")
         ->delimiter(',');
     auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this text");
     app.add_option("--repeat", options->repeat, "replay this many times; exit code 7 if any image of any pass differs")

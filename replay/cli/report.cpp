@@ -12,6 +12,7 @@
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
+#include "replay/report/table.h"
 #include "replay/report/variants.h"
 
 namespace strata {
@@ -121,19 +122,32 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         return fail(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
+    ReportRequest request = *wanted;
+    request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
+        const std::string row_label = label(row.technique, row.settings);
+        if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
+        const Figure& error = ranking_figure(row);
+        to_stderr("strata: {} of {}  {}: {} {}\n", place, of, row_label, error.name, short_number(error.value));
+    };
     const Progress progress = progress_line();
+    const StopAtSignal signal;
     std::vector<Report> made;
     for (const std::filesystem::path& capture : options.captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
-        auto report = make_report(**session, *wanted, progress);
+        (*session)->stop_when(signal.token());
+        auto report = make_report(**session, request, progress);
+        if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
         if (!report) return report.error();
         report->capture_name = capture.filename().string();
         made.push_back(*std::move(report));
+        if (signal.token().stop_requested()) break;
     }
-    return write(options, written(options, made));
+    const auto done = write(options, written(options, made));
+    if (!done || (made.back().stopped.empty() && made.size() == options.captures.size())) return done;
+    return fail(Fault::stopped, "{}", made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "capture_format/srgb.h"
 #include "replay/images/image_io.h"
@@ -22,16 +23,16 @@ struct Texels {
     std::vector<glm::dvec3> values;
 };
 
-/// The part of an image that is shown.
-Texels texels_of(const HostImage& image, const ImageComparison& made) {
+/// The part of an image that is shown: samples of light averaged, of anything else one layer.
+Texels texels_of(std::string_view name, const HostImage& image, std::uint32_t layer_shown) {
     const Extent& extent = image.shape.extent;
     Texels shown{static_cast<int>(extent.width),
                  static_cast<int>(extent.height),
-                 content_of(made.image, image.shape.format),
+                 content_of(name, image.shape.format),
                  row(image.shape.format).channels,
                  {}};
     const bool light = shown.content == Content::radiance || shown.content == Content::display;
-    const std::uint32_t first = light ? 0 : made.error.worst_pixel.layer, count = light ? image.shape.layers : 1;
+    const std::uint32_t first = light ? 0 : layer_shown, count = light ? image.shape.layers : 1;
     for (std::uint32_t y = 0; y < extent.height; ++y)
         for (std::uint32_t x = 0; x < extent.width; ++x) {
             glm::dvec3 sum(0);
@@ -112,8 +113,17 @@ struct Panel {
     std::string low = {}, high = {}, note = {};    ///< numbers at the ends of the legend, and what stands between them
 };
 
-/// The panel's image with the worst pixel framed, its label above and its legend below.
-void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const WorstPixel& worst) {
+/// A frame around a pixel of the panel's image, whose upper left corner and enlargement are given.
+void draw_mark(Canvas& canvas, int left, int top, int zoom, const WorstPixel& worst) {
+    const int around = 3 * std::max(zoom, 3);
+    const Box frame{left + static_cast<int>(worst.x) * zoom + zoom / 2 - around,
+                    top + static_cast<int>(worst.y) * zoom + zoom / 2 - around, 2 * around + 1, 2 * around + 1};
+    canvas.outline(frame, mark);
+    canvas.outline({frame.x - 1, frame.y - 1, frame.width + 2, frame.height + 2}, {0, 0, 0});
+}
+
+/// The panel's image with a pixel framed where one is the worst, its label above and its legend below.
+void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const WorstPixel* worst) {
     const int zoom = box.width / size.width;
     canvas.text(panel.label, {box.x, box.y, box.width, 0}, ink);
     const int top = box.y + Canvas::line;
@@ -122,11 +132,7 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
             canvas.fill(
                 {box.x + x * zoom, top + y * zoom, zoom, zoom},
                 panel.color(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)));
-    const int around = 3 * std::max(zoom, 3);
-    const Box frame{box.x + static_cast<int>(worst.x) * zoom + zoom / 2 - around,
-                    top + static_cast<int>(worst.y) * zoom + zoom / 2 - around, 2 * around + 1, 2 * around + 1};
-    canvas.outline(frame, mark);
-    canvas.outline({frame.x - 1, frame.y - 1, frame.width + 2, frame.height + 2}, {0, 0, 0});
+    if (worst) draw_mark(canvas, box.x, top, zoom, *worst);
     if (!panel.legend) return;
     const int bar = top + size.height * zoom + 6;
     for (int x = 0; x < box.width; ++x) canvas.fill({box.x + x, bar, 1, bar_height}, panel.legend(double(x) / (box.width - 1)));
@@ -160,8 +166,42 @@ Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& 
 
 }  // namespace
 
+Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) {
+    const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
+    return write_png(path, extent, std::as_bytes(std::span(canvas.pixels())));
+}
+
+Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title,
+                     const std::optional<ViewScale>& scale) {
+    const Texels shown = texels_of(name, image, 0);
+    const Range range = scale ? Range{scale->low, scale->high} : range_of(shown, image.shape.format);
+    const std::string unit = scale && !scale->unit.empty() ? " " + scale->unit : "";
+    std::string label(name);
+    const bool is_averaged = shown.content == Content::radiance || shown.content == Content::display;
+    if (image.shape.layers > 1 && !is_averaged) label += fmt::format(", layer 0 of {}", image.shape.layers);
+    Panel panel = image_panel(label, shown, range);
+    panel.low += unit, panel.high += unit;
+    const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
+    const bool has_numbers = std::ranges::any_of(shown.values, finite);
+    const bool has_others = !std::ranges::all_of(shown.values, finite);
+    panel.note = !has_numbers    ? "no pixel has a number"
+                 : least == most ? fmt::format("every pixel is {:.4g}{}", least, unit)
+                                 : fmt::format("values {:.4g} to {:.4g}{}", least, most, unit);
+    if (has_numbers && has_others) panel.note += ", magenta: no number";
+    const int zoom = std::max(1, (least_width + shown.width - 1) / shown.width);
+    const Box cell{gap, 2 * gap + Canvas::line, shown.width * zoom, 0};
+    // What the image says of itself stands below the legend's numbers, where there is room for it.
+    Canvas canvas(cell.width + 2 * gap, cell.y + shown.height * zoom + 3 * Canvas::line + bar_height + 10 + gap, paper);
+    canvas.text(title, {gap, gap, cell.width, 0}, mark);
+    const std::string note = std::exchange(panel.note, {});
+    draw(canvas, panel, cell, shown, nullptr);
+    canvas.text(note, {gap, canvas.height() - gap - Canvas::line, cell.width, 0}, ink);
+    return canvas;
+}
+
 Canvas difference_picture(const ImageComparison& made, const HostImage& a, const HostImage& b, const PictureTitles& titles) {
-    const Texels of_a = texels_of(a, made), of_b = texels_of(b, made);
+    const std::uint32_t layer = made.error.worst_pixel.layer;
+    const Texels of_a = texels_of(made.image, a, layer), of_b = texels_of(made.image, b, layer);
     const Range range = range_of(of_a, a.shape.format);
     std::vector<Panel> panels{image_panel("A  " + titles.a, of_a, range), image_panel("B  " + titles.b, of_b, range),
                               difference_panel(of_a, of_b, made)};
@@ -181,7 +221,7 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     for (int i = 0; i < static_cast<int>(panels.size()); ++i)
         draw(canvas, panels[static_cast<std::size_t>(i)],
              {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a,
-             made.error.worst_pixel);
+             &made.error.worst_pixel);
     return canvas;
 }
 

@@ -65,6 +65,7 @@ DeviceInfo describe(const vk::raii::PhysicalDevice& device, std::uint32_t index)
             .vector_width = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize,
             .max_buffer_bytes = properties.limits.maxStorageBufferRange,
             .max_image_extent = properties.limits.maxImageDimension2D,
+            .snap_steps = 1u << properties.limits.subPixelPrecisionBits,
             .capabilities = capabilities_of(device),
             .lacks = first_missing(device)};
 }

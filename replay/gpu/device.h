@@ -21,6 +21,7 @@ struct DeviceInfo {
     std::uint32_t vector_width = 0;      ///< lanes of a subgroup: on a CPU driver the width of its vectors in 32-bit numbers
     std::uint64_t max_buffer_bytes = 0;  ///< of one storage buffer binding
     std::uint32_t max_image_extent = 0;
+    std::uint32_t snap_steps = 256;  ///< per pixel, that it snaps corners of triangles to
     Capabilities capabilities;
     std::string lacks;  ///< empty when the device can replay, else the first missing feature of the baseline
 };

@@ -9,6 +9,9 @@
 namespace strata {
 namespace {
 
+// What rounding in float leaves of an exact blend.
+constexpr double exact_below = 1e-4;
+
 bool keeps_error(const Standing& row, const Question& asked) { return row.error && (!asked.error || *row.error <= *asked.error); }
 
 bool keeps_time(const Standing& row, const Question& asked) {
@@ -73,8 +76,10 @@ std::string answer_text(std::span<const Standing> rows, std::optional<std::size_
         text += answer.most_accurate ? fmt::format("most accurate {}", row(*answer.most_accurate)) : "no method is so fast";
     text += "\n";
     if (baseline && keeps_error(rows[*baseline], asked))
-        text += fmt::format("the baseline {} is not counted; here it has {}\n", names.rows[*baseline],
-                            figures(rows[*baseline], names));
+        text += fmt::format("the baseline {} is not counted; here it has {}{}{}{}\n", names.rows[*baseline],
+                            figures(rows[*baseline], names),
+                            *rows[*baseline].error < exact_below ? ": exact, nothing that shows is out of order" : "",
+                            names.baseline_note.empty() ? "" : "; ", names.baseline_note);
     return text;
 }
 

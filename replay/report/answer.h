@@ -30,8 +30,9 @@ Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baselin
 /// What a sentence needs to know of the rows.
 struct AnswerNames {
     std::vector<std::string> rows;
-    std::string error;  ///< "relative rmse"
-    std::string unit;   ///< "alpha_blend"; empty: no time could be measured in units of it
+    std::string error;               ///< "relative rmse"
+    std::string unit;                ///< "alpha_blend"; empty: no time could be measured in units of it
+    std::string baseline_note = {};  ///< what its time contains, or nothing
 };
 std::string answer_text(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&, const AnswerNames&);
 

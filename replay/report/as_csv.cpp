@@ -7,9 +7,8 @@ namespace strata {
 namespace {
 
 constexpr std::string_view head =
-    "implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,time,time_mad,stage_bytes,bytes_per_pixel,invocations,"
-    "flicker,"
-    "on_pareto_front,on_memory_front,counters,not_supported";
+    "ranking_error,touched_share,sort_ms,implementation_rmse,stage_ms,stage_ms_mad,frame_ms,frame_ms_mad,time,time_mad,"
+    "stage_bytes,bytes_per_pixel,invocations,flicker,on_pareto_front,on_memory_front,counters,not_supported";
 
 std::string csv_field(std::string_view text) {
     std::string safe(1, '"');
@@ -39,8 +38,11 @@ std::string counters_field(const Measurement& row) {
 std::string line_of(const Measurement& row, std::size_t figures) {
     std::string line = row.technique + "," + csv_field(row.settings);
     if (!row.accuracy.not_supported.empty())
-        return line + std::string(figures + 15, ',') + csv_field(row.accuracy.not_supported) + "\n";
+        return line + std::string(figures + 18, ',') + csv_field(row.accuracy.not_supported) + "\n";
     for (const Figure& figure : errors_of(row)) line += fmt::format(",{}", number(figure.value));
+    const auto touched = row.accuracy.touched.empty() ? std::nullopt : std::optional(row.accuracy.touched_share);
+    const auto sorted = row.sort_ms ? std::optional(row.sort_ms->median) : std::nullopt;
+    line += fmt::format(",{},{},{}", number(ranking_figure(row).value), number(touched), number(sorted));
     line += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}", row.accuracy.model_rmse, row.stage_ms.median, row.stage_ms.mad,
                         row.frame_ms.median, row.frame_ms.mad);
     const auto time = [&](double Spread::*part) { return row.time ? number(*row.time.*part) : std::string(); };
@@ -69,11 +71,10 @@ std::string as_csv(std::span<const Report> reports, const Pool& pool) {
     const std::vector<std::string> figures = figure_names(reports);
     for (const PooledRow& row : pool.rows) {
         csv += "\"pooled\"," + row.technique + "," + csv_field(row.settings);
-        for (const std::string& figure : figures)
-            csv += fmt::format(",{}", figure == pool.error ? number(row.error) : std::string());
+        csv += std::string(figures.size(), ',');
         csv += fmt::format(
-            ",,,,,,{},,,{},,{},{:d},{:d},,{}\n", number(row.time), number(row.bytes_per_pixel), number(row.flicker), row.on_front,
-            row.on_memory_front,
+            ",{},,,,,,,,{},,,{},,{},{:d},{:d},,{}\n", number(row.error), number(row.time), number(row.bytes_per_pixel),
+            number(row.flicker), row.on_front, row.on_memory_front,
             row.captures == pool.captures ? std::string() : fmt::format("\"{} of {} captures\"", row.captures, pool.captures));
     }
     return csv;

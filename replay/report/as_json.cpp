@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(const Measurement& row) {
+ordered_json json_of(const Measurement& row, bool is_timed) {
     ordered_json json{{"technique", row.technique}, {"settings", row.settings}};
     if (!row.accuracy.not_supported.empty()) {
         json["not_supported"] = row.accuracy.not_supported;
@@ -19,6 +19,9 @@ ordered_json json_of(const Measurement& row) {
     }
     for (const Figure& figure : errors_of(row))
         json["method_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
+    for (const Figure& figure : row.accuracy.touched)
+        json["touched_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
+    if (!row.accuracy.touched.empty()) json["touched_share"] = row.accuracy.touched_share;
     const WorstTexel& worst = row.accuracy.worst;
     json["implementation_error"] = {{"model_is", name(row.model_is)},
                                     {"rmse", row.accuracy.model_rmse},
@@ -35,7 +38,9 @@ ordered_json json_of(const Measurement& row) {
                                     {"tolerance", {{"rmse", row.tolerance}, {"worst", row.tolerated_worst}}}};
     if (const std::string doubt = implementation_doubt(row); !doubt.empty()) json["implementation_error"]["doubt"] = doubt;
     if (!row.accuracy.incomparable.empty()) json["incomparable"] = row.accuracy.incomparable;
+    if (!is_timed) return json;
     json["stage_ms"] = json_of(row.stage_ms);
+    if (row.sort_ms) json["sort_ms"] = json_of(*row.sort_ms);
     if (row.time) json["time"] = json_of(*row.time);
     json["frame_ms"] = json_of(row.frame_ms);
     json["stage_bytes"] = row.stage_bytes;
@@ -111,7 +116,9 @@ ordered_json json_of(const Report& report) {
         json["flicker"] = {
             {"frames", report.flicker->frames}, {"dolly_metres", *report.flicker->dolly}, {"pan_degrees", report.flicker->pan}};
     if (!report.skipped.empty()) json["skipped"] = report.skipped;
-    for (const Measurement& row : report.rows) json["rows"].push_back(json_of(row));
+    if (!report.stopped.empty()) json["stopped"] = report.stopped;
+    for (const Measurement& row : report.rows) json["rows"].push_back(json_of(row, report.is_timed));
+    if (!report.is_timed) return json;
     json["best_within"] = json_of_best(report.rows, standings(report.rows), report.time_unit);
     if (report.question.is_asked()) json["answer"] = json_of_answer(report);
     return json;

@@ -29,23 +29,36 @@ std::vector<Figure> shown_errors(const Measurement& row) {
     return errors;
 }
 
+/// The first row that can do the frame, or null.
+const Measurement* first_measured(const Report& report) {
+    const auto row = std::ranges::find_if(report.rows, [](const Measurement& each) { return !each.accuracy.method.empty(); });
+    return row == report.rows.end() ? nullptr : &*row;
+}
+
+/// Whether errors over what the stage touches say more than those over the frame.
+bool leaves_much(const Report& report) {
+    const Measurement* row = first_measured(report);
+    return row && !row->accuracy.touched.empty() && row->accuracy.touched_share < 1;
+}
+
 Table table_of(const Report& report) {
     Table table;
-    const auto measured = [](const Measurement& row) { return row.accuracy.not_supported.empty(); };
-    if (const auto row = std::ranges::find_if(report.rows, measured); row != report.rows.end())
+    if (const Measurement* row = first_measured(report))
         for (const Figure& figure : shown_errors(*row)) table.heads.push_back(figure.name + " " + figure.unit);
+    if (leaves_much(report)) table.heads.push_back(ranking_figure(*first_measured(report)).name + " touched");
     if (!report.time_unit.empty()) table.heads.push_back(time_head(report.time_unit));
-    table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
+    if (report.is_timed) table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
     if (report.flicker) table.heads.emplace_back("flicker");
     for (const Measurement& row : report.rows) {
         Table::Row line{marks(row.on_front, row.on_memory_front), short_label(row), {}};
-        if (!measured(row)) {
+        if (!row.accuracy.not_supported.empty()) {
             line.cells = {"not supported: " + row.accuracy.not_supported};
         } else {
             for (const Figure& figure : shown_errors(row)) line.cells.push_back(short_number(figure.value));
+            if (leaves_much(report)) line.cells.push_back(short_number(ranking_figure(row).value));
             if (row.time) line.cells.push_back(fmt::format("{:.2f} +-{:.2f}", row.time->median, row.time->mad));
-            line.cells.push_back(short_number(row.stage_ms.median));
-            line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
+            if (report.is_timed) line.cells.push_back(short_number(row.stage_ms.median));
+            if (report.is_timed) line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
             if (row.flicker) line.cells.push_back(short_number(*row.flicker));
         }
         table.rows.push_back(std::move(line));
@@ -75,8 +88,14 @@ std::string answer_text(const Report& report) {
     AnswerNames names{.rows = {}, .error = {}, .unit = below_stage(report.time_unit)};
     for (const Measurement& row : report.rows) {
         names.rows.push_back(short_label(row));
-        if (names.error.empty() && !row.accuracy.method.empty()) names.error = row.accuracy.method.front().name;
+        if (names.error.empty() && !row.accuracy.method.empty()) names.error = ranking_figure(row).name;
     }
+    if (leaves_much(report)) names.error += " touched";
+    const auto baseline = baseline_of(report);
+    if (baseline && report.rows[*baseline].sort_ms)
+        names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
+                                          short_number(report.rows[*baseline].sort_ms->median),
+                                          plural(report.sorted_objects, "object"), plural(report.sorted_particles, "particle"));
     return "\n" + answer_text(standings(report.rows), baseline_of(report), report.question, names);
 }
 
@@ -133,6 +152,9 @@ std::string heading(const Report& report) {
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
     text += fmt::format("truth: {}\n", report.truth);
+    if (leaves_much(report))
+        text += fmt::format("touched: errors over the {:.3g} % of samples that the stage changes\n",
+                            100 * first_measured(report)->accuracy.touched_share);
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
@@ -155,9 +177,11 @@ std::string implementation_doubt(const Measurement& row) {
 std::string as_text(const Report& report) {
     const std::string text = heading(report);
     if (!report.skipped.empty()) return text;
+    const std::string stopped = report.stopped.empty() ? "" : "\n" + report.stopped + "\n";
+    if (!report.is_timed) return text + "\n" + as_text(table_of(report)) + "\n" + implementation_text(report) + stopped;
     return text + "\n" + as_text(table_of(report)) + "\n" + std::string(legend) + implementation_text(report) +
            mirrors_text(report) + best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report) +
-           answer_text(report);
+           stopped + answer_text(report);
 }
 
 std::string as_text(const Pool& pool) {

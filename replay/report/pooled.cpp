@@ -10,12 +10,6 @@ namespace {
 
 constexpr double least = 1e-5;
 
-/// Frames differ in brightness, so a relative error is pooled where the judge has one; else its first figure is.
-const Figure& pooled_figure(const Measurement& row) {
-    const auto relative = std::ranges::find(row.accuracy.method, "relative rmse", &Figure::name);
-    return relative == row.accuracy.method.end() ? row.accuracy.method.front() : *relative;
-}
-
 /// The mean of a figure over rows; nothing when one of them lacks it.
 std::optional<double> mean_of(std::span<const Measurement* const> rows,
                               const std::function<std::optional<double>(const Measurement&)>& figure) {
@@ -31,7 +25,7 @@ PooledRow pooled_row(std::span<const Measurement* const> rows) {
     return {
         .technique = rows.front()->technique,
         .settings = rows.front()->settings,
-        .error = *mean_of(rows, [](const Measurement& row) { return pooled_figure(row).value; }),
+        .error = *mean_of(rows, [](const Measurement& row) { return ranking_figure(row).value; }),
         .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
         .bytes_per_pixel = bytes,
         .flicker = mean_of(rows, [](const Measurement& row) { return row.flicker; }),
@@ -67,7 +61,7 @@ Pool pooled(std::span<const Report> reports) {
         ++pool.captures;
         for (const Measurement& row : report.rows) {
             if (row.accuracy.method.empty()) continue;
-            pool.error = pooled_figure(row).name;
+            pool.error = ranking_figure(row).name;
             const auto same = [&](const auto& others) {
                 return std::tie(others.front()->technique, others.front()->settings) == std::tie(row.technique, row.settings);
             };

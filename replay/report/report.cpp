@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/scene/object_order.h"
 #include "replay/plural.h"
 #include "replay/report/flicker.h"
 #include "replay/report/variants.h"
@@ -80,6 +81,7 @@ void add_timing(Measurement& row, const Run& run, const Report& report) {
     const std::string stage_name(name(report.stage));
     row.stage_ms = run.stage_ms.at(stage_name);
     row.frame_ms = *run.frame_ms;
+    if (const auto sorted = run.stage_sort_ms.find(stage_name); sorted != run.stage_sort_ms.end()) row.sort_ms = sorted->second;
     if (const auto bytes = run.stage_bytes.find(stage_name); bytes != run.stage_bytes.end()) row.stage_bytes = bytes->second;
     row.bytes_per_pixel = double(row.stage_bytes) / (double(report.width) * report.height);
     if (const auto ran = run.stage_invocations.find(stage_name); ran != run.stage_invocations.end())
@@ -113,6 +115,10 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
         add_timing(row, (*runs)[i], report);
         if (measurable) row.time = ratio_of(times((*runs)[i]), unit_times);
     }
+    if (const std::size_t done = runs->empty() ? report.repeats : times(runs->front()).size(); done < report.repeats) {
+        report.stopped = fmt::format("stopped after {} of {} timed runs", done, report.repeats);
+        report.repeats = done;
+    }
     return {};
 }
 
@@ -137,7 +143,30 @@ Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const
     return {};
 }
 
+/// Draws and particles that a renderer sorts by object.
+void count_sorted(const Frame& frame, Report& report) {
+    report.sorted_objects = back_to_front_draws(frame).size();
+    for (const Emitter& emitter : frame.emitters) report.sorted_particles += emitter.particles.size();
+}
+
+/// Progress of a report whose steps take, in units of one run, about 4 for a row's errors, a run per frame of its flicker, and
+/// one per timed run and the one that warms up.
+struct Shares {
+    double errors = 4, flicker = 0, times = 0;
+    explicit Shares(const ReportRequest& wanted)
+        : flicker(wanted.flicker ? wanted.flicker->frames : 0), times(double(wanted.repeats + 1)) {
+        const double all = errors + flicker + times;
+        errors /= all, flicker /= all, times /= all;
+    }
+};
+
 }  // namespace
+
+const Figure& ranking_figure(const Measurement& row) {
+    const std::vector<Figure>& figures = row.accuracy.touched.empty() ? row.accuracy.method : row.accuracy.touched;
+    const auto relative = std::ranges::find(figures, "relative rmse", &Figure::name);
+    return relative == figures.end() ? figures.front() : *relative;
+}
 
 std::vector<Standing> standings(std::span<const Measurement> rows) {
     std::vector<Standing> all;
@@ -145,7 +174,7 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
         Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
                           .spread = row.time ? row.time->mad : row.stage_ms.mad,
                           .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (!row.accuracy.method.empty()) standing.error = row.accuracy.method.front().value;
+        if (!row.accuracy.method.empty()) standing.error = ranking_figure(row).value;
         all.push_back(standing);
     }
     return all;
@@ -202,6 +231,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
             return report;
         }
 
+    count_sorted(*frame, report);
+    const Shares shares(wanted);
     tell("truth", 0);
     const auto yardstick = find_yardstick(session, wanted, view);
     if (!yardstick) return yardstick.error();
@@ -214,20 +245,35 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
                                .tolerance = tolerance.rmse,
                                .tolerated_worst = tolerance.worst,
                                .model_is = variant.technique->model_is});
-        tell(label(variant.technique->name, variant.settings), .1 + .3 * double(i) / double(all->size()));
+        tell(fmt::format("{} of {}, {}", i + 1, all->size(), label(variant.technique->name, variant.settings)),
+             shares.errors * double(i) / double(all->size()));
         auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);
+        if (!accuracy && accuracy.error().fault == Fault::stopped && i > 0) {
+            report.rows.pop_back();
+            report.stopped = fmt::format("stopped after the errors of {} of {} rows; no time was measured", i, all->size());
+            report.is_timed = false;
+            break;
+        }
         if (!accuracy) return accuracy.error();
         report.rows.back().accuracy = *std::move(accuracy);
+        if (wanted.on_row) wanted.on_row(report.rows.back(), i + 1, all->size());
     }
-    if (wanted.flicker) {
-        const auto told = [&](std::string_view what, double done) { tell(what, .4 + .3 * done); };
-        if (const auto added = add_flicker(session, wanted, *all, report, told); !added) return added.error();
+    if (wanted.flicker && report.stopped.empty()) {
+        const auto told = [&](std::string_view what, double done) { tell(what, shares.errors + shares.flicker * done); };
+        const auto added = add_flicker(session, wanted, *all, report, told);
+        if (!added && added.error().fault != Fault::stopped) return added.error();
+        if (!added) report.stopped = "stopped before flicker and times were measured", report.is_timed = false;
     }
-    const auto told = [&](std::string_view what, double done) { tell(what, .7 + .3 * done); };
-    if (const auto timed = time_rows(session, *all, report, told); !timed) return timed.error();
-    mark_fronts(report.rows);
+    if (report.stopped.empty()) {
+        const auto told = [&](std::string_view what, double done) { tell(what, 1 - shares.times * (1 - done)); };
+        const auto timed = time_rows(session, *all, report, told);
+        if (!timed && timed.error().fault != Fault::stopped) return timed.error();
+        if (!timed) report.stopped = "stopped before a time was measured";
+        report.is_timed = bool(timed);
+    }
+    if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
-        return row.accuracy.method.empty() ? HUGE_VAL : row.accuracy.method.front().value;
+        return row.accuracy.method.empty() ? HUGE_VAL : ranking_figure(row).value;
     });
     tell("done", 1);
     return report;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Walk {
     double pan = 5;               ///< degrees to the right from the first frame to the last
 };
 
+struct Measurement;
+
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
     Stage stage = Stage::transparency;
@@ -35,6 +38,8 @@ struct ReportRequest {
     Question question;
     std::size_t repeats = 7;
     std::optional<Walk> flicker;
+    /// Told of each row as soon as its errors are known: the row, its place from 1 on, and of how many.
+    std::function<void(const Measurement&, std::size_t, std::size_t)> on_row = {};
 };
 
 /// One row.
@@ -45,7 +50,8 @@ struct Measurement {
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
     ModelKind model_is = ModelKind::paper;
     Spread stage_ms, frame_ms;
-    std::optional<Spread> time;  ///< stage_ms as multiples of the time unit's, turn by turn
+    std::optional<Spread> time;     ///< stage_ms as multiples of the time unit's, turn by turn
+    std::optional<Spread> sort_ms;  ///< of stage_ms: what the host sorts in every frame
     std::uint64_t stage_bytes = 0;
     double bytes_per_pixel = 0;
     std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
@@ -67,13 +73,20 @@ struct Report {
     Question question;
     std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
+    std::string stopped;            ///< what is missing because a stop was asked for: "stopped after 3 of 7 timed runs"
+    bool is_timed = true;           ///< false: stopped before any time was measured
+    std::size_t sorted_objects = 0, sorted_particles = 0;  ///< of the frame, by techniques with Abilities::sorts_objects
 };
 
+/// Stopped (Session::stop_when), it gives what is known by then, or fails where no row is.
 Result<Report> make_report(Session&, const ReportRequest&, const Progress& = {});
 
 /// Marks the rows that no other row beats in both error and time, and in both error and memory.
 void mark_fronts(std::vector<Measurement>&);
-/// What the rows are ranked by: the first figure of the stage's judge; time in the time unit, or in milliseconds without one.
+/// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so the
+/// relative error over what it touches where there is one; else the first figure of its judge.
+const Figure& ranking_figure(const Measurement&);
+/// The rows by their ranking figures; time in the time unit, or in milliseconds without one.
 std::vector<Standing> standings(std::span<const Measurement>);
 /// The row whose time is 1, if it was measured.
 std::optional<std::size_t> baseline_of(const Report&);

@@ -124,7 +124,7 @@ Run describe_run(const Declaration& d) {
     return run;
 }
 
-void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
+void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats, const SortTimes& sorts) {
     const auto sums_of = [&](const std::function<bool(std::size_t)>& counts) {
         std::vector<double> sums;
         for (const std::vector<StepCost>& steps : repeats) {
@@ -134,7 +134,16 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
         }
         return sums;
     };
-    run.frame_ms = spread_of(sums_of([](std::size_t) { return true; }));
+    const auto add_sorts = [&](const std::string& stage, std::vector<double>& sums) {
+        const auto found = sorts.find(stage);
+        for (std::size_t i = 0; found != sorts.end() && i < sums.size(); ++i) sums[i] += found->second[i];
+    };
+    std::vector<double> frame_sums = sums_of([](std::size_t) { return true; });
+    for (const auto& [stage, ms] : sorts) {
+        add_sorts(stage, frame_sums);
+        run.stage_sort_ms[stage] = spread_of(ms);
+    }
+    run.frame_ms = spread_of(frame_sums);
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
         run.steps[i].ms_by_repeat = sums_of([&](std::size_t step) { return step == i; });
         run.steps[i].ms = spread_of(run.steps[i].ms_by_repeat);
@@ -144,7 +153,8 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats) {
             const Scope& scope = run.steps[step].scope;
             return scope.kind == ScopeKind::act && name(scope.stage) == stage;
         };
-        const auto sums = sums_of(is_its);
+        auto sums = sums_of(is_its);
+        add_sorts(stage, sums);
         run.stage_ms[stage] = spread_of(sums);
         run.stage_ms_by_repeat[stage] = sums;
         for (std::size_t i = 0; !repeats.empty() && i < repeats.back().size(); ++i)

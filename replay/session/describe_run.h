@@ -22,8 +22,10 @@ Result<Execution> without_fatal_counts(const Declaration&, Execution);
 std::set<std::string> not_counted(const Declaration&, std::optional<std::size_t> until);
 /// A technique that acts at several stages counts in each: equal counters are added up.
 std::vector<CounterRecord> summed(std::vector<CounterRecord>);
-/// Spreads over repeats of the milliseconds of each step; how often shaders ran, in the last one.
-void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats);
+/// By stage: what the host sorted for it in each repeat, in milliseconds.
+using SortTimes = std::map<std::string, std::vector<double>>;
+/// Spreads over repeats of the milliseconds of each step, and of what was sorted; how often shaders ran, in the last one.
+void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats, const SortTimes&);
 /// The techniques of the frame's acts that cannot do one of its features.
 std::vector<UnsupportedChoice> not_supported(const Declaration&, const Features&);
 /// "technique key=value ..."

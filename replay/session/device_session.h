@@ -50,6 +50,15 @@ public:
         std::vector<StepCost> step_costs;
     };
     Result<TimedRun> time_alone(const Request&);
+    /// What one request took in one turn: its steps, and by stage what the host sorted, in milliseconds.
+    struct TurnTimes {
+        std::vector<StepCost> steps;
+        std::map<std::string, double> sorts;
+    };
+    using Turn = std::vector<TurnTimes>;
+    /// Runs every request once, what they share once. The first turn makes the runs that the others add times to.
+    Result<Turn> time_in_turn(std::span<const Request>, std::size_t turn, std::vector<Run>&, const Progress&);
+    Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 
 private:
     /// Every image as a stage's technique (its last act) found it: the same for every technique of the stage, so the latest is

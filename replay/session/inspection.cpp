@@ -290,6 +290,7 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                                      .truth = truth,
                                      .fragments = &found_->fragments,
                                      .rounding = *rounding,
+                                     .snap_steps = device().snap_steps,
                                      .stop = stop_});
     if (const auto on = check_going(); !on) return on.error();
     return accuracy;

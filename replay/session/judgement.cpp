@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "passes/frame_images.h"
+#include "passes/reference/fragments.h"
+#include "passes/reference/raster.h"
 #include "passes/registry.h"
 #include "replay/measure/flip.h"
 #include "replay/plural.h"
@@ -122,8 +124,25 @@ std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, co
     return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
 }
 
+/// Sides of triangles lie elsewhere on a device that snaps corners to coarser steps than models and truths do. There images of
+/// the frame's extent are compared with nothing.
+void leave_out_sides(const JudgedStage& stage, ImageSet& images) {
+    if (stage.snap_steps >= snap_steps) return;
+    const double finer = double(snap_steps) / double(stage.snap_steps);
+    const std::vector<bool> near = samples_near_sides(stage.frame, undecided_steps * finer);
+    const View& view = stage.frame.view;
+    for (auto& [name, image] : images) {
+        if (image.width != view.width || image.height != view.height) continue;
+        image.undecided.resize(image.texels.size());
+        const std::size_t pixels = std::size_t(view.width) * view.height;
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;
+    }
+}
+
 void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
-    const ImageSet model = run_model(stage);
+    ImageSet model = run_model(stage);
+    leave_out_sides(stage, model);
     accuracy.incomparable = incomparable_with_model(info(stage.choice.technique->stage), stage.result, model);
     if (!accuracy.incomparable.empty()) {
         accuracy.model_rmse = accuracy.model_worst = HUGE_VAL;
@@ -139,6 +158,29 @@ void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
     accuracy.worst = all.where;
 }
 
+/// Leaves out what the stage leaves as it finds it, which a step back of the camera makes more of: the share that remains;
+/// nothing where the stage makes no radiance, and where nothing would remain.
+std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& before, ImageSet& truth) {
+    const std::string_view picture = stage.outputs.front();
+    const FrameImageRow* row = find_frame_image(picture);
+    const auto wanted = truth.find(picture);
+    if (!row || row->content != Content::radiance || wanted == truth.end()) return {};
+    ReferenceImage& image = wanted->second;
+    const auto found = before.find(picture);
+    const bool is_drawn_over = found != before.end() && same_extent(found->second, image);
+    image.undecided.resize(image.texels.size());
+    std::size_t decided = 0, touched = 0;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        if (image.undecided[i]) continue;
+        const glm::dvec3 was = is_drawn_over ? glm::dvec3(found->second.texels[i]) : glm::dvec3(0);
+        const bool is_touched = glm::dvec3(image.texels[i]) != was;
+        ++decided;
+        touched += is_touched;
+        image.undecided[i] = !is_touched;
+    }
+    return touched == 0 ? std::nullopt : std::optional(double(touched) / double(decided));
+}
+
 /// The figures that the stage's judge would give, every one infinite.
 std::vector<Figure> infinite_figures(const StageInfo& of_stage, const ImageSet& truth, const StageInput& input) {
     if (!truth.contains(of_stage.outputs.front())) return {{"error", "", HUGE_VAL}};
@@ -150,8 +192,8 @@ std::vector<Figure> infinite_figures(const StageInfo& of_stage, const ImageSet& 
 void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const StageInfo& of_stage = info(stage.choice.technique->stage);
     const StageInput input{stage.frame, stage.before, stage.fragments};
-    const ImageSet own = stage.truth ? ImageSet() : of_stage.truth(input);
-    const ImageSet& truth = stage.truth ? *stage.truth : own;
+    ImageSet truth = stage.truth ? *stage.truth : of_stage.truth(input);
+    leave_out_sides(stage, truth);
     if (const std::string why = incomparable_with_truth(of_stage, stage.result, truth); !why.empty()) {
         accuracy.incomparable += accuracy.incomparable.empty() ? why : "; " + why;
         accuracy.method = infinite_figures(of_stage, truth, input);
@@ -159,6 +201,10 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     }
     accuracy.method = of_stage.judge(stage.result, truth, input);
     accuracy.flip = flip_of(of_stage, stage.result, truth);
+    if (const auto share = keep_touched(of_stage, stage.before, truth)) {
+        accuracy.touched_share = *share;
+        accuracy.touched = of_stage.judge(stage.result, truth, input);
+    }
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct JudgedStage {
     const ImageSet* truth = nullptr;                    ///< null: computed here
     std::optional<FragmentLists>* fragments = nullptr;  ///< as StageInput's
     BlendRounding rounding = {};                        ///< of the device that gave the result
+    std::uint32_t snap_steps = 256;                     ///< and DeviceInfo::snap_steps
     std::stop_token stop = {};                          ///< once requested, what is left is left out and the answer worth nothing
 };
 

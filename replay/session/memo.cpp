@@ -103,8 +103,7 @@ std::uint64_t ActKeys::key(const Graph& graph, const DeclaredAct& act, const Set
     for (const Step& step : graph.steps()) {
         if (step.scope != act.scope) continue;
         for (const std::string& shader : step.shaders) hash.add(shaders_->replaced(shader));
-        if (const auto* draw = std::get_if<DrawWork>(&step.work))
-            hash.add(shaders_->replaced(scene_vertex_shader(draw->list)));
+        if (const auto* draw = std::get_if<DrawWork>(&step.work)) hash.add(shaders_->replaced(scene_vertex_shader(draw->list)));
         for (const Use& use : uses(step)) {
             use.image ? read(image_key_, use.image.id) : read(buffer_key_, use.buffer.id);
             if (!use.image && graph.record(use.buffer).remembered) hash.add(run_);

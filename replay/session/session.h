@@ -98,6 +98,8 @@ struct Run {
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
     std::map<std::string, std::vector<double>> stage_ms_by_repeat;  ///< what stage_ms is the spread of, in turn
+    std::map<std::string, Spread>
+        stage_sort_ms;  ///< of stage_ms: what the host sorts, of techniques with Abilities::sorts_objects
     std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
@@ -127,9 +129,11 @@ struct WorstTexel {
 
 /// How a technique fared on a frame against its model (implementation error) and the stage's truth (method error).
 struct Accuracy {
-    std::vector<Figure> method;                            ///< from the stage's judge
-    std::optional<double> flip;                            ///< mean of FLIP against the truth, of a stage that makes radiance
-    double model_rmse = 0, model_worst = 0;                ///< relative, see Tolerance
+    std::vector<Figure> method;              ///< from the stage's judge
+    std::optional<double> flip;              ///< mean of FLIP against the truth, of a stage that makes radiance
+    std::vector<Figure> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
+    double touched_share = 1;                ///< of all that are compared
+    double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;
     std::string not_supported;  ///< why there is no answer, where the technique cannot do the frame
@@ -163,7 +167,8 @@ public:
 
     /// Runs once. Stage outputs that are still valid come from the memo.
     virtual Result<Run> run(const Request&) = 0;
-    /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread.
+    /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread. Stopped
+    /// (stop_when), it gives the repeats that were complete for all, or fails where there is none.
     virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;
     /// The plan of a request, without running it.
     struct PlannedFrame {

@@ -1,4 +1,6 @@
 // Timing several requests beside each other: what they have in common is executed, and timed, once per repeat.
+#include "passes/scene/object_order.h"
+#include "replay/measure/host_timer.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 
@@ -87,43 +89,80 @@ Result<Run> DeviceSession::plan_run(const Request& request) {
     return prepare(request, nullptr, Keep::outputs).and_then([&](auto& declared) { return describe_run(declared); });
 }
 
+Result<void> DeviceSession::time_sorts(const Request& request, const Run& run, std::map<std::string, double>& sorts) {
+    const auto choices = choose(loaded_->frame, request.choices);
+    if (!choices) return choices.error();
+    for (const auto& [stage, choice] : *choices) {
+        if (!choice.technique->abilities.sorts_objects || std::ranges::count(run.skipped, stage, &SkippedStage::stage) > 0)
+            continue;
+        const Frame& frame = loaded_->frame;
+        HostTimer timer;
+        back_to_front_draws(frame);
+        for (const Emitter& emitter : frame.emitters) back_to_front_particles(frame, emitter);
+        sorts[std::string(name(stage))] = timer();
+    }
+    return {};
+}
+
+Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, std::size_t turn,
+                                                        std::vector<Run>& runs, const Progress& progress) {
+    memo_.clear();
+    ExecutedActs acts;
+    Turn times(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        if (progress) progress("", double(i) / double(requests.size()));
+        if (turn == 0) {
+            auto planned = plan_run(requests[i]);
+            if (!planned) return planned.error();
+            runs.push_back(*std::move(planned));
+        }
+        std::optional<std::vector<StepCost>> costs;
+        if (requests.size() > 1) {
+            const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
+            if (!declared) return declared.error();
+            const auto execution = execute(*declared, {.timestamps = Timestamps::on});
+            if (!execution) return execution.error();
+            remember(*declared, *execution);
+            const RequestScopes of(*declared, i);
+            add_executed(*declared, *execution, of, acts);
+            costs = costs_of(runs[i].steps, of, acts);
+            if (turn == 0) add_results(runs[i], finished(*declared, *execution));
+        }
+        if (!costs) {
+            auto alone = time_alone(requests[i]);
+            if (!alone) return alone.error();
+            costs = std::move(alone->step_costs);
+            if (turn == 0) runs[i] = std::move(alone->run);
+        }
+        times[i].steps = *std::move(costs);
+        if (const auto sorted = time_sorts(requests[i], runs[i], times[i].sorts); !sorted) return sorted.error();
+    }
+    return times;
+}
+
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
     std::vector<Run> runs;
-    std::vector<std::vector<std::vector<StepCost>>> step_costs(requests.size());  // [request][repeat][step]
-    for (std::size_t repeat = 0; repeat <= repeats; ++repeat) {                   // the first of each warms up
-        memo_.clear();
-        ExecutedActs acts;
-        for (std::size_t i = 0; i < requests.size(); ++i) {
+    std::vector<Turn> turns;
+    for (std::size_t turn = 0; turn <= repeats; ++turn) {
+        const auto told = [&](std::string_view, double done) {
             if (progress)
-                progress(repeat == 0 ? "warming up" : fmt::format("timing, {} of {}", repeat, repeats),
-                         double(repeat * requests.size() + i) / double((repeats + 1) * requests.size()));
-            if (repeat == 0) {
-                auto planned = plan_run(requests[i]);
-                if (!planned) return planned.error();
-                runs.push_back(*std::move(planned));
-            }
-            std::optional<std::vector<StepCost>> costs;
-            if (requests.size() > 1) {
-                const auto declared = prepare_with_memo(requests[i], {.timestamps = Timestamps::on});
-                if (!declared) return declared.error();
-                const auto execution = execute(*declared, {.timestamps = Timestamps::on});
-                if (!execution) return execution.error();
-                remember(*declared, *execution);
-                const RequestScopes of(*declared, i);
-                add_executed(*declared, *execution, of, acts);
-                costs = costs_of(runs[i].steps, of, acts);
-                if (repeat == 0) add_results(runs[i], finished(*declared, *execution));
-            }
-            if (!costs) {
-                auto alone = time_alone(requests[i]);
-                if (!alone) return alone.error();
-                costs = std::move(alone->step_costs);
-                if (repeat == 0) runs[i] = std::move(alone->run);
-            }
-            if (repeat > 0) step_costs[i].push_back(*std::move(costs));
-        }
+                progress(turn == 0 ? "warming up" : fmt::format("timing, {} of {}", turn, repeats),
+                         (double(turn) + done) / double(repeats + 1));
+        };
+        auto times = time_in_turn(requests, turn, runs, told);
+        if (!times && times.error().fault == Fault::stopped && !turns.empty()) break;
+        if (!times) return times.error();
+        if (turn > 0) turns.push_back(*std::move(times));  // the first warms up
     }
-    for (std::size_t i = 0; i < runs.size(); ++i) add_costs(runs[i], step_costs[i]);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        std::vector<std::vector<StepCost>> steps;
+        SortTimes sorts;
+        for (Turn& turn : turns) {
+            steps.push_back(std::move(turn[i].steps));
+            for (const auto& [stage, ms] : turn[i].sorts) sorts[stage].push_back(ms);
+        }
+        add_costs(runs[i], steps, sorts);
+    }
     return runs;
 }
 

@@ -94,6 +94,32 @@ TEST(Raster, ASampleOnATopOrLeftEdgeIsCoveredAndOnABottomOrRightEdgeIsNot) {
     EXPECT_EQ(points_of(frame).size(), 12u);
 }
 
+/// Sides at x 1.5, 4.4 and y 2.5, 6.4: samples in the middle of pixels are 0 or .1 pixel from them, in two columns and two rows
+/// each.
+TEST(Raster, SamplesNearSidesAreThoseWithinTheStepsAlsoBeyondThePolygon) {
+    Frame frame = tiny::frame(8, 8);
+    tiny::add_quad(frame, {.left = 1.5, .top = 2.5, .right = 4.4, .bottom = 6.4}, 2);
+    const auto near = [&](double steps) {
+        std::vector<std::pair<int, int>> found;
+        const std::vector<bool> all = samples_near_sides(frame, steps);
+        for (int i = 0; i < 64; ++i)
+            if (all[std::size_t(i)]) found.emplace_back(i % 8, i / 8);
+        return found;
+    };
+    const auto is_on = [](std::pair<int, int> at, bool coarse) {
+        const auto [x, y] = at;
+        const bool beside = (x == 1 || (coarse && x == 4)) && y >= 2 && y <= (coarse ? 6 : 5);
+        const bool above = (y == 2 || (coarse && y == 6)) && x >= 1 && x <= (coarse ? 4 : 3);
+        return beside || above;
+    };
+    for (const bool coarse : {false, true}) {
+        std::vector<std::pair<int, int>> expected;
+        for (int i = 0; i < 64; ++i)
+            if (is_on({i % 8, i / 8}, coarse)) expected.emplace_back(i % 8, i / 8);
+        EXPECT_EQ(near(coarse ? 26 : 1.5), expected);  // .1 pixel are 25.6 steps
+    }
+}
+
 TEST(Raster, FourSamplesSeeAVerticalEdgeAsDeferredTMS2Says) {
     const std::array<std::pair<double, std::vector<std::uint32_t>>, 3> cases = {{{10.5, {0, 2}}, {10.25, {2}}, {10.0, {}}}};
     for (const auto& [edge, expected] : cases) {

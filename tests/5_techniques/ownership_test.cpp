@@ -45,7 +45,10 @@ void sketch(Sketch& s, const Technique& technique, std::string_view scenario, st
     s.images.back_to_front = draws_of(s.graph, 5, s.facts->lists().transparent.size());
     Choices choices = must(choose(s.recorded));
     choices[technique.stage] = {&technique, Settings(technique.params)};
-    s.frame = must(declare_frame(s.graph, s.images, choices, technique.needs));
+    Capabilities every;
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Capability::count_); ++i)
+        every.push_back(static_cast<Capability>(i));
+    s.frame = must(declare_frame(s.graph, s.images, choices, every));
 }
 
 /// "depth in gbuffer/x/fill" for everything the technique's acts write or replace that its stage does not own.

@@ -1,8 +1,11 @@
 // The matrix of model_test.cpp on a second device, at 48 x 27: what only one driver's rounding, subgroup size or order of
 // execution makes agree with the model is found here. By default few cases are judged.
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +19,31 @@
 
 namespace strata {
 namespace {
+
+/// What SwiftShader makes of a scenario beyond the techniques' tolerances.
+struct Divergence {
+    std::string_view scenario;
+    double rmse = 0, worst = 0;  ///< of any technique; about twice what was measured
+    std::string_view because;
+};
+constexpr std::array divergences = {
+    Divergence{
+        "one_sphere", .004, .12,
+        "it interpolates between corners snapped to 1/16 pixel: a steep depth moves by what it changes in so much (G-buffers: "
+        ".0019 and .061)"},
+    Divergence{"facade_at_150m", .005, .12, "the same moves fine textures (stochastic: .0023 and .056)"},
+};
+/// Depths of different triangles in one plane are equal to the last bit on lavapipe; here they are not, so nothing says which of
+/// two surfaces is in front.
+constexpr std::array without_ties = {std::string_view("coincident_panes")};
+
+Technique with_divergence(Technique technique, std::string_view scenario) {
+    const auto found = std::ranges::find(divergences, scenario, &Divergence::scenario);
+    if (found == divergences.end()) return technique;
+    technique.tolerance.rmse = std::max(technique.tolerance.rmse, found->rmse);
+    technique.tolerance.worst = std::max(technique.tolerance.worst, found->worst);
+    return technique;
+}
 
 struct OnSecondDevice {
     std::string technique, scenario;
@@ -64,6 +92,7 @@ class SecondDevice : public testing::TestWithParam<OnSecondDevice> {};
 
 TEST_P(SecondDevice, AgreesWithTheModel) {
     if (second_driver().empty()) GTEST_SKIP() << no_second_driver;
+    if (std::ranges::count(without_ties, GetParam().scenario) > 0) GTEST_SKIP() << "equal depths are none on this device";
     const Technique& technique = *must(find_technique(GetParam().technique));
     Request request = on_scenario(GetParam().scenario, GetParam().samples);
     request.variant.extent_divisor = 1;
@@ -75,7 +104,7 @@ TEST_P(SecondDevice, AgreesWithTheModel) {
         GTEST_SKIP() << GetParam().scenario << " does not need the stage: " << *reason;
     const Accuracy accuracy = must(session.judge(request, technique.stage, Against::model));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << "not supported: " << accuracy.not_supported;
-    expect_within_tolerance(accuracy, technique, request, GetParam().scenario);
+    expect_within_tolerance(accuracy, with_divergence(technique, GetParam().scenario), request, GetParam().scenario);
 }
 
 INSTANTIATE_TEST_SUITE_P(Few, SecondDevice, testing::ValuesIn(few_of_second_device()), second_device_case_name);

@@ -1,11 +1,15 @@
 // The judge: a result against its model and the stage's truth. Every verdict about a technique rests on it, so its numbers are
 // worked out by hand here.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "captures/cards.h"
+#include "passes/reference/fragments.h"
 #include "replay/session/frame_plan.h"
 #include "replay/session/judgement.h"
 
@@ -193,6 +197,53 @@ TEST(Judge, RefusesAResultThatLacksAnImageOrHasOneThatTheModelDoesNotGive) {
     expect_incomparable(judged, "the model gives no image of this frame");
     judged.model["light"] = judged.result["light"] = ReferenceImage(1, 1);
     expect_incomparable(judged, "the result has color, the model does not give it");
+}
+
+/// The stage draws over one of twelve samples of 2, where 3 is right and 3.3 is drawn: a tenth of what is right there, and far
+/// less of the frame.
+TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
+    Judged judged;
+    ImageSet truth = judged.model;
+    truth.at("color").at(1, 0) = glm::dvec4(3);
+    judged.got().at(1, 0) = glm::dvec4(3.3);
+    const Accuracy accuracy = judged.against_truth(truth);
+    const auto relative = [](const std::vector<Figure>& figures) {
+        return std::ranges::find(figures, "relative rmse", &Figure::name)->value;
+    };
+    EXPECT_DOUBLE_EQ(accuracy.touched_share, 1. / 12);
+    EXPECT_NEAR(relative(accuracy.touched), .1, 1e-12);
+    EXPECT_NEAR(relative(accuracy.method), std::sqrt(.09 / (11 * 4 + 9)), 1e-12);
+    EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
+}
+
+/// SwiftShader snaps corners to 1/16 pixel: near the sides of triangles it covers other samples than the model. On a device that
+/// snaps to 1/256 pixel that is a bug.
+TEST(Judge, ComparesNoSampleWhoseCoverageHangsOnTheStepsOfTheDevice) {
+    Judged judged;
+    judged.frame = frame_of_cards(std::array{Card{.center = {0, 0, 3}, .half = .91875f}}, 16);
+    judged.model["color"] = judged.result["color"] = ReferenceImage(16, 16, 1, glm::dvec4(2));
+    const std::vector<bool> near = samples_near_sides(judged.frame, 24);
+    const auto count = static_cast<std::size_t>(std::ranges::count(near, true));
+    ASSERT_GT(count, 0u);
+    ASSERT_LT(count, near.size() / 4);
+    for (std::size_t i = 0; i < near.size(); ++i)
+        if (near[i]) judged.got().texels[i] = glm::dvec4(3);
+    const auto at = [&](std::uint32_t steps, Against against) {
+        const Choice choice{&judged.technique, {}};
+        return judge_stage({.frame = judged.frame,
+                            .features = judged.features,
+                            .choice = choice,
+                            .before = judged.model,
+                            .result = judged.result,
+                            .against = against,
+                            .truth = &judged.model,
+                            .snap_steps = steps});
+    };
+    EXPECT_EQ(at(256, Against::model).model_worst, .5);
+    EXPECT_EQ(at(16, Against::model).model_worst, 0);
+    EXPECT_EQ(at(16, Against::model).undecided, count);
+    EXPECT_GT(at(256, Against::truth).method.front().value, 0);
+    EXPECT_EQ(at(16, Against::truth).method.front().value, 0);
 }
 
 /// No model reads them.

@@ -20,8 +20,9 @@ TEST(ProgressLine, IsALineEveryTenSecondsWhereNoTerminalIs) {
     }
     show("done", 1);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "strata: 25 % done after 10 s: frame 11 of 40\nstrata: 50 % done after 20 s: frame 21 of 40\n"
-              "strata: 75 % done after 30 s: frame 31 of 40\n");
+              "strata: 25 % done after 10 s, about 30 s left: frame 11 of 40\n"
+              "strata: 50 % done after 20 s, about 20 s left: frame 21 of 40\n"
+              "strata: 75 % done after 30 s, about 10 s left: frame 31 of 40\n");
 }
 
 TEST(ProgressLine, RepeatsTheLastReportDuringALongStep) {
@@ -33,9 +34,9 @@ TEST(ProgressLine, RepeatsTheLastReportDuringALongStep) {
         show("one long frame", .5);
         while (reads < 10) std::this_thread::yield();
     }
-    EXPECT_THAT(
-        testing::internal::GetCapturedStderr(),
-        testing::StartsWith("strata: 50 % done after 12 s: one long frame\nstrata: 50 % done after 24 s: one long frame\n"));
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                testing::StartsWith("strata: 50 % done after 12 s, about 12 s left: one long frame\n"
+                                    "strata: 50 % done after 24 s, about 24 s left: one long frame\n"));
 }
 
 }  // namespace

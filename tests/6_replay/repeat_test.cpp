@@ -56,5 +56,26 @@ TEST(Timing, EveryStepHasAMedianAndASpread) {
     EXPECT_GT(runs[0].frame_ms->median, 0);
 }
 
+/// Else the order that an engine must make in every frame would be free.
+TEST(Timing, HoldsWhatTheHostSorts) {
+    const auto session = scenario_session("smoke_grenade");
+    std::vector<Request> requests(2);
+    requests[0] = {.choices = chosen({"transparency/alpha_blend"})};
+    requests[1] = {.choices = chosen({"transparency/weighted"})};
+    const auto runs = must(session->time(requests, 3));
+    const Spread& sorted = runs[0].stage_sort_ms.at("transparency");
+    EXPECT_EQ(sorted.repeats, 3u);
+    EXPECT_GT(sorted.low, 0);
+    EXPECT_TRUE(runs[1].stage_sort_ms.empty());
+    for (std::size_t repeat = 0; repeat < 3; ++repeat) {
+        double steps = 0;
+        for (const StepRecord& step : runs[0].steps)
+            if (step.scope.kind == ScopeKind::act && step.scope.stage == Stage::transparency) steps += step.ms_by_repeat[repeat];
+        const double beyond = runs[0].stage_ms_by_repeat.at("transparency")[repeat] - steps;
+        EXPECT_GE(beyond, sorted.low * .999);
+        EXPECT_LE(beyond, sorted.high * 1.001);
+    }
+}
+
 }  // namespace
 }  // namespace strata

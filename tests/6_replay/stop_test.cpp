@@ -32,20 +32,24 @@ TEST(Stopped, EveryCallEndsAtOnceUntilThereIsAnotherToken) {
     EXPECT_EQ(display_hash(*session), before);
 }
 
-TEST(Stopped, AReportEndsAtTheRowThatIsBeingMade) {
+TEST(Stopped, AReportHasTheRowsThatWereMade) {
     const auto session = scenario_session("three_panes");
     const std::string before = display_hash(*session);
-    const std::string second(techniques_of(Stage::transparency)[1]->name);
+    const std::string second = fmt::format(", {}", techniques_of(Stage::transparency)[1]->name);
     std::stop_source stop;
     session->stop_when(stop.get_token());
     std::vector<std::string> told;
     const auto report = make_report(*session, {.repeats = 1}, [&](std::string_view what, double) {
         told.emplace_back(what);
-        if (what.starts_with(second)) stop.request_stop();
+        if (what.ends_with(second)) stop.request_stop();
     });
-    ASSERT_FALSE(report);
-    EXPECT_EQ(report.error().fault, Fault::stopped);
-    EXPECT_TRUE(told.back().starts_with(second)) << told.back();
+    ASSERT_TRUE(report) << report.error().sentence;
+    ASSERT_EQ(report->rows.size(), 1u);
+    EXPECT_EQ(report->rows[0].technique, techniques_of(Stage::transparency)[0]->name);
+    EXPECT_FALSE(report->is_timed);
+    EXPECT_TRUE(report->stopped.starts_with("stopped after the errors of 1 of ")) << report->stopped;
+    EXPECT_EQ(told.back(), "done");
+    EXPECT_TRUE(told[told.size() - 2].ends_with(second)) << "nothing is begun after it: " << told[told.size() - 2];
     session->stop_when({});
     EXPECT_EQ(display_hash(*session), before);
 }
@@ -57,15 +61,19 @@ TEST(Stopped, TimingTellsHowFarItIsAndEndsBetweenRuns) {
     must(session->time(requests, 3, [&](std::string_view, double done) { shares.push_back(done); }));
     ASSERT_EQ(shares.size(), 8u);  // a warm-up and three repeats of two
     for (std::size_t i = 0; i < shares.size(); ++i) EXPECT_DOUBLE_EQ(shares[i], double(i) / 8);
-    std::stop_source stop;
-    session->stop_when(stop.get_token());
-    std::size_t calls = 0;
-    const auto stopped = session->time(requests, 1000, [&](std::string_view, double) {
-        if (++calls == 5) stop.request_stop();
-    });
-    ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().fault, Fault::stopped);
-    EXPECT_EQ(calls, 5u);
+    for (const std::size_t last : {3u, 5u, 8u}) {
+        std::stop_source stop;
+        session->stop_when(stop.get_token());
+        std::size_t calls = 0;
+        const auto stopped = session->time(requests, 1000, [&](std::string_view, double) {
+            if (++calls == last) stop.request_stop();
+        });
+        EXPECT_EQ(calls, last);
+        const std::size_t complete = (last - 1) / 2 - 1;  // turns, without the one that warms up
+        ASSERT_EQ(bool(stopped), complete > 0);
+        if (!stopped) EXPECT_EQ(stopped.error().fault, Fault::stopped);
+        else EXPECT_EQ(stopped->back().frame_ms->repeats, complete);
+    }
 }
 
 }  // namespace

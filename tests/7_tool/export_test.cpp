@@ -63,12 +63,28 @@ TEST(Export, RefusesGlassAndSamplesThatADeepImageCannotHoldUntilToldHow) {
     EXPECT_EQ(strata("export glass.strata --deep --sample 4 -o glass.exr").code, 2);
 }
 
+std::filesystem::path only_named(const std::string& in, const std::string& end) {
+    std::filesystem::path found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / in))
+        if (entry.path().filename().string().ends_with(end)) {
+            EXPECT_EQ(found, "") << entry.path();
+            found = entry.path();
+        }
+    return found;
+}
+
 TEST(Export, WritesImagesAndViewsByTheirNames) {
     ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
     ASSERT_EQ(strata("export panes.strata --image color,display -o both.exr").code, 0);
     EXPECT_EQ(must(read_exr(folder() / "both.exr")).size(), 2u);
     EXPECT_EQ(strata("export panes.strata --image transparency/sorted_lists:layers -o layers.png").code, 0);
     EXPECT_THAT(contents_of("layers.png"), testing::StartsWith("\x89PNG"));
+    EXPECT_EQ(strata("export panes.strata --image depth_layers -o depth.png").code, 0);
+    EXPECT_EQ(strata("replay panes.strata --outputs display,edges,transparency/sorted_lists:layers -o out").code, 0);
+    const HostImage display = must(read_png(only_named("out", "f0000.png")));
+    const HostImage layers = must(read_png(only_named("out", "transparency-sorted_lists-layers.png")));
+    EXPECT_EQ(display.shape.extent.width, 96u) << "the picture, as it is";
+    EXPECT_GE(layers.shape.extent.width, 480u) << "under a title, over a legend";
     EXPECT_EQ(strata("export panes.strata --image color,display -o both.png").code, 2);
     EXPECT_EQ(strata("export panes.strata --image color -o color.jpg").code, 2);
     EXPECT_THAT(strata("export panes.strata --image colour -o color.exr").err, HasSubstr("did you mean color"));

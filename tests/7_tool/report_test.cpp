@@ -108,11 +108,14 @@ TEST(Answers, AreSentences) {
         answer_text(four_methods, 0, {.error = .01, .within = 2}, names),
         "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
         "spread d; most accurate c (relative rmse 0.004, 1.80x)\n"
-        "the baseline alpha is not counted; here it has relative rmse 0, 1.00x\n");
+        "the baseline alpha is not counted; here it has relative rmse 0, 1.00x: exact, nothing that shows is out of order\n");
+    const AnswerNames noted{names.rows, names.error, names.unit, "its time contains 2 ms"};
+    EXPECT_THAT(answer_text(four_methods, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
     EXPECT_EQ(
         answer_text(four_methods, 0, {.error = 1e-6, .within = 1.5}, names),
         "answer for relative rmse up to 1e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
-        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x\n");
+        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x: "
+        "exact, nothing that shows is out of order\n");
 }
 
 TEST(Budgets, AreOfWholeBytes) {

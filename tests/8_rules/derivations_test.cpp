@@ -49,6 +49,7 @@ constexpr std::array shows_references = {
     Exception{"replay/probe/probe", "measures functions of a pixel's fragments"},
     Exception{"replay/probe/probe_frame", "measures functions of a pixel's fragments"},
     Exception{"ui/pixel/pixel_fragments", "shows a pixel's fragments"},
+    Exception{"replay/session/judgement", "leaves out samples whose coverage hangs on the steps of the device"},
 };
 
 /// Parts of references that ask the scene. This list only gets shorter.

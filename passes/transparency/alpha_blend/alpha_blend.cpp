@@ -40,7 +40,7 @@ Technique alpha_blend() {
         .counters = {counter<&AlphaBlendCounters::fragments>(
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),
-        .abilities = {.is_time_unit = true},
+        .abilities = {.is_time_unit = true, .sorts_objects = true},
         .beyond_device = beyond_device,
         .declare = declare,
         .model = alpha_blend_model,
