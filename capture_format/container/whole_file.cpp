@@ -117,7 +117,10 @@ Result<WholeFile> WholeFile::begin(const std::filesystem::path& wanted) {
     }
     std::error_code problem;
     const bool is_link = std::filesystem::is_symlink(wanted, problem);
-    const std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(wanted, problem) : wanted;
+    std::filesystem::path target = is_link ? std::filesystem::weakly_canonical(wanted, problem) : wanted;
+    std::error_code none;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(target, none); ++links)  // to no file yet
+        target = target.parent_path() / std::filesystem::read_symlink(target, none);
     if (is_link && problem) return unwritable(wanted, problem.value());
 
     const std::scoped_lock held(lock);

@@ -316,13 +316,13 @@ void add_flip(CLI::App& app, FlipOptions& flip) {
 
 void add_limits(CLI::App& app, ErrorLimits& limits) {
     app.add_option("--limit", limits.limit, "largest difference of a pixel in any channel that still passes, default 0")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     app.add_option("--percent", limits.percent, "largest percentage of pixels above --limit that still passes, default 0")
         ->check(CLI::Range(0., 100.));
     app.add_option("--hard-limit", limits.hard_limit, "largest difference of any pixel, whatever --percent allows; default: none")
-        ->check(CLI::NonNegativeNumber);
-    CLI::Option* warn = app.add_option("--warn-limit", limits.warn_limit, "like --limit, but only warns; default: none")
-                            ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
+    CLI::Option* warn =
+        app.add_option("--warn-limit", limits.warn_limit, "like --limit, but only warns; default: none")->check(not_negative());
     app.add_option("--warn-percent", limits.warn_percent, "like --percent, but only warns; default 0")
         ->check(CLI::Range(0., 100.))
         ->needs(warn);

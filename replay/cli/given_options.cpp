@@ -106,6 +106,12 @@ void refuse_what_is_no_number(CLI::App& verb) {
     }
 }
 
+CLI::Validator not_negative() {
+    return CLI::Validator(
+        [](std::string& text) { return text.starts_with('-') ? fmt::format("takes a number of 0 or more, not {}", text) : ""; },
+        "");
+}
+
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why) {
     for (const char* name : options)
         if (verb.get_option(name)->count() > 0) return fail(Fault::usage, "{} does not apply: {}", name, why);

@@ -17,6 +17,9 @@ Result<void> check_names(const CLI::App& program, std::span<const std::string> a
 /// where nothing is below 0), which CLI11 2.1 takes or wraps around. To be called when all options are declared.
 void refuse_what_is_no_number(CLI::App& verb);
 
+/// For options whose number is 0 or more.
+CLI::Validator not_negative();
+
 /// Fails where one of these options was given: it would be ignored, and `why` says why.
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why);
 

@@ -76,7 +76,7 @@ Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count
     if (!thumbnail) return thumbnail.error();
     if (*thumbnail) {
         if (const auto done = recorder->thumbnail(**thumbnail); !done) return done.error();
-        warn_of_darkness(**thumbnail);
+        if (!options.deep) warn_of_darkness(**thumbnail);  // a deep image's view is its own
     }
     const Progress progress = progress_line();
     Counts counts;
@@ -177,7 +177,7 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
     app.add_option("--camera", options->gltf.camera,
                    "index of the scene's camera; default: the first, or without cameras one that frames the scene")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     app.add_option("--azimuth", options->gltf.azimuth,
                    "azimuth of the framing camera in degrees, 0 in front, positive to the right; default 22");
     app.add_option("--elevation", options->gltf.elevation,

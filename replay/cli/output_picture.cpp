@@ -20,14 +20,15 @@ std::optional<ViewScale> scale_of(std::string_view image) {
     return ViewScale{view->low, view->high, std::string(view->unit)};
 }
 
-/// The choice of the stage that the image is of.
+/// The choice of the last stage that writes the image.
 std::string choice_of(const Run& run, std::string_view image) {
+    std::string last;
     for (const StageInfo& stage : stages()) {
         const auto choice = run.choices.find(std::string(stage.name));
         const bool is_its = image.starts_with(std::string(stage.name) + "/") || std::ranges::count(stage.outputs, image) > 0;
-        if (is_its && choice != run.choices.end()) return choice->second;
+        if (is_its && choice != run.choices.end()) last = choice->second;
     }
-    return {};
+    return last;
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
                    "what to minimize: sum (default), the cost of all frames; worst, the most expensive frame")
         ->check(CLI::IsMember({"sum", "worst"}));
     app.add_option("--dispatch", options->wish.dispatch, "cost of one more mode per frame, in the unit of --cost; default 0")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative());
     app.add_option("--repeats", options->repeats, "timed repeats of each shader variant after a warm-up, default 7")
         ->check(CLI::Range(1, 1000));
     app.add_flag("--json", options->json, "print JSON instead of text");

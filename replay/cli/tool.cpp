@@ -91,11 +91,17 @@ std::vector<std::filesystem::path> files_of(const CLI::App& verb, const std::str
 /// any work is done.
 Result<void> keep_inputs(const CLI::App& verb) {
     const std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
+    const std::vector<std::filesystem::path> outputs = files_of(verb, output_file);
+    for (const auto& files : {inputs, outputs})
+        for (const std::filesystem::path& file : files)
+            if (file.empty()) return fail(Fault::usage, "a file's name is empty");
+    for (const std::filesystem::path& output : outputs)
+        if (output == "-") return fail(Fault::usage, "'-' is no file; write to standard output with /dev/stdout");
     for (const auto& files : {inputs, files_of(verb, extended_file)})
         for (const std::filesystem::path& input : files)
             if (const auto fine = check_is_file(input); !fine) return fine;
     keep_files(inputs);
-    for (const std::filesystem::path& output : files_of(verb, output_file))
+    for (const std::filesystem::path& output : outputs)
         if (const auto free = check_not_kept(output); !free) return free;
     return {};
 }
@@ -143,8 +149,8 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
     if (gpus.list) return list_gpus(gpus);
-    if (help->parsed() && !help_about.empty())
-        return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
+    if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
+    if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)
         if (sub->parsed()) return keep_inputs(*sub).and_then(verb);
     write_stdout(app.help());

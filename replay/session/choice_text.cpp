@@ -70,6 +70,11 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
     for (const std::string& set : sets) {
         auto change = parse_set(set);
         if (!change) return change.error();
+        const auto is_same = [&](const SettingChange& earlier) {
+            return earlier.technique == change->technique && earlier.key == change->key;
+        };
+        if (const auto earlier = std::ranges::find_if(changes.settings, is_same); earlier != changes.settings.end())
+            return fail(Fault::usage, "--set gives {} twice: {} and {}", change->key, text_of(*earlier), text_of(*change));
         changes.settings.push_back(*std::move(change));
     }
     return changes;

@@ -68,6 +68,19 @@ TEST(WholeFile, FollowsALinkAndKeepsTheMode) {
     EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), std::filesystem::perms(0640));
 }
 
+TEST(WholeFile, FollowsLinksToAFileThatIsNotThereYet) {
+    const auto folder = empty_folder();
+    std::filesystem::create_directory(folder / "below");
+    std::filesystem::create_symlink("below/second", folder / "first");
+    std::filesystem::create_symlink("made", folder / "below" / "second");
+    ASSERT_TRUE(write_whole_file(folder / "first", "new"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "below" / "second"));
+    EXPECT_EQ(text_of(folder / "below" / "made"), "new");
+    std::filesystem::create_symlink("round", folder / "round");
+    EXPECT_FALSE(write_whole_file(folder / "round", "new")) << "a link to itself";
+}
+
 TEST(WholeFile, SaysWhatTheSystemSaysAndIsAUsageError) {
     const auto folder = empty_folder();
     const auto expect = [](const std::filesystem::path& path, const char* words) {

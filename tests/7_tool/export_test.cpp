@@ -83,7 +83,7 @@ TEST(Export, WritesImagesAndViewsByTheirNames) {
     EXPECT_EQ(strata("replay panes.strata --outputs display,edges,transparency/sorted_lists:layers -o out").code, 0);
     const HostImage display = must(read_png(only_named("out", "f0000.png")));
     const HostImage layers = must(read_png(only_named("out", "transparency-sorted_lists-layers.png")));
-    EXPECT_EQ(display.shape.extent.width, 96u) << "the picture, as it is";
+    EXPECT_EQ(display.shape.extent.width, 64u) << "the picture, as it is";
     EXPECT_GE(layers.shape.extent.width, 480u) << "under a title, over a legend";
     EXPECT_EQ(strata("export panes.strata --image color,display -o both.png").code, 2);
     EXPECT_EQ(strata("export panes.strata --image color -o color.jpg").code, 2);

@@ -60,6 +60,25 @@ TEST(Numbers, EveryNumericOptionOfEveryVerbRefusesWhatIsNoNumber) {
     EXPECT_GT(options, 40u);
 }
 
+TEST(Options, ThatSayTwoThingsOrNothingAreRefused) {
+    write_file(folder() / "sound.strata", sound_capture());
+    const std::pair<const char*, const char*> refusals[] = {
+        {"replay sound.strata --use weighted --set weight=w9 --set weight=w8",
+         "--set gives weight twice: weight=w9 and weight=w8"},
+        {"record three_panes -o ''", "a file's name is empty"},
+        {"info ''", "a file's name is empty"},
+        {"export sound.strata --json -o -", "/dev/stdout"},
+        {"replay sound.strata --tolerance -1", "takes a number of 0 or more, not -1"}};
+    for (const auto& [command, sentence] : refusals) {
+        const Finished refused = strata(command);
+        EXPECT_EQ(refused.code, 2) << command;
+        EXPECT_THAT(refused.err, HasSubstr(sentence)) << command;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
+    EXPECT_EQ(
+        strata("replay sound.strata --use weighted --set transparency/weighted:weight=w9 --set shadows/pcf:kernel=2x2").code, 0);
+}
+
 TEST(Numbers, AreWrittenInDecimals) {
     const std::pair<const char*, NumericOption> of_every_type[] = {{"diff", {"--limit", "FLOAT"}},
                                                                    {"record", {"--seed", "UINT"}},

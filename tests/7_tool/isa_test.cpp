@@ -171,7 +171,12 @@ TEST(Isa, ADeviceThatDoesNotSayWhatItCompiledIsNamed) {
     EXPECT_THAT(made.err, HasSubstr("VK_KHR_pipeline_executable_properties"));
 }
 
-TEST(Isa, ItsCompilersVerbIsNoPartOfTheHelp) { EXPECT_THAT(strata("help").out, testing::Not(HasSubstr("isa-compile"))); }
+TEST(Isa, ItsCompilersVerbIsNoPartOfTheHelp) {
+    const std::string help = strata("help").out;
+    EXPECT_THAT(help, testing::Not(HasSubstr("isa-compile")));
+    EXPECT_THAT(help, HasSubstr("\n  replay"));
+    EXPECT_EQ(help, strata("--help").out);
+}
 
 }  // namespace
 }  // namespace strata

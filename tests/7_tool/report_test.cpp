@@ -113,7 +113,7 @@ TEST(Answers, AreSentences) {
     EXPECT_THAT(answer_text(four_methods, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
     EXPECT_EQ(
         answer_text(four_methods, 0, {.error = 1e-6, .within = 1.5}, names),
-        "answer for relative rmse up to 1e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
+        "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
         "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x: "
         "exact, nothing that shows is out of order\n");
 }

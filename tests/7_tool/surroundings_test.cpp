@@ -25,7 +25,7 @@ struct Writing {
 constexpr Writing writings[] = {
     {"record three_panes -o", "made.strata"},
     {"replay sound.strata --outputs color -o", "out"},
-    {"report sound.strata --repeats 1 --sweep pool=2 -o", "report.txt"},
+    {"report sound.strata --repeats 1 --methods weighted -o", "report.txt"},
     {"bench voxel sound.strata --repeats 1 --only wrap -o", "bench.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
     {"probe sound.strata --at 8,4 --methods sorted_lists --depths 512 -o", "probed"},

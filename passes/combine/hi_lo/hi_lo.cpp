@@ -39,6 +39,7 @@ Technique hi_lo() {
             .summary =
                 "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
                 "that bright saturated colors turn white.",
+            .abilities = {.is_time_unit = true},
             .declare = add_color,
             .at_other_stages = {{.at = Stage::film, .declare = add_display}},
             .model = hi_lo_model,

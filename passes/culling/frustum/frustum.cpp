@@ -42,6 +42,7 @@ Technique frustum() {
         .counters = {counter<&FrustumCounters::tested>({.name = "tested", .help = "opaque draws tested"}),
                      counter<&FrustumCounters::culled>({.name = "culled", .help = "opaque draws outside the view"})},
         .counter_bytes = sizeof(FrustumCounters),
+        .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = frustum_model,
         .tolerance = {

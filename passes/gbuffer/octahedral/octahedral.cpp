@@ -21,6 +21,7 @@ Technique octahedral() {
         .summary =
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
+        .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = octahedral_model,
         .tolerance = {.rmse = 1.5e-3,

@@ -38,6 +38,7 @@ Technique brute_force() {
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
                      counter<&BruteForceCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(BruteForceCounters),
+        .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = brute_force_model,
         .tolerance = shaded_light_tolerance};

@@ -30,6 +30,7 @@ Technique pcf() {
             .counter_bytes = sizeof(ShadowCounters),
             .views = shadow_map_views(),
             .tables = shadow_map_tables(),
+            .abilities = {.is_time_unit = true},
             .declare = make_shadow_maps,
             .at_other_stages = {{.at = Stage::occlusion, .declare = filter_maps}},
             .model = pcf_model,
