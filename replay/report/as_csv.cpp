@@ -35,7 +35,7 @@ std::string counters_field(const Measurement& row) {
     return text;
 }
 
-std::string line_of(const Measurement& row, std::size_t figures) {
+std::string line_of(const Measurement& row, std::size_t figures, bool is_timed) {
     std::string line = row.technique + "," + csv_field(row.settings);
     if (!row.accuracy.not_supported.empty())
         return line + std::string(figures + 18, ',') + csv_field(row.accuracy.not_supported) + "\n";
@@ -43,8 +43,10 @@ std::string line_of(const Measurement& row, std::size_t figures) {
     const auto touched = row.accuracy.touched.empty() ? std::nullopt : std::optional(row.accuracy.touched_share);
     const auto sorted = row.sort_ms ? std::optional(row.sort_ms->median) : std::nullopt;
     line += fmt::format(",{},{},{}", number(ranking_figure(row).value), number(touched), number(sorted));
-    line += fmt::format(",{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}", row.accuracy.model_rmse, row.stage_ms.median, row.stage_ms.mad,
-                        row.frame_ms.median, row.frame_ms.mad);
+    line += "," + number(row.accuracy.model_rmse);
+    if (!is_timed) return line + std::string(14, ',') + "\n";
+    line +=
+        fmt::format(",{:.6f},{:.6f},{:.6f},{:.6f}", row.stage_ms.median, row.stage_ms.mad, row.frame_ms.median, row.frame_ms.mad);
     const auto time = [&](double Spread::*part) { return row.time ? number(*row.time.*part) : std::string(); };
     line += fmt::format(",{},{}", time(&Spread::median), time(&Spread::mad));
     return line + fmt::format(",{},{},{},{},{:d},{:d},{},\n", row.stage_bytes, number(row.bytes_per_pixel),
@@ -58,7 +60,8 @@ std::string table(std::span<const Report> reports) {
     for (const std::string& figure : figures) csv += "," + figure;
     csv += "," + std::string(head) + "\n";
     for (const Report& report : reports)
-        for (const Measurement& row : report.rows) csv += csv_field(report.capture_name) + "," + line_of(row, figures.size());
+        for (const Measurement& row : report.rows)
+            csv += csv_field(report.capture_name) + "," + line_of(row, figures.size(), report.is_timed);
     return csv;
 }
 

@@ -55,7 +55,7 @@ Pool pooled(std::span<const Report> reports) {
     bool one_unit = true;
     for (const Report& report : reports) {
         pool.stage = report.stage;
-        if (!report.skipped.empty()) continue;
+        if (!report.skipped.empty() || !report.is_timed) continue;
         if (pool.captures == 0) pool.time_unit = report.time_unit;
         one_unit = one_unit && report.time_unit == pool.time_unit;
         ++pool.captures;

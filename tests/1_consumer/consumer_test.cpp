@@ -111,10 +111,10 @@ TEST_F(Consumer, LinksNoVulkanAndNoImporter) {
 
 /// What CMake says of the consumer without a package; CMake breaks lines anywhere.
 std::string configured_without(const std::string& package) {
-    const Outcome refused =
-        run(fmt::format("cmake -S '{}/tests/1_capture/consumer' -B '{}' -DCMAKE_PREFIX_PATH='{}' -DCMAKE_CXX_COMPILER='{}' "
-                        "-DCMAKE_DISABLE_FIND_PACKAGE_{}=ON 2>&1 | tr -s ' \\n' ' '",
-                        STRATA_SOURCE_DIR, (work / "incomplete").string(), (work / "installed").string(), STRATA_CXX, package));
+    const Outcome refused = run(
+        fmt::format("cmake -S '{}/tests/1_capture/consumer' -B '{}' -G Ninja -DCMAKE_PREFIX_PATH='{}' -DCMAKE_CXX_COMPILER='{}' "
+                    "-DCMAKE_DISABLE_FIND_PACKAGE_{}=ON 2>&1 | tr -s ' \\n' ' '",
+                    STRATA_SOURCE_DIR, (work / "incomplete").string(), (work / "installed").string(), STRATA_CXX, package));
     fs::remove_all(work / "incomplete");
     return refused.output;
 }

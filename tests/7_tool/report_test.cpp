@@ -1,4 +1,6 @@
 // A report's own arithmetic, and what it looks like.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -116,6 +118,31 @@ TEST(Answers, AreSentences) {
         "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
         "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x: "
         "exact, nothing that shows is out of order\n");
+}
+
+/// Zeros would be times.
+TEST(StoppedReport, SaysNothingOfTimesThatWereNotMeasured) {
+    Report report{.capture_name = "a.strata", .rows = {row("exact", 0, 0), row("good", .01, 0)}};
+    report.stopped = "stopped after the errors of 2 of 9 rows; no time was measured";
+    report.is_timed = false;
+    const std::string text = as_text(report);
+    EXPECT_THAT(text, HasSubstr("good"));
+    EXPECT_THAT(text, HasSubstr("\n" + report.stopped + "\n"));
+    EXPECT_THAT(text, Not(HasSubstr("bytes")));
+    EXPECT_THAT(text, Not(HasSubstr("timed run")));
+    const auto json = nlohmann::json::parse(as_json(report));
+    EXPECT_EQ(json["stopped"], report.stopped);
+    EXPECT_FALSE(json.contains("best_within"));
+    EXPECT_EQ(json["rows"].size(), 2u);
+    EXPECT_FALSE(json["rows"][0].contains("stage_ms"));
+    std::istringstream csv(as_csv(report));
+    std::string head, line;
+    std::getline(csv, head);
+    while (std::getline(csv, line)) {
+        EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ',')) << line;
+        EXPECT_THAT(line, testing::EndsWith(",,,,"));
+    }
+    EXPECT_EQ(pooled(std::array{report}).captures, 0u);
 }
 
 TEST(Budgets, AreOfWholeBytes) {

@@ -91,7 +91,8 @@ private:
         timing_ = services.replayer.start<FrameTimes>(
             [request, shaders = tried_->shaders](Session& session, Progress& progress) -> Result<FrameTimes> {
                 if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
-                return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) {
+                return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) -> Result<FrameTimes> {
+                    if (runs.front().frame_ms->repeats < repeats) return fail(Fault::stopped, "stopped");
                     return FrameTimes{request, std::move(runs.front()), shaders};
                 });
             });
