@@ -1,5 +1,6 @@
-// A smoke grenade among people and crates: 2000 soft sprites that grow and rise. Some people stand behind the smoke, one in
-// it, one before it; an average of the layers cannot tell them apart.
+// A smoke grenade among people and crates: 2000 soft sprites that grow and rise, and the orange smoke of a signal that the wind
+// drives through them, 400 sprites of an emitter of its own. Some people stand behind the smoke, one in it, one before it; an
+// average of the layers cannot tell them apart, and neither can an order of whole emitters.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,7 +15,7 @@
 namespace strata::scenario {
 namespace {
 
-constexpr int sprite_count = 2000;
+constexpr int sprite_count = 2000, signal_count = 400;
 
 /// Everything random about a sprite is drawn from its own seed, so a sprite keeps its way through the frames.
 Particle sprite(int index, double progress, std::uint64_t seed) {
@@ -35,13 +36,33 @@ Particle sprite(int index, double progress, std::uint64_t seed) {
     return particle;
 }
 
+/// The signal burns on the ground in front of the cloud, to its left; the wind blows its smoke through the cloud to the back.
+Particle signal_sprite(int index, double progress, std::uint64_t seed) {
+    Random random(seed * 0x10001 + static_cast<std::uint64_t>(sprite_count + index));
+    const glm::dvec3 source{-1.9, 0.15, 1.3}, way{4.2, 2.1, -2.4};
+    const double age = (index + 0.5) / signal_count * progress;                             // share of the way
+    const double spread = 0.08 + 0.55 * std::sqrt(age);                                     // half a width
+    const auto aside = [&] { return spread * random.between(-1.0, 1.0) * random.unit(); };  // denser in the middle
+    Particle particle;
+    particle.center = source + way * age + glm::dvec3(aside(), aside(), aside());
+    particle.size = static_cast<float>(0.12 + 0.33 * std::sqrt(age) * random.between(0.8, 1.2));
+    particle.rotation = static_cast<float>(random.between(0.0, 2 * std::numbers::pi) + progress);
+    particle.color = glm::vec3(1, 0.38f, 0.08f) * random.between(0.6f, 1.0f);
+    particle.alpha = random.between(0.08f, 0.25f);
+    return particle;
+}
+
 void add_smoke(FrameBuilder& builder) {
     Emitter smoke;
     smoke.name = "smoke";
     smoke.texture = builder.add(puff(builder.seed()));
     smoke.soft_depth_fade = 0.25f;
+    Emitter signal = smoke;
+    signal.name = "signal";
     for (int i = 0; i < sprite_count; ++i) smoke.particles.push_back(sprite(i, builder.progress(), builder.seed()));
+    for (int i = 0; i < signal_count; ++i) signal.particles.push_back(signal_sprite(i, builder.progress(), builder.seed()));
     builder.frame.emitters.push_back(std::move(smoke));
+    builder.frame.emitters.push_back(std::move(signal));
 }
 
 void add_surroundings(FrameBuilder& builder) {
