@@ -253,6 +253,8 @@ std::string text_of(const Scope& scope) {
             return fmt::format("{}: {}", at, scope.technique);
         case ScopeKind::memo:
             return fmt::format("memo: {}: {}", at, scope.technique);
+        case ScopeKind::given:
+            return fmt::format("given: {}: {}", at, scope.technique);
         case ScopeKind::view:
             return fmt::format("view: {}:{}", scope.technique, scope.view);
     }

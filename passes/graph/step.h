@@ -160,6 +160,7 @@ enum class ScopeKind : std::uint32_t {
     frame,  ///< everything declared before the first act
     act,    ///< an act of a technique, at its own stage or at another one
     memo,   ///< copies an act's images to or from the memo
+    given,  ///< stores images that somebody gave in the place of an act's
     view,   ///< makes a debug view or a debug table
 };
 

@@ -24,7 +24,7 @@ struct ReportArguments {
     ChoiceOptions choices;
     std::string stage = "transparency";
     std::vector<std::string> sweeps, methods;
-    std::string error, within;
+    std::string error, within, error_at = "stage";
     bool defaults = false;
     std::size_t frame = 0, repeats = 7;
     std::optional<std::uint32_t> flicker;
@@ -72,6 +72,7 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     if (!base) return base.error();
     base->variant.frame = options.frame;
     ReportRequest wanted{.base = *base, .repeats = options.repeats};
+    if (options.error_at == "picture") wanted.error_at = ErrorAt::picture;
     const auto stage = find_stage(options.stage);
     std::vector<std::string_view> known;
     for (const StageInfo& info : stages()) known.push_back(info.name);
@@ -114,7 +115,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         const auto fits =
             check_not_given(app,
                             {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--methods",
-                             "--defaults", "--error", "--within", "--sweep", "--frame", "--repeats", "--flicker"},
+                             "--defaults", "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--flicker"},
                             "--hard-cases brings frames and settings of its own and writes text or --json");
         return fits ? report_hard_cases(options) : fits;
     }
@@ -174,6 +175,9 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     methods->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(methods);
     app.add_option("--error", options->error, "answer which technique is cheapest with at most this error, like 1%");
+    app.add_option("--error-at", options->error_at,
+                   "measure errors of the stage's output, or of the picture that the later stages make of it")
+        ->check(CLI::IsMember({"stage", "picture"}));
     app.add_option("--within", options->within,
                    "answer which technique is most accurate within this multiple of the baseline's time, like 2x");
     app.add_option("--sweep", options->sweeps,

@@ -50,6 +50,7 @@ ordered_json json_of(const Measurement& row, bool is_timed) {
     json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : row.counters) json["counters"][counter.name] = counter.value;
     json["on_pareto_front"] = row.on_front;
+    json["is_tied"] = row.is_tied;
     json["on_memory_front"] = row.on_memory_front;
     return json;
 }
@@ -110,6 +111,7 @@ ordered_json json_of(const Report& report) {
                       {"device", json_of(report.device)},
                       {"repeats", report.repeats},
                       {"truth", report.truth},
+                      {"error_at", report.error_at == ErrorAt::picture ? "picture" : "stage"},
                       {"time_unit", report.time_unit},
                       {"rows", ordered_json::array()}};
     if (report.flicker)

@@ -12,6 +12,7 @@ namespace strata {
 namespace {
 
 constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
+constexpr std::string_view tie_legend = "= faster than a more accurate row, but by less than the spread of their times\n";
 
 /// The stage is named once, above the table.
 template <typename Row>
@@ -19,7 +20,9 @@ std::string short_label(const Row& row) {
     return below_stage(label(row.technique, row.settings));
 }
 
-std::string marks(bool fast, bool small) { return fmt::format("{}{}", fast ? '*' : ' ', small ? '+' : ' '); }
+std::string marks(bool fast, bool small, bool tied = false) {
+    return fmt::format("{}{}", fast ? '*' : tied ? '=' : ' ', small ? '+' : ' ');
+}
 
 std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time in {}", below_stage(unit)); }
 
@@ -50,7 +53,7 @@ Table table_of(const Report& report) {
     if (report.is_timed) table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
     if (report.flicker) table.heads.emplace_back("flicker");
     for (const Measurement& row : report.rows) {
-        Table::Row line{marks(row.on_front, row.on_memory_front), short_label(row), {}};
+        Table::Row line{marks(row.on_front, row.on_memory_front, row.is_tied), short_label(row), {}};
         if (!row.accuracy.not_supported.empty()) {
             line.cells = {"not supported: " + row.accuracy.not_supported};
         } else {
@@ -152,9 +155,11 @@ std::string heading(const Report& report) {
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
     text += fmt::format("truth: {}\n", report.truth);
+    const bool of_picture = report.error_at == ErrorAt::picture;
+    if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
     if (leaves_much(report))
-        text += fmt::format("touched: errors over the {:.3g} % of samples that the stage changes\n",
-                            100 * first_measured(report)->accuracy.touched_share);
+        text += fmt::format("touched: errors over the {:.3g} % of {} that the stage changes\n",
+                            100 * first_measured(report)->accuracy.touched_share, of_picture ? "pixels" : "samples");
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
@@ -179,9 +184,11 @@ std::string as_text(const Report& report) {
     if (!report.skipped.empty()) return text;
     const std::string stopped = report.stopped.empty() ? "" : "\n" + report.stopped + "\n";
     if (!report.is_timed) return text + "\n" + as_text(table_of(report)) + "\n" + implementation_text(report) + stopped;
-    return text + "\n" + as_text(table_of(report)) + "\n" + std::string(legend) + implementation_text(report) +
-           mirrors_text(report) + best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report) +
-           stopped + answer_text(report);
+    const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
+    const std::string legends = std::string(legend) + std::string(has_ties ? tie_legend : "");
+    return text + "\n" + as_text(table_of(report)) + "\n" + legends + implementation_text(report) + mirrors_text(report) +
+           best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report) + stopped +
+           answer_text(report);
 }
 
 std::string as_text(const Pool& pool) {

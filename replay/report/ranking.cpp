@@ -18,6 +18,15 @@ std::vector<bool> pareto_front(std::span<const Standing> rows, Cost cost) {
     return front;
 }
 
+std::vector<bool> ties_in_time(std::span<const Standing> rows) {
+    std::vector<Standing> medians(rows.begin(), rows.end());
+    for (Standing& row : medians) row.spread = 0;
+    const std::vector<bool> front = pareto_front(rows, &Standing::time), by_median = pareto_front(medians, &Standing::time);
+    std::vector<bool> ties;
+    for (std::size_t i = 0; i < rows.size(); ++i) ties.push_back(by_median[i] && !front[i]);
+    return ties;
+}
+
 std::span<const Budget> budgets() {
     static constexpr Budget all[] = {{&Standing::time, 1},
                                      {&Standing::time, 2},

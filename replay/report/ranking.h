@@ -20,6 +20,10 @@ using Cost = double Standing::*;
 /// For each row whether no other is more accurate and no dearer, or cheaper and no less accurate; equal rows share the front.
 std::vector<bool> pareto_front(std::span<const Standing>, Cost);
 
+/// For each row whether the spreads alone keep it off the front of time: a more accurate row's time is not told apart from its
+/// own.
+std::vector<bool> ties_in_time(std::span<const Standing>);
+
 /// A most that may be spent: "time" 2, "bytes per pixel" 32.
 struct Budget {
     Cost cost;

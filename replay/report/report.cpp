@@ -6,6 +6,7 @@
 #include "passes/scene/object_order.h"
 #include "replay/plural.h"
 #include "replay/report/flicker.h"
+#include "replay/report/picture_error.h"
 #include "replay/report/variants.h"
 
 namespace strata {
@@ -23,6 +24,7 @@ struct Yardstick {
     ImageSet truth;
     std::string name;
     std::uint32_t model_divisor = 1;
+    std::optional<PictureTruth> picture = {};  ///< with ErrorAt::picture
 };
 
 std::uint32_t affordable_divisor(const View& view) {
@@ -62,7 +64,7 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
                 view.width, view.height, plural(view.samples, "sample"), name(wanted.stage));
 }
 
-Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {
+Result<Accuracy> measure_stage(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {
     if (yardstick.model_divisor == 1) return session.judge(variant.request, stage, Against::model_and_truth, &yardstick.truth);
     auto accuracy = session.judge(variant.request, stage, Against::truth, &yardstick.truth);
     if (!accuracy || !accuracy->not_supported.empty()) return accuracy;
@@ -74,6 +76,13 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     accuracy->model_worst = model->model_worst;
     if (accuracy->incomparable.empty()) accuracy->incomparable = model->incomparable;
     return accuracy;
+}
+
+Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {
+    auto accuracy = measure_stage(session, variant, stage, yardstick);
+    if (!accuracy || !accuracy->not_supported.empty() || !yardstick.picture) return accuracy;
+    const auto judged = judge_picture(session, variant.request, *yardstick.picture, *accuracy);
+    return judged ? std::move(accuracy) : Result<Accuracy>(judged.error());
 }
 
 /// What a timed run gave, in its row.
@@ -190,8 +199,10 @@ std::optional<std::size_t> baseline_of(const Report& report) {
 void mark_fronts(std::vector<Measurement>& rows) {
     const std::vector<Standing> all = standings(rows);
     const std::vector<bool> fast = pareto_front(all, &Standing::time), small = pareto_front(all, &Standing::bytes_per_pixel);
+    const std::vector<bool> tied = ties_in_time(all);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         rows[i].on_front = fast[i];
+        rows[i].is_tied = tied[i];
         rows[i].on_memory_front = small[i];
     }
 }
@@ -216,6 +227,7 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
 
     Report report{.stage = wanted.stage,
                   .capture_id = session.capture_id(),
+                  .error_at = wanted.error_at,
                   .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
                   .width = view.width,
@@ -234,8 +246,13 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     count_sorted(*frame, report);
     const Shares shares(wanted);
     tell("truth", 0);
-    const auto yardstick = find_yardstick(session, wanted, view);
+    auto yardstick = find_yardstick(session, wanted, view);
     if (!yardstick) return yardstick.error();
+    if (wanted.error_at == ErrorAt::picture) {
+        auto picture = picture_truth(session, wanted.base, wanted.stage, yardstick->truth);
+        if (!picture) return picture.error();
+        yardstick->picture = *std::move(picture);
+    }
     report.truth = yardstick->name;
     for (std::size_t i = 0; i < all->size(); ++i) {
         const Variant& variant = (*all)[i];

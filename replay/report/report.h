@@ -29,8 +29,12 @@ struct Walk {
 
 struct Measurement;
 
+/// What errors are of: the stage's first output, or the picture that later stages make of it.
+enum class ErrorAt { stage, picture };
+
 struct ReportRequest {
     Request base;  ///< frame, other stages' choices
+    ErrorAt error_at = ErrorAt::stage;
     Stage stage = Stage::transparency;
     std::vector<std::string> methods;  ///< "technique key=value ..."; none: every technique of the stage
     bool defaults_only = false;        ///< without the techniques' own points
@@ -58,6 +62,7 @@ struct Measurement {
     std::optional<double> flicker;
     std::vector<CounterRecord> counters;  ///< of the technique
     bool on_front = false;                ///< nothing is both more accurate and faster
+    bool is_tied = false;                 ///< the spreads alone keep it off the front: see ties_in_time()
     bool on_memory_front = false;         ///< nothing is both more accurate and smaller
 };
 
@@ -65,6 +70,7 @@ struct Report {
     Stage stage = Stage::transparency;
     std::string capture_name;       ///< for people; the caller's
     std::string capture_id, truth;  ///< truth: "exact, in double" or which technique stood in and how exact it is
+    ErrorAt error_at = ErrorAt::stage;
     std::size_t frame = 0, repeats = 0;
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;

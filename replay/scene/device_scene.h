@@ -28,7 +28,8 @@ private:
     CommandRange opaque_, casters_, transparent_, numbered_, back_to_front_;
 };
 
-/// Import ids below this belong to the scene.
+/// Import ids below this belong to the scene, those from here to first_free_import to given outputs (Declaration::given).
+inline constexpr std::uint64_t first_given_import = 50;
 inline constexpr std::uint64_t first_free_import = 100;
 
 }  // namespace strata

@@ -76,7 +76,8 @@ void keep_all_images(Declaration& d) {
 void keep_counters(Declaration& d) {
     for (const DeclaredAct& act : d.frame.acts) {
         const Buffer buffer = d.graph.counters(act.scope);
-        if (!buffer || act.technique->counters.empty() || d.scopes_from_memo.contains(act.scope)) continue;
+        const bool is_dropped = std::ranges::count(d.graph.steps(), act.scope, &Step::scope) == 0;
+        if (!buffer || act.technique->counters.empty() || is_dropped) continue;
         d.graph.keep(buffer);
         d.counters.push_back({act.technique, buffer, act.scope});
     }
@@ -152,6 +153,59 @@ private:
     std::size_t place_ = 0;
 };
 
+/// Puts images in the place of what a stage's own act gives.
+class Give {
+public:
+    Give(Declaration& d, Stage stage, const ImageSet& outputs) : d_(&d), stage_(stage), outputs_(&outputs) {}
+
+    void operator()(const DeclaredAct& act) {
+        if (act.technique->stage != stage_ || act.at != stage_) return;
+        Graph& graph = d_->graph;
+        const Scope scope = graph.scopes()[act.scope];
+        graph.drop_scope(act.scope);
+        graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
+        for (const auto& [name, texels] : *outputs_) {
+            const FrameImageRow* row = find_frame_image(name);
+            if (!row || !(d_->images.*row->member)) continue;
+            Image& image = d_->images.*row->member;
+            const ImportId id{first_given_import + d_->given.size()};
+            d_->given.emplace_back(id, &texels);
+            graph.compute("shaders/given_image.comp")
+                .loads("Given", graph.import("given " + name, texels.texels.size() * sizeof(glm::vec4), id))
+                .stores("image", image)
+                .over({texels.width, texels.height, texels.layers});
+        }
+    }
+
+private:
+    Declaration* d_;
+    Stage stage_;
+    const ImageSet* outputs_;
+};
+
+/// Why images cannot take the place of what the act gives, or nothing.
+std::optional<std::string> cannot_give(const Declaration& d, std::size_t place, const ImageSet& outputs) {
+    const DeclaredAct& act = d.frame.acts[place];
+    const StageInfo& stage = info(act.technique->stage);
+    if (feeds_buffers(d.graph, act.scope)) return fmt::format("later stages read buffers of {}", act.technique->name);
+    const std::vector<std::string> images_read = images_read_later(d.graph, d.frame.acts)[place];
+    for (const std::string& read : images_read) {
+        const auto is_read = [&](std::string_view output) {
+            const Image image = d.images.*find_frame_image(output)->member;
+            return image && d.graph.record(image).name == read;
+        };
+        const auto output = std::ranges::find_if(stage.outputs, is_read);
+        const auto given = output == stage.outputs.end() ? outputs.end() : outputs.find(*output);
+        if (given == outputs.end()) return fmt::format("later stages read '{}', which is not given", read);
+        const Shape& shape = d.graph.shape(d.graph.find_image(read));
+        const ReferenceImage& image = given->second;
+        if (row(shape.format).kind != FormatKind::real || shape.samples > 1 || shape.extent.width != image.width ||
+            shape.extent.height != image.height || shape.layers != image.layers)
+            return fmt::format("'{}' has another shape than the image given", read);
+    }
+    return {};
+}
+
 /// Acts that were culled whole count what they counted when they ran.
 void settle_idle_counters(Declaration& d) {
     for (const auto& [scope, counters] : d.counters_if_idle) {
@@ -197,6 +251,27 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
     if (!plan) return plan.error();
     d.plan = *std::move(plan);
     settle_idle_counters(d);
+    return d;
+}
+
+Result<Declaration> declare_from(const Request& request, const Sources& sources, Stage stage, const ImageSet& outputs) {
+    auto choices = choose(sources.loaded.frame, request.choices);
+    if (!choices) return choices.error();
+    Declaration d;
+    d.choices = *choices;
+    if (const auto filled = fill(d, request, sources, Keep::outputs, {}); !filled) return filled.error();
+    const auto is_own = [&](const DeclaredAct& act) { return act.technique->stage == stage && act.at == stage; };
+    const auto own = std::ranges::find_if(d.frame.acts, is_own);
+    if (own == d.frame.acts.end()) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+    if (const auto why = cannot_give(d, static_cast<std::size_t>(own - d.frame.acts.begin()), outputs))
+        return fail(Fault::usage, "no image can take the place of what {} gives: {}", name(stage), *why);
+    d = Declaration{};
+    d.choices = *choices;
+    const auto filled = fill(d, request, sources, Keep::outputs, Give(d, stage, outputs));
+    if (!filled) return filled.error();
+    auto plan = compile(d.graph, sources.shaders);
+    if (!plan) return plan.error();
+    d.plan = *std::move(plan);
     return d;
 }
 

@@ -33,6 +33,8 @@ struct Declaration {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> memo_writes;  ///< keys this run fills, and the scopes of their acts
     std::set<std::uint32_t> scopes_from_memo;
     std::vector<std::uint64_t> act_keys;  ///< what tells equal acts: see ActKeys; in the order of the acts, only with a memo
+    /// Buffers to upload before the plan runs: the texels of given outputs as four floats each.
+    std::vector<std::pair<ImportId, const ReferenceImage*>> given;
     Plan plan;
 };
 
@@ -50,5 +52,7 @@ enum class Keep { outputs, all_images };
 
 /// Declares and compiles a request on a loaded frame (which already has the request's frame, extent and samples).
 Result<Declaration> declare(const Request&, const Sources&, Keep);
+/// The same without the memo, with images in the place of what a stage's own act gives: see Session::run_from.
+Result<Declaration> declare_from(const Request&, const Sources&, Stage, const ImageSet& outputs);
 
 }  // namespace strata

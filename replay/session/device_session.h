@@ -30,6 +30,7 @@ public:
     Result<Frame> frame(std::size_t index) override;
 
     Result<Run> run(const Request&) override;
+    Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) override;
     Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress&) override;
     Result<PlannedFrame> plan(const Request&) override;
     Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) override;
@@ -95,7 +96,9 @@ private:
     Result<Run> plan_run(const Request&);
     Result<Run> run_with_acts(const Request&);
 
-    /// Loads the frame's variant when it is not the current one, and declares the request on it.
+    /// Loads the frame's variant when it is not the current one.
+    Result<void> load_variant(const FrameVariant&);
+    /// Loads the frame's variant and declares the request on it.
     Result<Declaration> prepare(const Request&, Memo*, Keep);
     Result<void> load(Frame, const FrameVariant&);
     /// Whether the device can bind every buffer whole.

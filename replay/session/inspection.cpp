@@ -257,7 +257,9 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
     if (const auto on = check_going(); !on) return on.error();
-    return info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
+    ImageSet images = info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
+    leave_out_sides(loaded_->frame, device().snap_steps, images);
+    return images;
 }
 
 std::optional<std::string> DeviceSession::lacking(const Request& request, Stage stage) const {

@@ -124,25 +124,9 @@ std::optional<double> flip_of(const StageInfo& stage, const ImageSet& result, co
     return radiance_flip(color_planes(wanted->second), color_planes(got->second)).mean;
 }
 
-/// Sides of triangles lie elsewhere on a device that snaps corners to coarser steps than models and truths do. There images of
-/// the frame's extent are compared with nothing.
-void leave_out_sides(const JudgedStage& stage, ImageSet& images) {
-    if (stage.snap_steps >= snap_steps) return;
-    const double finer = double(snap_steps) / double(stage.snap_steps);
-    const std::vector<bool> near = samples_near_sides(stage.frame, undecided_steps * finer);
-    const View& view = stage.frame.view;
-    for (auto& [name, image] : images) {
-        if (image.width != view.width || image.height != view.height) continue;
-        image.undecided.resize(image.texels.size());
-        const std::size_t pixels = std::size_t(view.width) * view.height;
-        for (std::size_t i = 0; i < near.size(); ++i)
-            if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;
-    }
-}
-
 void judge_by_model(const JudgedStage& stage, Accuracy& accuracy) {
     ImageSet model = run_model(stage);
-    leave_out_sides(stage, model);
+    leave_out_sides(stage.frame, stage.snap_steps, model);
     accuracy.incomparable = incomparable_with_model(info(stage.choice.technique->stage), stage.result, model);
     if (!accuracy.incomparable.empty()) {
         accuracy.model_rmse = accuracy.model_worst = HUGE_VAL;
@@ -193,7 +177,7 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const StageInfo& of_stage = info(stage.choice.technique->stage);
     const StageInput input{stage.frame, stage.before, stage.fragments};
     ImageSet truth = stage.truth ? *stage.truth : of_stage.truth(input);
-    leave_out_sides(stage, truth);
+    leave_out_sides(stage.frame, stage.snap_steps, truth);
     if (const std::string why = incomparable_with_truth(of_stage, stage.result, truth); !why.empty()) {
         accuracy.incomparable += accuracy.incomparable.empty() ? why : "; " + why;
         accuracy.method = infinite_figures(of_stage, truth, input);
@@ -208,6 +192,20 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 }
 
 }  // namespace
+
+void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageSet& images) {
+    if (device_snap_steps >= snap_steps) return;
+    const double finer = double(snap_steps) / double(device_snap_steps);
+    const std::vector<bool> near = samples_near_sides(frame, undecided_steps * finer);
+    const View& view = frame.view;
+    for (auto& [name, image] : images) {
+        if (image.width != view.width || image.height != view.height) continue;
+        image.undecided.resize(image.texels.size());
+        const std::size_t pixels = std::size_t(view.width) * view.height;
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (const std::size_t texel = image.layers == view.samples ? i : i % pixels; near[i]) image.undecided[texel] = true;
+    }
+}
 
 ImageSet run_model(const JudgedStage& stage) {
     const Technique& technique = *stage.choice.technique;

@@ -25,6 +25,10 @@ struct JudgedStage {
 
 Accuracy judge_stage(const JudgedStage&);
 
+/// Sides of triangles lie elsewhere on a device that snaps corners to coarser steps (DeviceInfo::snap_steps) than models and
+/// truths do. There images of the frame's extent become undecided.
+void leave_out_sides(const Frame&, std::uint32_t device_snap_steps, ImageSet&);
+
 /// The technique's model on the stage's inputs, in double.
 ImageSet run_model(const JudgedStage&);
 

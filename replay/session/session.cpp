@@ -71,6 +71,24 @@ Result<Run> DeviceSession::run(const Request& request) {
     return run;
 }
 
+Result<Run> DeviceSession::run_from(const Request& request, Stage stage, const ImageSet& outputs) {
+    if (const auto loaded = load_variant(request.variant); !loaded) return loaded.error();
+    const Sources sources{*loaded_, scene_, device(), shaders()};
+    const auto declared = failures_as_errors([&] { return declare_from(request, sources, stage, outputs); });
+    if (!declared) return declared.error();
+    const auto uploaded = failures_as_errors([&]() -> Result<void> {
+        for (const auto& [id, image] : declared->given) {
+            const std::vector<glm::vec4> texels(image->texels.begin(), image->texels.end());
+            executor_->upload(id, std::as_bytes(std::span(texels)));
+        }
+        return {};
+    });
+    const auto execution = uploaded ? execute(*declared, {}) : Result<Execution>(uploaded.error());
+    for (const auto& [id, image] : declared->given) executor_->forget(id);
+    if (!execution) return execution.error();
+    return finished(*declared, *execution);
+}
+
 Result<std::vector<Run>> DeviceSession::run(Frame made, std::span<const Request> requests) {
     std::vector<Run> runs;
     loaded_.reset();
@@ -100,16 +118,21 @@ Result<void> DeviceSession::check_going() const {
     return {};
 }
 
-Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
-    if (const auto on = check_going(); !on) return on.error();
+Result<void> DeviceSession::load_variant(const FrameVariant& variant) {
+    if (const auto on = check_going(); !on) return on;
     times_ = {};
+    if (loaded_ && loaded_->variant == variant) return {};
     HostTimer timer;
-    if (!loaded_ || loaded_->variant != request.variant) {
-        auto recorded = frame(request.variant.frame);
-        if (!recorded) return recorded.error();
-        if (auto loaded = load(*std::move(recorded), request.variant); !loaded) return loaded.error();
-        times_.load = timer();
-    }
+    auto recorded = frame(variant.frame);
+    if (!recorded) return recorded.error();
+    if (auto loaded = load(*std::move(recorded), variant); !loaded) return loaded;
+    times_.load = timer();
+    return {};
+}
+
+Result<Declaration> DeviceSession::prepare(const Request& request, Memo* memo, Keep keep) {
+    if (const auto loaded = load_variant(request.variant); !loaded) return loaded.error();
+    HostTimer timer;
     auto declared = failures_as_errors([&] { return declare(request, {*loaded_, scene_, device(), shaders(), memo}, keep); });
     if (!declared) memo_.drop_unfilled();
     times_.declare = timer();

@@ -167,6 +167,9 @@ public:
 
     /// Runs once. Stage outputs that are still valid come from the memo.
     virtual Result<Run> run(const Request&) = 0;
+    /// Runs a request in which a stage's outputs are these images instead of what its own act gives; everything else is executed.
+    /// Fails (usage) where later stages read more of that act: buffers, or images that are missing here or not of its shape.
+    virtual Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) = 0;
     /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread. Stopped
     /// (stop_when), it gives the repeats that were complete for all, or fails where there is none.
     virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;

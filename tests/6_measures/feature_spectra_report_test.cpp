@@ -68,6 +68,7 @@ public:
                 runs[i].stage_ms_by_repeat["lighting"].push_back(milliseconds(requests[i]) + 100 * (double(turn) - 1));
         return runs;
     }
+    Result<strata::Run> run_from(const Request&, Stage, const ImageSet&) override { return not_asked(); }
     Result<PlannedFrame> plan(const Request&) override { return not_asked(); }
     Result<HostImage> peek(const Request&, std::size_t, const std::string&) override { return not_asked(); }
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override { return not_asked(); }

@@ -38,6 +38,7 @@ public:
     Result<std::vector<Run>> time(std::span<const Request> r, std::size_t n, const Progress& p) override {
         return steady_->time(r, n, p);
     }
+    Result<Run> run_from(const Request& r, Stage s, const ImageSet& o) override { return steady_->run_from(r, s, o); }
     Result<PlannedFrame> plan(const Request& r) override { return steady_->plan(r); }
     Result<HostImage> peek(const Request& r, std::size_t s, const std::string& i) override { return steady_->peek(r, s, i); }
     Result<std::vector<StepImages>> step_images(const Request& r, Stage s) override { return steady_->step_images(r, s); }

@@ -71,6 +71,22 @@ TEST(ParetoFront, ATimeWithinTheSpreadIsNotFaster) {
     EXPECT_EQ(pareto_front(apart, &Standing::time), (std::vector<bool>{true, true}));
 }
 
+TEST(Ties, AreRowsThatOnlyTheSpreadKeepsOffTheFront) {
+    const std::vector<Standing> rows = {{.error = .01, .time = 1, .spread = .05},
+                                        {.error = .1, .time = .93, .spread = .03},  // .07 apart, .08 of spread
+                                        {.error = .2, .time = 1.1},
+                                        {.error = .3, .time = .5}};
+    EXPECT_EQ(ties_in_time(rows), (std::vector<bool>{false, true, false, false}));
+    std::vector<Measurement> measured;
+    for (const Standing& standing : rows) {
+        measured.push_back(row("transparency/a", *standing.error, standing.time));
+        measured.back().stage_ms.mad = standing.spread;
+    }
+    mark_fronts(measured);
+    EXPECT_TRUE(measured[1].is_tied);
+    EXPECT_THAT(as_text(Report{.rows = measured}), HasSubstr("\n= a"));
+}
+
 TEST(Budgets, OfTimeAreKeptWithTheSpread) {
     const std::vector<Standing> rows = {{.error = .1, .time = .99, .spread = .05}, {.error = .2, .time = .9, .spread = .05}};
     EXPECT_EQ(best_within(rows, {&Standing::time, 1}), 1u);
@@ -143,6 +159,26 @@ TEST(StoppedReport, SaysNothingOfTimesThatWereNotMeasured) {
         EXPECT_THAT(line, testing::EndsWith(",,,,"));
     }
     EXPECT_EQ(pooled(std::array{report}).captures, 0u);
+}
+
+/// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
+TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
+    const auto session = scenario_session("interpenetrating_panes");
+    ReportRequest wanted{.error_at = ErrorAt::picture, .methods = {"sorted_lists", "alpha_blend"}, .repeats = 1};
+    const Report report = must(make_report(*session, wanted));
+    ASSERT_EQ(report.rows.size(), 2u);
+    EXPECT_EQ(report.rows[0].technique, "transparency/sorted_lists");
+    const std::vector<Figure>& exact = report.rows[0].accuracy.method;
+    EXPECT_EQ(exact.front().name, "display rmse");
+    for (const Figure& figure : exact) EXPECT_LT(figure.value, 1e-3) << figure.name;
+    EXPECT_GT(report.rows[1].accuracy.method.front().value, .01);
+    EXPECT_GT(*report.rows[1].accuracy.flip, .01);
+    EXPECT_GT(report.rows[1].accuracy.touched.front().value, report.rows[1].accuracy.method.front().value);
+    EXPECT_LT(report.rows[1].accuracy.touched_share, 1);
+    EXPECT_EQ(nlohmann::json::parse(as_json(report))["error_at"], "picture");
+    wanted.stage = Stage::combine;
+    wanted.methods = {};
+    EXPECT_THAT(make_report(*session, wanted).error().sentence, HasSubstr("makes the picture itself"));
 }
 
 TEST(Budgets, AreOfWholeBytes) {

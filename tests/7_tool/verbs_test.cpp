@@ -320,6 +320,7 @@ TEST(Report, JsonCsvAndTextNameEveryTechniqueOfTheStage) {
         EXPECT_THAT(text.out, HasSubstr(std::string(technique->name.substr(technique->name.find('/') + 1))));
         EXPECT_THAT(csv.out, HasSubstr(std::string(technique->name)));
     }
+    EXPECT_EQ(strata("report panes.strata --stage combine --error-at picture").code, 2);
     EXPECT_EQ(strata("report panes.strata --stage nothing").code, 2);
     EXPECT_EQ(strata("report panes.strata --sweep nothing=1,2").code, 2);
     EXPECT_EQ(strata("report panes.strata --dolly 1").code, 2);

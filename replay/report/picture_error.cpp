@@ -1,0 +1,98 @@
+#include "replay/report/picture_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/difference.h"
+#include "replay/measure/flip.h"
+
+namespace strata {
+namespace {
+
+constexpr const char* picture = "display";
+
+Result<ReferenceImage> picture_from(Session& session, Request request, Stage stage, const ImageSet& outputs) {
+    request.outputs = {picture};
+    return session.run_from(request, stage, outputs).and_then([](auto& run) { return in_double(run.images.at(picture)); });
+}
+
+/// The stage's outputs as its technique finds them; black where no stage before it writes them.
+Result<ImageSet> found_before(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
+    const auto acts = session.act_images(request);
+    if (!acts) return acts.error();
+    ImageSet before;
+    for (const auto& [name, image] : truth) before.emplace(name, ReferenceImage(image.width, image.height, image.layers));
+    for (const ActImages& act : *acts) {
+        if (act.at == stage) break;
+        for (const auto& [name, image] : act.images)
+            if (const auto wanted = before.find(name); wanted != before.end()) wanted->second = in_double(image);
+    }
+    return before;
+}
+
+/// Leaves out the pixels of which a sample of the stage's picture is undecided. Images of another extent say nothing of pixels.
+void leave_out_undecided(const ReferenceImage& truth, ReferenceImage& display) {
+    const std::size_t pixels = std::size_t(display.width) * display.height;
+    if (truth.width != display.width || truth.height != display.height) return;
+    display.undecided.resize(pixels);
+    for (std::size_t i = 0; i < truth.undecided.size(); ++i)
+        if (truth.undecided[i]) display.undecided[i % pixels] = true;
+}
+
+/// Smaller is better; shares in percent of the pixels that are compared.
+std::vector<Figure> figures_of(const ReferenceImage& got, const ReferenceImage& wanted) {
+    const Difference error = difference(got, wanted);
+    std::size_t off = 0, compared = 0;
+    for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
+        if (!decided(got, wanted, i)) continue;
+        ++compared;
+        const auto is_off = [&](int c) { return !(std::abs(signed_error(got.texels[i][c], wanted.texels[i][c])) <= 1. / 255); };
+        off += is_off(0) || is_off(1) || is_off(2);
+    }
+    return {{"display rmse", "of white", error.rmse},
+            {"relative rmse", "", error.relative},
+            {"worst", "of white", error.worst},
+            {"off by 1/255", "%", 100 * double(off) / double(std::max<std::size_t>(1, compared))}};
+}
+
+}  // namespace
+
+Result<PictureTruth> picture_truth(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
+    if (std::ranges::count(info(stage).outputs, picture) > 0)
+        return fail(Fault::usage, "the stage {} makes the picture itself: its errors are those of the picture", name(stage));
+    auto display = picture_from(session, request, stage, truth);
+    if (!display) return display.error();
+    const auto before = found_before(session, request, stage, truth);
+    if (!before) return before.error();
+    const auto without = picture_from(session, request, stage, *before);
+    if (!without) return without.error();
+    if (const auto shown = truth.find(info(stage).outputs.front()); shown != truth.end())
+        leave_out_undecided(shown->second, *display);
+    PictureTruth made{.display = *display, .touched = *std::move(display)};
+    std::size_t touched = 0, compared = 0;
+    made.touched.undecided.resize(made.touched.texels.size());
+    for (std::size_t i = 0; i < made.touched.texels.size(); ++i) {
+        if (made.touched.undecided[i]) continue;
+        ++compared;
+        const bool is_touched = glm::dvec3(made.touched.texels[i]) != glm::dvec3(without->texels[i]);
+        made.touched.undecided[i] = !is_touched;
+        touched += is_touched;
+    }
+    made.touched_share = double(touched) / double(std::max<std::size_t>(1, compared));
+    return made;
+}
+
+Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
+    request.outputs = {picture};
+    const auto run = session.run(request);
+    if (!run) return run.error();
+    const HostImage& display = run->images.at(picture);
+    const ReferenceImage got = in_double(display);
+    accuracy.method = figures_of(got, truth.display);
+    accuracy.flip = display_flip(color_planes(truth.display), color_planes(got)).mean;
+    accuracy.touched = truth.touched_share > 0 ? figures_of(got, truth.touched) : std::vector<Figure>();
+    accuracy.touched_share = truth.touched_share > 0 ? truth.touched_share : 1;
+    return {};
+}
+
+}  // namespace strata

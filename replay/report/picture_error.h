@@ -1,0 +1,24 @@
+// Errors of the picture: what the later stages make of a technique's outputs, against what they make of the stage's truth.
+#pragma once
+
+#include <vector>
+
+#include "replay/session/session.h"
+
+namespace strata {
+
+/// What every row of a report is compared with.
+struct PictureTruth {
+    ReferenceImage display;  ///< of the truth, without the pixels in which a sample of the truth is undecided
+    ReferenceImage touched;  ///< the same with only those pixels that the stage changes
+    double touched_share = 1;
+};
+
+/// Runs the request from the stage's truth, and from what its technique finds. Fails where the truth cannot take the place of the
+/// stage's outputs (Session::run_from), and for a stage that makes the picture itself.
+Result<PictureTruth> picture_truth(Session&, const Request&, Stage, const ImageSet& truth);
+
+/// Runs the request and puts the errors of its picture in the place of those of the stage: Accuracy::method, flip and touched.
+Result<void> judge_picture(Session&, Request, const PictureTruth&, Accuracy&);
+
+}  // namespace strata

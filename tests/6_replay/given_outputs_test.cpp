@@ -1,0 +1,64 @@
+// A stage's outputs replaced by given images: what later stages make of a truth.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using testing::HasSubstr;
+
+/// What the own act of a stage gave, in double.
+ImageSet outputs_of(Session& session, const Request& request, Stage stage) {
+    ImageSet outputs;
+    for (const ActImages& act : must(session.act_images(request)))
+        if (act.stage == stage && act.at == stage)
+            for (const auto& [name, image] : act.images) outputs.emplace(name, in_double(image));
+    return outputs;
+}
+
+/// The way there and back loses no bit: halves and floats fit into the floats that are uploaded.
+TEST(GivenOutputs, OfAStageItselfAreThePictureOfThePlainReplay) {
+    Session& session = session_of_scenarios();
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const Request request = on_scenario("glass_and_smoke", samples);
+        const auto plain = must(session.run(request));
+        for (const Stage stage : {Stage::transparency, Stage::lighting}) {
+            const ImageSet outputs = outputs_of(session, request, stage);
+            ASSERT_FALSE(outputs.empty());
+            const auto given = must(session.run_from(request, stage, outputs));
+            EXPECT_EQ(given.images.at("display").texels, plain.images.at("display").texels) << name(stage) << " at " << samples;
+        }
+    }
+}
+
+TEST(GivenOutputs, ReachThePicture) {
+    Session& session = session_of_scenarios();
+    const Request request = on_scenario("one_pane");
+    ImageSet outputs = outputs_of(session, request, Stage::transparency);
+    outputs.at("color").at(5, 7) += glm::dvec4(1, 0, 0, 0);
+    const ReferenceImage plain = in_double(must(session.run(request)).images.at("display"));
+    const auto run = must(session.run_from(request, Stage::transparency, outputs));
+    const ReferenceImage given = in_double(run.images.at("display"));
+    for (std::uint32_t y = 0; y < plain.height; ++y)
+        for (std::uint32_t x = 0; x < plain.width; ++x) EXPECT_EQ(given.at(x, y) != plain.at(x, y), x == 5 && y == 7);
+    for (const CounterRecord& counter : run.counters) EXPECT_THAT(counter.technique, Not(HasSubstr("transparency")));
+}
+
+TEST(GivenOutputs, AreRefusedWhereLaterStagesReadMore) {
+    Session& session = session_of_scenarios();
+    const Request request = on_scenario("glass_and_smoke");
+    const auto refused = [&](Stage stage, const ImageSet& outputs) {
+        const auto run = session.run_from(request, stage, outputs);
+        return run ? std::string() : run.error().sentence;
+    };
+    EXPECT_THAT(refused(Stage::culling, {}), HasSubstr("buffers"));
+    EXPECT_THAT(refused(Stage::gbuffer, outputs_of(session, request, Stage::gbuffer)), HasSubstr("'depth'"));
+    EXPECT_THAT(refused(Stage::transparency, {}), HasSubstr("'color', which is not given"));
+    EXPECT_THAT(refused(Stage::transparency, {{"color", ReferenceImage(3, 3)}}), HasSubstr("another shape"));
+    EXPECT_THAT(refused(Stage::rain, {}), HasSubstr("does not need the stage"));
+}
+
+}  // namespace
+}  // namespace strata
