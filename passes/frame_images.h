@@ -5,6 +5,7 @@
 // shader serves 1 and 4 samples: image2DArray, z = sample. `spread` and `gather` go between the two forms.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -81,6 +82,7 @@ struct FrameImageRow {
     Image FrameImages::*member;
     std::string_view help;  ///< what a texel is, for people
     Content content = Content::numbers;
+    std::array<std::string_view, 3> channels = {};  ///< what the first three channels are, where they are no color
 };
 std::span<const FrameImageRow> frame_images();
 /// Null when there is no such image.

@@ -2,6 +2,7 @@
 // One function per technique folder returns one; the list in passes/CMakeLists.txt is its registration.
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -123,11 +124,20 @@ struct StageWork {
     DeclareFunction declare;
 };
 
+/// What a color of a view stands for.
+struct ViewColor {
+    glm::vec3 color;  ///< as the view writes it, 0 to 1
+    std::string meaning;
+};
+
 /// A picture of a technique's inside. `declare` makes it as an rgba32f image of the frame's extent with one layer.
 struct DebugView {
     std::string_view name, help, unit;
     double low = 0, high = 1;  ///< shown from black to white, in unit
     Image (*declare)(Graph&, FrameImages&, const Settings&) = nullptr;
+    std::array<std::string_view, 3> channels = {};  ///< what red, green and blue show; empty: all show one number
+    std::vector<ViewColor> colors = {};             ///< of a view without a scale: what its colors stand for
+    std::string_view if_zero = {};                  ///< the sentence for people where every pixel is 0: "nothing is culled"
 };
 
 struct TableColumn {

@@ -1,6 +1,7 @@
 #include "replay/cli/output_picture.h"
 
 #include <algorithm>
+#include <array>
 
 #include "passes/frame_images.h"
 #include "passes/registry.h"
@@ -10,14 +11,33 @@
 namespace strata {
 namespace {
 
-/// Of a debug view "stage/technique:name"; an image of the frame has none.
-std::optional<ViewScale> scale_of(std::string_view image) {
+std::vector<Swatch> channel_swatches(const std::array<std::string_view, 3>& meanings) {
+    constexpr std::array<Rgb, 3> colors = {Rgb(255, 0, 0), Rgb(0, 255, 0), Rgb(0, 0, 255)};
+    std::vector<Swatch> swatches;
+    for (std::size_t i = 0; i < meanings.size(); ++i)
+        if (!meanings[i].empty()) swatches.push_back({colors[i], std::string(meanings[i])});
+    return swatches;
+}
+
+ImageLegend legend_of(const DebugView& view) {
+    ImageLegend legend{.low = view.low,
+                       .unit = std::string(view.unit),
+                       .channels = channel_swatches(view.channels),
+                       .if_zero = std::string(view.if_zero),
+                       .help = std::string(view.help)};
+    for (const ViewColor& color : view.colors) legend.colors.push_back({Rgb(color.color * 255.f + .5f), color.meaning});
+    return legend;
+}
+
+/// Of an image of the frame, or of a debug view "stage/technique:name".
+ImageLegend legend_of(std::string_view image) {
+    if (const FrameImageRow* row = find_frame_image(image))
+        return {.low = {}, .channels = channel_swatches(row->channels), .help = std::string(row->help)};
     const std::size_t colon = image.find(':');
     const auto technique = colon == image.npos ? Result<const Technique*>(nullptr) : find_technique(image.substr(0, colon));
     if (!technique || !*technique) return {};
     const auto view = std::ranges::find((*technique)->views, image.substr(colon + 1), &DebugView::name);
-    if (view == (*technique)->views.end()) return {};
-    return ViewScale{view->low, view->high, std::string(view->unit)};
+    return view == (*technique)->views.end() ? ImageLegend{} : legend_of(*view);
 }
 
 /// The choice of the last stage that writes the image.
@@ -39,7 +59,7 @@ Result<void> write_output_picture(const std::filesystem::path& path, const Run& 
     const FrameImageRow* row = find_frame_image(image);
     if (row && row->content == Content::display) return write_png(path, shown);
     const std::string title = fmt::format("{}  {}", of, choice_of(run, image));
-    return write_png(path, image_picture(image, shown, title, scale_of(image)));
+    return write_png(path, image_picture(image, shown, title, legend_of(image)));
 }
 
 }  // namespace strata

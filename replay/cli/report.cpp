@@ -128,7 +128,9 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         const std::string row_label = label(row.technique, row.settings);
         if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
         const Figure& error = ranking_figure(row);
-        to_stderr("strata: {} of {}  {}: {} {}\n", place, of, row_label, error.name, short_number(error.value));
+        const bool is_touched = !row.accuracy.touched.empty() && row.accuracy.touched_share < 1;
+        to_stderr("strata: {} of {}  {}: {}{} {}\n", place, of, row_label, error.name, is_touched ? " touched" : "",
+                  short_number(error.value));
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;
@@ -174,12 +176,12 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
     methods->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(methods);
-    app.add_option("--error", options->error, "answer which technique is cheapest with at most this error, like 1%");
+    app.add_option("--error", options->error, "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
         ->check(CLI::IsMember({"stage", "picture"}));
     app.add_option("--within", options->within,
-                   "answer which technique is most accurate within this multiple of the baseline's time, like 2x");
+                   "answer which technique, the baseline aside, is most accurate within this multiple of its time, like 2x");
     app.add_option("--sweep", options->sweeps,
                    "measure each value of a parameter, as key=a,b,c, instead of each technique's own settings; repeatable")
         ->allow_extra_args(false);

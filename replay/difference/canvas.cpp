@@ -30,6 +30,33 @@ int text_width(std::string_view text) {
     return stb_easy_font_width(copy.data()) * Canvas::scale;
 }
 
+std::vector<std::string> wrapped(std::string_view text, int width) {
+    std::vector<std::string> lines(1);
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' ', 1), text.size());  // of a word with the space before it
+        const std::string word(text.substr(0, end));
+        text.remove_prefix(end);
+        if (text_width(lines.back() + word) <= width) {
+            lines.back() += word;
+            continue;
+        }
+        lines.emplace_back();
+        for (const char letter : word.substr(word.find_first_not_of(' ') == 1 ? 1 : 0)) {
+            if (text_width(lines.back() + letter) > width) lines.emplace_back();
+            lines.back() += letter;
+        }
+    }
+    if (lines.size() > 1 && lines.front().empty()) lines.erase(lines.begin());
+    return lines;
+}
+
+std::string shortened(std::string_view text, int width) {
+    std::string kept(text);
+    if (text_width(kept) <= width) return kept;
+    while (!kept.empty() && text_width(kept + "...") > width) kept.pop_back();
+    return kept + "...";
+}
+
 int Canvas::text(std::string_view text, Box at, Rgb ink) {
     std::string copy(text);
     while (!copy.empty() && text_width(copy) > at.width) copy.pop_back();

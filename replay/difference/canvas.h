@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,6 +41,10 @@ private:
 
 /// Pixels that `text` takes.
 int text_width(std::string_view);
+/// The text in lines that fit into a width, broken at spaces; a longer word is broken where it must.
+std::vector<std::string> wrapped(std::string_view, int width);
+/// The text, or as much of it as fits with "..." at its end.
+std::string shortened(std::string_view, int width);
 
 /// matplotlib's magma (CC0): from black at 0 over violet and orange to a pale yellow at 1.
 Rgb magma(double share);

@@ -125,7 +125,7 @@ void draw_mark(Canvas& canvas, int left, int top, int zoom, const WorstPixel& wo
 /// The panel's image with a pixel framed where one is the worst, its label above and its legend below.
 void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const WorstPixel* worst) {
     const int zoom = box.width / size.width;
-    canvas.text(panel.label, {box.x, box.y, box.width, 0}, ink);
+    canvas.text(shortened(panel.label, box.width), {box.x, box.y, box.width, 0}, ink);
     const int top = box.y + Canvas::line;
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
@@ -171,31 +171,71 @@ Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) 
     return write_png(path, extent, std::as_bytes(std::span(canvas.pixels())));
 }
 
-Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title,
-                     const std::optional<ViewScale>& scale) {
+namespace {
+
+/// What the values of an image say of themselves, in a sentence.
+std::string values_note(const Texels& shown, const ImageLegend& legend) {
+    const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
+    const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
+    if (std::ranges::none_of(shown.values, finite)) return "no pixel has a number";
+    std::string note = fmt::format("values {:.4g} to {:.4g}{}", least, most, unit);
+    if (least == most) note = fmt::format("every pixel is {:.4g}{}", least, unit);
+    if (least == most && least == 0 && !legend.if_zero.empty()) note = legend.if_zero;
+    if (!std::ranges::all_of(shown.values, finite)) note += ", magenta: no number";
+    return note;
+}
+
+/// Those of the colors that the image shows.
+std::vector<Swatch> seen_in(const Texels& shown, const Range& range, const std::vector<Swatch>& colors) {
+    std::vector<Swatch> seen;
+    for (const Swatch& swatch : colors)
+        if (std::ranges::any_of(shown.values, [&](const glm::dvec3& v) {
+                return glm::all(
+                    glm::lessThanEqual(glm::abs(glm::ivec3(range.color(v)) - glm::ivec3(swatch.color)), glm::ivec3(1)));
+            }))
+            seen.push_back(swatch);
+    return seen;
+}
+
+}  // namespace
+
+Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title, const ImageLegend& legend) {
     const Texels shown = texels_of(name, image, 0);
-    const Range range = scale ? Range{scale->low, scale->high} : range_of(shown, image.shape.format);
-    const std::string unit = scale && !scale->unit.empty() ? " " + scale->unit : "";
-    std::string label(name);
+    Range range = range_of(shown, image.shape.format);
+    if (!legend.colors.empty()) range = {0, 1};
+    else if (legend.low && *legend.low < range.high && range.content == Content::numbers)
+        range.low = std::min(range.low, *legend.low);
+    const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
     const bool is_averaged = shown.content == Content::radiance || shown.content == Content::display;
+    std::string label(name);
     if (image.shape.layers > 1 && !is_averaged) label += fmt::format(", layer 0 of {}", image.shape.layers);
+    const int zoom = std::max(1, (least_width + shown.width - 1) / shown.width), width = shown.width * zoom;
     Panel panel = image_panel(label, shown, range);
     panel.low += unit, panel.high += unit;
-    const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
-    const bool has_numbers = std::ranges::any_of(shown.values, finite);
-    const bool has_others = !std::ranges::all_of(shown.values, finite);
-    panel.note = !has_numbers    ? "no pixel has a number"
-                 : least == most ? fmt::format("every pixel is {:.4g}{}", least, unit)
-                                 : fmt::format("values {:.4g} to {:.4g}{}", least, most, unit);
-    if (has_numbers && has_others) panel.note += ", magenta: no number";
-    const int zoom = std::max(1, (least_width + shown.width - 1) / shown.width);
-    const Box cell{gap, 2 * gap + Canvas::line, shown.width * zoom, 0};
-    // What the image says of itself stands below the legend's numbers, where there is room for it.
-    Canvas canvas(cell.width + 2 * gap, cell.y + shown.height * zoom + 3 * Canvas::line + bar_height + 10 + gap, paper);
-    canvas.text(title, {gap, gap, cell.width, 0}, mark);
-    const std::string note = std::exchange(panel.note, {});
-    draw(canvas, panel, cell, shown, nullptr);
-    canvas.text(note, {gap, canvas.height() - gap - Canvas::line, cell.width, 0}, ink);
+    if (!legend.colors.empty()) panel.legend = nullptr;
+
+    const std::vector<std::string> titles = wrapped(title, width), help = wrapped(legend.help, width);
+    const std::vector<Swatch> swatches = legend.colors.empty() ? legend.channels : seen_in(shown, range, legend.colors);
+    const int top = 2 * gap + static_cast<int>(titles.size()) * Canvas::line;
+    int below = top + Canvas::line + shown.height * zoom + (panel.legend ? bar_height + 10 + Canvas::line : gap);
+    const auto lines = (legend.colors.empty() ? 1 : 0) + swatches.size() + (legend.help.empty() ? 0 : help.size());
+    Canvas canvas(width + 2 * gap, below + static_cast<int>(lines) * Canvas::line + gap, paper);
+    for (std::size_t i = 0; i < titles.size(); ++i)
+        canvas.text(titles[i], {gap, gap + static_cast<int>(i) * Canvas::line, width, 0}, mark);
+    draw(canvas, panel, {gap, top, width, 0}, shown, nullptr);
+    const auto write_line = [&](const std::string& text, int indent, Rgb color) {
+        canvas.text(text, {gap + indent, below, width - indent, 0}, color);
+        below += Canvas::line;
+    };
+    if (legend.colors.empty()) write_line(values_note(shown, legend), 0, ink);
+    for (const Swatch& swatch : swatches) {
+        const Box box{gap, below, 2 * Canvas::line, Canvas::line - 6};
+        canvas.fill(box, swatch.color);
+        canvas.outline(box, faint);
+        write_line(shortened(swatch.meaning, width - box.width - gap), box.width + gap, ink);
+    }
+    if (!legend.help.empty())
+        for (const std::string& line : help) write_line(line, 0, faint);
     return canvas;
 }
 
@@ -214,10 +254,13 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     const int zoom = std::max(1, (least_width + of_a.width - 1) / of_a.width), columns = panels.size() == 4 ? 2 : 3;
     const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
     const Box cell{0, 0, of_a.width * zoom, of_a.height * zoom + 2 * Canvas::line + bar_height + 10};
-    const int top = 2 * gap + 2 * Canvas::line;
-    Canvas canvas(columns * (cell.width + gap) + gap, top + rows * (cell.height + gap), paper);
-    canvas.text(titles.title, {gap, gap, canvas.width() - 2 * gap, 0}, mark);
-    canvas.text(made.reason, {gap, gap + Canvas::line, canvas.width() - 2 * gap, 0}, ink);
+    const int across = columns * (cell.width + gap) + gap;
+    const std::vector<std::string> title = wrapped(titles.title, across - 2 * gap);
+    const int reason_at = gap + static_cast<int>(title.size()) * Canvas::line, top = reason_at + gap + Canvas::line;
+    Canvas canvas(across, top + rows * (cell.height + gap), paper);
+    for (std::size_t i = 0; i < title.size(); ++i)
+        canvas.text(title[i], {gap, gap + static_cast<int>(i) * Canvas::line, across - 2 * gap, 0}, mark);
+    canvas.text(shortened(made.reason, across - 2 * gap), {gap, reason_at, across - 2 * gap, 0}, ink);
     for (int i = 0; i < static_cast<int>(panels.size()); ++i)
         draw(canvas, panels[static_cast<std::size_t>(i)],
              {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a,

@@ -18,15 +18,25 @@ struct PictureTitles {
 
 Result<void> write_png(const std::filesystem::path&, const Canvas&);
 
-/// What a debug view shows from black to white.
-struct ViewScale {
-    double low = 0, high = 1;
-    std::string unit;
+/// A color and what it stands for.
+struct Swatch {
+    Rgb color;
+    std::string meaning;
 };
 
-/// One image under a title, with its scale and what its values lie between, or that all are one. Without a scale the range is
-/// that of the values. Samples of light are averaged; of anything else the first layer is shown. Small images are enlarged.
-Canvas image_picture(std::string_view name, const HostImage&, const std::string& title, const std::optional<ViewScale>&);
+/// What stands below an image. A scale ends where the values do.
+struct ImageLegend {
+    std::optional<double> low;  ///< where the scale begins, if no value is below; none: at the least value
+    std::string unit = {};
+    std::vector<Swatch> channels = {};  ///< red, green and blue, of an image whose channels show different things
+    std::vector<Swatch> colors = {};    ///< of an image that has no scale: those that are seen in it are listed
+    std::string if_zero = {};           ///< the sentence where every value is 0
+    std::string help = {};              ///< a sentence about the image, below all
+};
+
+/// One image under a title, with its scale and what its values lie between, or that all are one. Samples of light are averaged;
+/// of anything else the first layer is shown. Small images are enlarged.
+Canvas image_picture(std::string_view name, const HostImage&, const std::string& title, const ImageLegend&);
 
 /// Samples of light are averaged; of anything else the layer of the worst pixel is shown. Small images are enlarged.
 Canvas difference_picture(const ImageComparison&, const HostImage& a, const HostImage& b, const PictureTitles&);

@@ -11,6 +11,8 @@ namespace {
 
 // What rounding in float leaves of an exact blend.
 constexpr double exact_below = 1e-4;
+// A time with a larger spread, as a share of it, is told apart from hardly any other: a busy machine, or too few repeats.
+constexpr double largest_spread = .25;
 
 bool keeps_error(const Standing& row, const Question& asked) { return row.error && (!asked.error || *row.error <= *asked.error); }
 
@@ -55,7 +57,8 @@ Answer find_answer(std::span<const Standing> rows, std::optional<std::size_t> ba
     for (std::size_t i = 0; answer.cheapest && i < rows.size(); ++i) {
         const Standing& best = rows[*answer.cheapest];
         const bool is_apart = rows[i].time - best.time > rows[i].spread + best.spread;
-        if (i != *answer.cheapest && i != baseline && by_error(rows[i]) && !is_apart) answer.as_fast.push_back(i);
+        if (i == *answer.cheapest || i == baseline || !by_error(rows[i]) || is_apart) continue;
+        (rows[i].spread > largest_spread * rows[i].time ? answer.unsteady : answer.as_fast).push_back(i);
     }
     return answer;
 }
@@ -71,12 +74,15 @@ std::string answer_text(std::span<const Standing> rows, std::optional<std::size_
         text += answer.cheapest ? fmt::format("cheapest {}", row(*answer.cheapest)) : "no method has so small an error";
     for (std::size_t i = 0; i < answer.as_fast.size(); ++i)
         text += fmt::format("{}{}", i == 0 ? ", as fast within the spread " : ", ", names.rows[answer.as_fast[i]]);
+    if (!answer.unsteady.empty())
+        text += fmt::format(" ({} more may be: the spread of their times is above {:g} %)", answer.unsteady.size(),
+                            100 * largest_spread);
     if (asked.error && asked.within) text += "; ";
     if (asked.within)
         text += answer.most_accurate ? fmt::format("most accurate {}", row(*answer.most_accurate)) : "no method is so fast";
     text += "\n";
-    if (baseline && keeps_error(rows[*baseline], asked))
-        text += fmt::format("the baseline {} is not counted; here it has {}{}{}{}\n", names.rows[*baseline],
+    if (baseline && rows[*baseline].error)
+        text += fmt::format("the baseline {} is not an answer; here it has {}{}{}{}\n", names.rows[*baseline],
                             figures(rows[*baseline], names),
                             *rows[*baseline].error < exact_below ? ": exact, nothing that shows is out of order" : "",
                             names.baseline_note.empty() ? "" : "; ", names.baseline_note);

@@ -69,18 +69,22 @@ Table table_of(const Report& report) {
     return table;
 }
 
-/// What a table's first column says.
-double first_shown(const Measurement& row) { return shown_errors(row).front().value; }
-double first_shown(const PooledRow& row) { return row.error; }
+/// What rows are ranked by, for people: "relative rmse touched".
+std::string ranking_name(const Report& report) {
+    const Measurement* row = first_measured(report);
+    return row ? ranking_figure(*row).name + (leaves_much(report) ? " touched" : "") : "error";
+}
 
-/// The most accurate row of each budget. Without a time unit time has none.
+/// The most accurate row of each budget, with what it is ranked by. Without a time unit time has none.
 template <typename Row>
-std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view unit) {
-    std::string text = "\nmost accurate with\n";
+std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>& standings, std::string_view error,
+                      std::string_view unit) {
+    std::string text = fmt::format("\nmost accurate by {}{}\n", error,
+                                   unit.empty() ? "" : fmt::format(", with a time in units of {}'s", below_stage(unit)));
     for (const Budget& budget : budgets()) {
         if (budget.cost == &Standing::time && unit.empty()) continue;
         const auto best = best_within(standings, budget);
-        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(first_shown(rows[*best])) : "",
+        text += fmt::format("   {:<22} {:<8} {}\n", name(budget), best ? short_number(*standings[*best].error) : "",
                             best ? short_label(rows[*best]) : "nothing");
     }
     return text;
@@ -88,12 +92,8 @@ std::string best_rows(const std::vector<Row>& rows, const std::vector<Standing>&
 
 std::string answer_text(const Report& report) {
     if (!report.question.is_asked()) return "";
-    AnswerNames names{.rows = {}, .error = {}, .unit = below_stage(report.time_unit)};
-    for (const Measurement& row : report.rows) {
-        names.rows.push_back(short_label(row));
-        if (names.error.empty() && !row.accuracy.method.empty()) names.error = ranking_figure(row).name;
-    }
-    if (leaves_much(report)) names.error += " touched";
+    AnswerNames names{.rows = {}, .error = ranking_name(report), .unit = below_stage(report.time_unit)};
+    for (const Measurement& row : report.rows) names.rows.push_back(short_label(row));
     const auto baseline = baseline_of(report);
     if (baseline && report.rows[*baseline].sort_ms)
         names.baseline_note = fmt::format("its time contains {} ms in which the CPU sorts {} and {}",
@@ -187,7 +187,7 @@ std::string as_text(const Report& report) {
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
     const std::string legends = std::string(legend) + std::string(has_ties ? tie_legend : "");
     return text + "\n" + as_text(table_of(report)) + "\n" + legends + implementation_text(report) + mirrors_text(report) +
-           best_rows(report.rows, standings(report.rows), report.time_unit) + counters_text(report) + stopped +
+           best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) + counters_text(report) + stopped +
            answer_text(report);
 }
 
@@ -208,7 +208,7 @@ std::string as_text(const Pool& pool) {
         line.cells.push_back(row.captures == pool.captures ? "all" : fmt::format("{} of {}", row.captures, pool.captures));
         table.rows.push_back(std::move(line));
     }
-    return text + as_text(table) + "\n" + std::string(legend) + best_rows(pool.rows, standings(pool), pool.time_unit);
+    return text + as_text(table) + "\n" + std::string(legend) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit);
 }
 
 }  // namespace strata

@@ -84,7 +84,7 @@ TEST(Ties, AreRowsThatOnlyTheSpreadKeepsOffTheFront) {
     }
     mark_fronts(measured);
     EXPECT_TRUE(measured[1].is_tied);
-    EXPECT_THAT(as_text(Report{.rows = measured}), HasSubstr("\n= a"));
+    EXPECT_THAT(as_text(Report{.rows = measured}), HasSubstr("\n=  a"));
 }
 
 TEST(Budgets, OfTimeAreKeptWithTheSpread) {
@@ -120,19 +120,36 @@ TEST(Answers, CountTheBaselineOnlyWhereThereIsNone) {
     EXPECT_EQ(find_answer(four_methods, std::nullopt, {.error = .01}).cheapest, 0u);
 }
 
+TEST(Answers, SayWhereASpreadIsTooLargeToTellRowsApart) {
+    const std::vector<Standing> rows = {{.error = .01, .time = 1.02, .spread = .02},
+                                        {.error = .01, .time = 1.1, .spread = .1},
+                                        {.error = .01, .time = 2.4, .spread = 1.4}};
+    const Answer answer = find_answer(rows, {}, {.error = .02});
+    EXPECT_EQ(answer.as_fast, std::vector<std::size_t>{1});
+    EXPECT_EQ(answer.unsteady, std::vector<std::size_t>{2});
+    EXPECT_THAT(answer_text(rows, {}, {.error = .02}, {{"a", "b", "c"}, "rmse", "a"}),
+                HasSubstr("as fast within the spread b (1 more may be: the spread of their times is above 25 %)"));
+}
+
+TEST(Answers, NameTheBaselineAlsoWhereItIsWrong) {
+    const std::vector<Standing> rows = {{.error = .2, .time = 1}, {.error = .3, .time = .9}};
+    EXPECT_THAT(answer_text(rows, 0, {.error = .01, .within = 2}, {{"alpha", "b"}, "rmse", "alpha"}),
+                testing::EndsWith("the baseline alpha is not an answer; here it has rmse 0.2, 1.00x\n"));
+}
+
 TEST(Answers, AreSentences) {
     const AnswerNames names{{"alpha", "b", "c", "d", "e", "f"}, "relative rmse", "alpha"};
     EXPECT_EQ(
         answer_text(four_methods, 0, {.error = .01, .within = 2}, names),
         "answer for relative rmse up to 0.01 within 2x of alpha: cheapest c (relative rmse 0.004, 1.80x), as fast within the "
         "spread d; most accurate c (relative rmse 0.004, 1.80x)\n"
-        "the baseline alpha is not counted; here it has relative rmse 0, 1.00x: exact, nothing that shows is out of order\n");
+        "the baseline alpha is not an answer; here it has relative rmse 0, 1.00x: exact, nothing that shows is out of order\n");
     const AnswerNames noted{names.rows, names.error, names.unit, "its time contains 2 ms"};
     EXPECT_THAT(answer_text(four_methods, 0, {.error = .01}, noted), HasSubstr("out of order; its time contains 2 ms\n"));
     EXPECT_EQ(
         answer_text(four_methods, 0, {.error = 1e-6, .within = 1.5}, names),
         "answer for relative rmse up to 1.0e-06 within 1.5x of alpha: no method; no method has so small an error; most accurate "
-        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not counted; here it has relative rmse 0, 1.00x: "
+        "e (relative rmse 0.02, 1.10x)\nthe baseline alpha is not an answer; here it has relative rmse 0, 1.00x: "
         "exact, nothing that shows is out of order\n");
 }
 

@@ -44,7 +44,8 @@ std::vector<DebugView> hiz_two_phase_views() {
              .unit = "",
              .low = 0,
              .high = 1,
-             .declare = view<hiz_view_bounds>}};
+             .declare = view<hiz_view_bounds>,
+             .channels = {"hidden", "drawn in phase 1 and visible", "visible, and not drawn in phase 1"}}};
 }
 
 }  // namespace strata::culling

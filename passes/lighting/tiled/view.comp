@@ -16,13 +16,11 @@ uint mode_of(uint tile) { return records[tile].counts >> 16 & 255u; }
 
 bool is_empty(uint tile) { return mode_of(tile) == empty_tile_mode; }
 
-// 17 hues; black where nothing is shaded.
+// Black where nothing is shaded.
 vec3 color_of_mode(uint tile) {
     if (is_empty(tile)) return vec3(0.0);
     const uint mode = mode_of(tile);
-    const float hue = 6.0 * float(mode * 5u % most_modes) / float(most_modes);
-    const vec3 ramp = vec3(abs(hue - 3.0) - 1.0, 2.0 - abs(hue - 2.0), 2.0 - abs(hue - 4.0));
-    return 0.25 + 0.75 * clamp(ramp, 0.0, 1.0);
+    return vec3(mode_channel(mode, most_modes, 0), mode_channel(mode, most_modes, 1), mode_channel(mode, most_modes, 2));
 }
 
 // Of the LDS that culling's lists have, what the largest batch of this tile uses.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/views.shared.h"
 #include "passes/shaders/light_features.shared.h"
@@ -92,26 +94,64 @@ Image list_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     return numbers;
 }
 
+std::vector<ViewColor> mode_colors() {
+    std::vector<ViewColor> colors = {{glm::vec3(0), "nothing is shaded"}};
+    for (std::uint32_t mode = 0; mode < most_modes; ++mode)
+        colors.push_back(
+            {{mode_channel(mode, most_modes, 0), mode_channel(mode, most_modes, 1), mode_channel(mode, most_modes, 2)},
+             fmt::format("mode {}", mode)});
+    return colors;
+}
+
 }  // namespace
 
 std::vector<DebugView> tiled_views() {
     return {
-        {"tile modes", "a color for the shading mode of each tile; black where nothing is shaded", "", 0, 1, picture<view_modes>},
+        {"tile modes",
+         "a color for the shading mode of each tile; black where nothing is shaded",
+         "",
+         0,
+         1,
+         picture<view_modes>,
+         {},
+         mode_colors()},
         {"LDS occupancy",
          "what culling holds of a tile, as shares of what it has room for: lights of 64 red, (light, blocker) pairs of 256 "
          "green, (light, portal) pairs of 256 blue",
-         "", 0, 1, picture<view_lists>},
+         "",
+         0,
+         1,
+         picture<view_lists>,
+         {"lights, of 64", "(light, blocker) pairs, of 256", "(light, portal) pairs, of 256"}},
         {"LDS bytes", "of 2048 that the lists, pairs and masks of a tile use", "bytes", 0, 2048, picture<view_bytes>},
         {"overflow",
          "red: more than 64 lights; green: more than 256 (light, blocker) pairs; blue: more than 256 (light, portal) pairs, "
          "in total and not per pixel",
-         "", 0, 1, picture<view_overflow>},
-        {"tile lights", "red: lights that are shaded; green: those that reach the tile, blockers left aside", "lights", 0, 64,
-         picture<view_lights>},
+         "",
+         0,
+         1,
+         picture<view_overflow>,
+         {"more than 64 lights", "more than 256 (light, blocker) pairs", "more than 256 (light, portal) pairs"},
+         {},
+         "no tile overflows"},
+        {"tile lights",
+         "red: lights that are shaded; green: those that reach the tile, blockers left aside",
+         "lights",
+         0,
+         64,
+         picture<view_lights>,
+         {"lights that are shaded", "lights that reach the tile, blockers left aside"}},
         {"pixel tests", "(light, blocker) that every pixel of the tile tests: where a blocker's shadow has an edge", "pairs", 0,
          16, picture<view_pixel_tests>},
-        {"culled lights", "red: lights killed by a blocker; green: candidates that do not reach the tile", "lights", 0, 64,
-         picture<view_culled>},
+        {"culled lights",
+         "red: lights killed by a blocker; green: candidates that do not reach the tile",
+         "lights",
+         0,
+         64,
+         picture<view_culled>,
+         {"lights killed by a blocker", "candidates that do not reach the tile"},
+         {},
+         "no light is culled"},
         {"tile features", "bits of the tile's feature spectrum", "bits", 0, 16, picture<view_features>},
         {"mode numbers", "number of the shading mode of each tile, as the table of modes has it; -1 where nothing is shaded", "",
          -1, 16, picture<view_mode_numbers>},

@@ -23,6 +23,19 @@ const uint list_blockers = 0u;
 const uint list_portals = 1u;
 
 #ifdef __cplusplus
+inline float mode_channel(uint mode, uint modes, int channel);
+#endif
+
+/// The red (0), green (1) or blue (2) of the color of a mode, one of `modes` hues.
+float mode_channel(uint mode, uint modes, int channel) {
+    const float hue = 6.0f * float(mode * 5u % modes) / float(modes);
+    const float apart = channel == 0 ? hue - 3.0f : channel == 1 ? hue - 2.0f : hue - 4.0f;
+    const float distance = apart < 0.0f ? -apart : apart;
+    const float ramp = channel == 0 ? distance - 1.0f : 2.0f - distance;
+    return 0.25f + 0.75f * (ramp < 0.0f ? 0.0f : ramp > 1.0f ? 1.0f : ramp);
+}
+
+#ifdef __cplusplus
 }
 #endif
 #endif

@@ -41,7 +41,9 @@ DebugView motion_row(Image (*declare)(Graph&, FrameImages&, const Settings&)) {
             .unit = "pixels",
             .low = 0,
             .high = 16,
-            .declare = declare};
+            .declare = declare,
+            .channels = {"to the right", "down"},
+            .if_zero = "nothing has moved"};
 }
 
 }  // namespace strata::transparency
