@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include "passes/frame_images.h"
 #include "passes/registry.h"
@@ -40,13 +41,25 @@ ImageLegend legend_of(std::string_view image) {
     return view == (*technique)->views.end() ? ImageLegend{} : legend_of(*view);
 }
 
+/// A choice without the settings that are the technique's defaults.
+std::string without_defaults(const std::string& choice) {
+    std::istringstream words(choice);
+    std::string text, word;
+    words >> text;
+    const auto technique = find_technique(text);
+    const std::vector<std::string> defaults = technique ? Settings((*technique)->params).lines() : std::vector<std::string>();
+    while (words >> word)
+        if (std::ranges::count(defaults, word) == 0) text += " " + word;
+    return text;
+}
+
 /// The choice of the last stage that writes the image.
 std::string choice_of(const Run& run, std::string_view image) {
     std::string last;
     for (const StageInfo& stage : stages()) {
         const auto choice = run.choices.find(std::string(stage.name));
         const bool is_its = image.starts_with(std::string(stage.name) + "/") || std::ranges::count(stage.outputs, image) > 0;
-        if (is_its && choice != run.choices.end()) last = choice->second;
+        if (is_its && choice != run.choices.end()) last = without_defaults(choice->second);
     }
     return last;
 }

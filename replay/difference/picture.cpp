@@ -173,6 +173,14 @@ Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) 
 
 namespace {
 
+/// Of a debug view from its lowest value on, of anything else as in a difference.
+Range range_of(const Texels& shown, Format format, const ImageLegend& legend) {
+    if (!legend.colors.empty()) return {0, 1};
+    if (!legend.low) return range_of(shown, format);
+    const double low = std::min(*legend.low, quantile(shown.values, 0)), high = quantile(shown.values, 1);
+    return {low, high > low ? high : low + 1};
+}
+
 /// What the values of an image say of themselves, in a sentence.
 std::string values_note(const Texels& shown, const ImageLegend& legend) {
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
@@ -201,10 +209,7 @@ std::vector<Swatch> seen_in(const Texels& shown, const Range& range, const std::
 
 Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title, const ImageLegend& legend) {
     const Texels shown = texels_of(name, image, 0);
-    Range range = range_of(shown, image.shape.format);
-    if (!legend.colors.empty()) range = {0, 1};
-    else if (legend.low && *legend.low < range.high && range.content == Content::numbers)
-        range.low = std::min(range.low, *legend.low);
+    const Range range = range_of(shown, image.shape.format, legend);
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
     const bool is_averaged = shown.content == Content::radiance || shown.content == Content::display;
     std::string label(name);

@@ -26,7 +26,7 @@ struct Swatch {
 
 /// What stands below an image. A scale ends where the values do.
 struct ImageLegend {
-    std::optional<double> low;  ///< where the scale begins, if no value is below; none: at the least value
+    std::optional<double> low;  ///< of a debug view: where its scale begins, if no value is below
     std::string unit = {};
     std::vector<Swatch> channels = {};  ///< red, green and blue, of an image whose channels show different things
     std::vector<Swatch> colors = {};    ///< of an image that has no scale: those that are seen in it are listed

@@ -1,5 +1,8 @@
 // strata export and import --deep: one file of one kind per call, whole, and the same for equal runs.
+#include <algorithm>
+#include <cstring>
 #include <fstream>
+#include <set>
 
 #include <flatbuffers/idl.h>
 #include <gmock/gmock.h>
@@ -9,6 +12,8 @@
 #include "capture_format/codec/decode_frame.h"
 #include "capture_format/codec/frame_json.h"
 #include "capture_format/container/container.h"
+#include "passes/registry.h"
+#include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/deep_exr.h"
@@ -88,6 +93,46 @@ TEST(Export, WritesImagesAndViewsByTheirNames) {
     EXPECT_EQ(strata("export panes.strata --image color,display -o both.png").code, 2);
     EXPECT_EQ(strata("export panes.strata --image color -o color.jpg").code, 2);
     EXPECT_THAT(strata("export panes.strata --image colour -o color.exr").err, HasSubstr("did you mean color"));
+}
+
+/// Reads its own picture back: the swatches and the bar are where the legend says.
+TEST(OutputPictures, ListTheColorsThatAreSeenAndScaleToTheValues) {
+    HostImage image{{.extent = {8, 8, 1}, .format = Format::rgba32f}, std::vector<std::byte>(8 * 8 * sizeof(glm::vec4))};
+    const auto set = [&](std::size_t texel, const glm::vec4& value) {
+        std::memcpy(image.texels.data() + texel * sizeof value, &value, sizeof value);
+    };
+    for (std::size_t i = 0; i < 64; ++i) set(i, i < 32 ? glm::vec4(.25f, 1, .25f, 1) : glm::vec4(0, 0, 0, 1));
+    const ImageLegend modes{.low = 0, .colors = {{{64, 255, 64}, "mode 1"}, {{255, 64, 64}, "mode 2"}, {{0, 0, 0}, "nothing"}}};
+    const ImageLegend two{.low = 0, .colors = {{{64, 255, 64}, "mode 1"}, {{0, 0, 0}, "nothing"}}};
+    EXPECT_EQ(image_picture("a:b", image, "title", modes).pixels(), image_picture("a:b", image, "title", two).pixels());
+    for (std::size_t i = 0; i < 64; ++i) set(i, glm::vec4(i == 63 ? 200.f : 100.f));
+    const Canvas layers = image_picture("a:b", image, "title", {.low = 0, .unit = "fragments"});
+    const auto at = [&](int x, int y) { return layers.pixels()[static_cast<std::size_t>(y * layers.width() + x)]; };
+    EXPECT_EQ(at(20, 100), Rgb(128, 128, 128)) << "half of the largest value, linear";
+    const auto lines_of = [](const std::string& title) { return wrapped(title, 200).size(); };
+    EXPECT_EQ(lines_of("short"), 1u);
+    EXPECT_GT(lines_of("several words that do not fit into two hundred pixels"), 1u);
+    EXPECT_GT(lines_of(std::string(60, 'x')), 1u);
+    EXPECT_THAT(shortened(std::string(60, 'x'), 200), testing::EndsWith("x..."));
+    EXPECT_LE(text_width(shortened(std::string(60, 'x'), 200)), 200);
+}
+
+/// One formula gives the colors to the shader and to the legend.
+TEST(OutputPictures, NameEveryModeThatTilesAreShadedBy) {
+    ASSERT_EQ(strata("record agents_hq --size 96x54 -o hq.strata").code, 0);
+    ASSERT_EQ(strata("export hq.strata --use tiled --image 'lighting/tiled:tile modes' -o modes.exr").code, 0);
+    const auto views = must(find_technique("lighting/tiled"))->views;
+    const auto view = std::ranges::find(views, "tile modes", &DebugView::name);
+    ASSERT_NE(view, views.end());
+    const ReferenceImage modes = in_double(must(read_exr(folder() / "modes.exr")).begin()->second);
+    std::set<std::string> seen;
+    for (const glm::dvec4& texel : modes.texels) {
+        const auto is_it = [&](const ViewColor& c) { return glm::distance(glm::dvec3(c.color), glm::dvec3(texel)) < 1e-3; };
+        const auto color = std::ranges::find_if(view->colors, is_it);
+        ASSERT_NE(color, view->colors.end()) << texel.x << " " << texel.y << " " << texel.z;
+        seen.insert(color->meaning);
+    }
+    EXPECT_GE(seen.size(), 3u);
 }
 
 TEST(Export, WritesTheFrameAsJsonThatTheSchemaReadsBackBitForBit) {
