@@ -24,7 +24,7 @@ std::string marks(bool fast, bool small, bool tied = false) {
     return fmt::format("{}{}", fast ? '*' : tied ? '=' : ' ', small ? '+' : ' ');
 }
 
-std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time in {}", below_stage(unit)); }
+std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time, x {}", below_stage(unit)); }
 
 std::vector<Figure> shown_errors(const Measurement& row) {
     std::vector<Figure> errors = errors_of(row);

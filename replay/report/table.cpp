@@ -40,11 +40,20 @@ struct Layout {
             cells += 1 + widths.back();
         }
         for (const Table::Row& row : table.rows) label = std::max(label, row.label.size());
+        if (marks_width + label + cells + widths.size() <= columns) {  // heads of several words then do not run together
+            gap = 2;
+            cells += widths.size();
+        }
         label = std::clamp<std::size_t>(label, 1, columns - std::min(columns - 1, marks_width + cells));
     }
     std::vector<std::vector<std::string>> heads;
     std::vector<std::size_t> widths;
-    std::size_t height = 0, label = 0;
+    std::size_t height = 0, label = 0, gap = 1;
+
+    /// A cell with the gap before it.
+    std::string cell(std::size_t column, std::string_view text) const {
+        return fmt::format("{:>{}}", text, gap + widths[column]);
+    }
 };
 
 std::string without_spaces_at_the_end(std::string line) {
@@ -62,7 +71,7 @@ std::string as_text(const Table& table) {
         for (std::size_t i = 0; i < layout.heads.size(); ++i) {
             const std::vector<std::string>& lines = layout.heads[i];
             const std::size_t above = layout.height - lines.size();  // heads stand on the last line
-            heads += fmt::format(" {:>{}}", line < above ? "" : lines[line - above], layout.widths[i]);
+            heads += layout.cell(i, line < above ? "" : lines[line - above]);
         }
         text += without_spaces_at_the_end(heads);
     }
@@ -73,8 +82,7 @@ std::string as_text(const Table& table) {
             line = std::string(marks_width + layout.label, ' ');
         }
         for (std::size_t i = 0; i < row.cells.size(); ++i)
-            line += row.cells.size() == layout.widths.size() ? fmt::format(" {:>{}}", row.cells[i], layout.widths[i])
-                                                             : " " + row.cells[i];
+            line += row.cells.size() == layout.widths.size() ? layout.cell(i, row.cells[i]) : " " + row.cells[i];
         if (line.size() > columns) line.replace(columns - 3, std::string::npos, "...");
         text += without_spaces_at_the_end(line);
     }

@@ -55,10 +55,15 @@ std::string prediction_text(const SpectraReport& report) {
     std::string text = fmt::format("Predicted ({}{}):\n", report.costs.unit,
                                    report.wish.aim == lighting::Aim::worst ? ", of the worst frame" : "");
     text += line("one full mode", report.full) + line("the modes it was replayed with", report.as_replayed);
-    text += line(fmt::format("{}{}", plural(report.found.modes.size(), "mode"),
-                             report.found.proven ? ", proven the best" : ", the best found"),
+    // A mode that only saves arithmetic, beside a larger one with room for as many waves, is not looked for.
+    const std::string_view best = report.costs.waves ? "the best for waves" : "the best";
+    text += line(fmt::format("{}, {}", plural(report.found.modes.size(), "mode"),
+                             report.found.proven ? fmt::format("proven {}", best) : fmt::format("{} found", best)),
                  report.by_modes);
-    return text + line("a mode for every spectrum", report.ideal);
+    text += line("a mode for every spectrum", report.ideal);
+    if (report.costs.waves && report.as_replayed < report.by_modes)
+        text += "    the modes it was replayed with also save arithmetic where waves stay the same: not looked for here\n";
+    return text;
 }
 
 /// Waves per SIMD of the full mode and, weighted by tiles, of the modes that were found.
