@@ -54,7 +54,7 @@ struct StageInfo {
     std::vector<std::string_view> outputs;
     Truth truth = nullptr;  ///< null: the stage has no technique yet
     Judge judge = nullptr;
-    /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong.
+    /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;
 };
 

@@ -44,13 +44,11 @@ StageInfo stage() {
             .outputs = {"color"},
             .truth = transparency_truth,
             .judge = transparency_judge,
-            .scenarios = {"smoke_grenade",      "explosion",        "interpenetrating_panes",
-                          "facade_at_150m",     "tail_light",       "three_cards",
-                          "one_pane",           "three_panes",      "sixty_layers",
-                          "two_hundred_layers", "pane_at_the_lens", "red_and_green_glass",
-                          "additive_sparks",    "coincident_panes", "nan_particles",
-                          "foggy_panes",        "thin_layers",      "particle_storm",
-                          "interface_layers",   "glass_and_smoke"}};
+            .scenarios = {
+                "one_pane",         "three_panes",         "interpenetrating_panes", "sixty_layers",     "two_hundred_layers",
+                "pane_at_the_lens", "red_and_green_glass", "additive_sparks",        "coincident_panes", "nan_particles",
+                "foggy_panes",      "three_cards",         "facade_at_150m",         "tail_light",       "explosion",
+                "thin_layers",      "particle_storm",      "interface_layers",       "smoke_grenade",    "glass_and_smoke"}};
 }
 
 }  // namespace strata::transparency
