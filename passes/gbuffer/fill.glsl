@@ -22,7 +22,7 @@ const float largest_half = 65504.0;
 // whole quad.
 MaterialPoint visible_point() {
     const MaterialRecord material = materials[draws[in_draw].material];
-    const MaterialPoint m = material_point(in_draw, in_position, in_normal, in_tangent, in_uv, in_color, gl_FrontFacing);
+    const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
     if (!gl_FrontFacing && material.double_sided == 0u) discard;
     if (m.alpha_mode == alpha_mask && m.alpha < material.mask_cutoff) discard;
     return m;

@@ -277,6 +277,21 @@ Result<void> check_layers(const Graph& graph, PlannedStep& planned) {
     return {};
 }
 
+Extent drawn_extent(const Graph& graph, const Step& step, const DrawWork& draw) {
+    if (draw.viewport) return *draw.viewport;
+    const Attachment& first = step.attachments.front();
+    return extent_of(graph.shape(first.image), first.part);
+}
+
+/// A device would refuse rows outside, and none at all are a mistake.
+Result<void> check_rows(const Graph& graph, const Step& step, const DrawWork& draw) {
+    if (!draw.rows) return {};
+    const std::uint32_t height = drawn_extent(graph, step, draw).height;
+    const Rows rows = *draw.rows;
+    if (rows.count > 0 && rows.first < height && rows.count <= height - rows.first) return {};
+    return fail(Fault::usage, "{} draws {} rows from row {}, but there are {}", step.name, rows.count, rows.first, height);
+}
+
 Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
     const Step& step = planned.step;
     const auto* draw = std::get_if<DrawWork>(&step.work);
@@ -296,7 +311,7 @@ Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
         return fail(Fault::usage, "{} has no attachments and does not say which pixels it draws: add .within(extent)", step.name);
     if (draw && draw->list.count > 0 && (!draw->list.commands || (draw->count && !draw->list.indices)))
         return fail(Fault::usage, "{} draws {} commands from no buffer", step.name, draw->list.count);
-    return {};
+    return draw ? check_rows(graph, step, *draw) : Result<void>{};
 }
 
 bool overlap(std::optional<std::uint32_t> a, std::optional<std::uint32_t> b) { return !a || !b || *a == *b; }

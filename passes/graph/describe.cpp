@@ -40,6 +40,8 @@ std::string raster_text(const PlannedStep& planned) {
     for (const std::string& shader : planned.step.shaders)
         if (shader.ends_with(".geom")) text += ", through " + shader;
     if (planned.layers > 1) text += fmt::format(", {} layers at once", planned.layers);
+    const auto* draw = std::get_if<DrawWork>(&planned.step.work);
+    if (draw && draw->rows) text += fmt::format(", rows {} to {}", draw->rows->first, draw->rows->first + draw->rows->count - 1);
     return text;
 }
 

@@ -194,6 +194,11 @@ DrawPass& DrawPass::culls(Cull side) {
     return *this;
 }
 
+DrawPass& DrawPass::in_rows(Rows rows) {
+    std::get<DrawWork>(step().work).rows = rows;
+    return *this;
+}
+
 DrawPass& DrawPass::geometry(std::string shader) {
     std::vector<std::string>& shaders = step().shaders;
     shaders.front() = shader + ".vert";

@@ -89,6 +89,9 @@ class DrawPass : public RasterBuilder<DrawPass> {
 public:
     using RasterBuilder::RasterBuilder;
     DrawPass& culls(Cull);
+    /// Draws these rows of the attachments alone: a scissor, which spares all fragments of others. lavapipe 22.3 lets the lower
+    /// samples of the row above through where pixels have several, so the shader must leave out rows above the first.
+    DrawPass& in_rows(Rows);
     /// A geometry shader by its path without ".geom", between the fragment shader and the vertex shader beside itself.
     DrawPass& geometry(std::string shader);
     /// Only the first *count of the list's commands.

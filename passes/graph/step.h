@@ -46,6 +46,12 @@ struct Buffer {
     friend bool operator==(const Buffer&, const Buffer&) = default;
 };
 
+/// Rows of pixels that lie together.
+struct Rows {
+    std::uint32_t first = 0, count = 0;
+    friend bool operator==(const Rows&, const Rows&) = default;
+};
+
 /// Which mip and layer of an image a binding means; all of them where nothing is said.
 struct Part {
     std::optional<std::uint32_t> mip = {}, layer = {};
@@ -127,6 +133,7 @@ struct DrawWork {
     std::uint64_t count_offset = 0;
     Cull cull = Cull::none;
     std::optional<Extent> viewport = {};  ///< without attachments, or smaller than them
+    std::optional<Rows> rows = {};        ///< the scissor
 };
 struct FullscreenWork {
     std::optional<Extent> viewport = {};

@@ -6,10 +6,20 @@
 namespace strata {
 namespace {
 
+std::uint32_t bit(auto value) { return 1u << static_cast<std::uint32_t>(value); }
+
 void add(const Frame& frame, std::uint32_t texture, std::uint32_t kind, TextureUses& uses) {
     if (texture == no_index) return;
     uses.kinds |= 1u << kind;
-    uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[texture].format);
+    uses.formats |= bit(frame.textures[texture].format);
+    uses.addresses |= bit(address_u(frame.textures[texture].address)) | bit(address_v(frame.textures[texture].address));
+}
+
+/// A picture is clamped, whatever its texture says (passes/shaders/projected_texture.glsl).
+void add_picture(const Frame& frame, const Light& light, TextureUses& uses) {
+    if (light.texture == no_index) return;
+    uses.formats |= bit(frame.textures[light.texture].format);
+    uses.addresses |= bit(AddressMode::clamp);
 }
 
 }  // namespace
@@ -29,15 +39,14 @@ TextureUses texture_uses(const Frame& frame, const DrawLists& lists, Surfaces su
         add(frame, material.occlusion_texture.texture, occlusion_texture, uses);
     }
     // What is transparent is lit where it is drawn, by lights that may have pictures.
-    for (const Light& light : frame.lights)
-        if (surfaces == Surfaces::transparent && light.texture != no_index)
-            uses.formats |= 1u << static_cast<std::uint32_t>(frame.textures[light.texture].format);
+    if (surfaces == Surfaces::transparent)
+        for (const Light& light : frame.lights) add_picture(frame, light, uses);
     return uses;
 }
 
 DrawPass& fix_textures(DrawPass& pass, const FrameImages& images, Surfaces surfaces) {
     const TextureUses uses = images.facts->texture_uses(surfaces);
-    return pass.fixes("used_textures", uses.kinds).fixes("used_formats", uses.formats);
+    return pass.fixes("used_textures", uses.kinds).fixes("used_formats", uses.formats).fixes("used_addresses", uses.addresses);
 }
 
 }  // namespace strata

@@ -10,9 +10,9 @@ namespace strata {
 
 enum class Surfaces { opaque, transparent };
 
-/// Bits: kinds 1 << a kind of scene.shared.h, formats 1 << TextureFormat.
+/// Bits: kinds 1 << a kind of scene.shared.h, formats 1 << TextureFormat, addresses 1 << AddressMode of one direction.
 struct TextureUses {
-    std::uint32_t kinds = 0, formats = 0;
+    std::uint32_t kinds = 0, formats = 0, addresses = 0;
 };
 
 TextureUses texture_uses(const Frame&, const DrawLists&, Surfaces);

@@ -5,8 +5,9 @@
 #include "passes/shaders/material_point.glsl"
 #include "passes/shaders/texture.glsl"
 
+const uint every_texture = (1u << texture_kinds) - 1u;
 // What the frame's materials use (passes/scene/texture_uses.h); the rest is compiled away.
-layout(constant_id = 20) const uint used_textures = 0xffffffffu;
+layout(constant_id = 20) const uint used_textures = every_texture;
 
 bool is_used(uint kind) { return (used_textures & (1u << kind)) != 0u; }
 
@@ -25,26 +26,29 @@ float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
     return clamp(log2(max(side, 1.0)), 0.0, float(t.mips - 1u));
 }
 
-// The texture of a use at (uv0, uv1), its transform applied; white where there is none.
-vec4 texture_at(TextureUseRecord use, Footprint f) {
-    if (use.texture == no_index) return vec4(1.0);
+// A texture at (uv0, uv1), the transform of its use applied.
+vec4 texture_at(TextureRecord t, TextureUseRecord use, Footprint f) {
     const bool first = use.uv_set == 0u;
     const vec3 uv = vec3(first ? f.uv.xy : f.uv.zw, 1.0);
     const vec2 dx = first ? f.dx.xy : f.dx.zw, dy = first ? f.dy.xy : f.dy.zw;
     const mat2 turn = mat2(use.row0.x, use.row1.x, use.row0.y, use.row1.y);
-    const TextureRecord t = textures[use.texture];
     return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, turn * dx, turn * dy));
 }
 
-// A material's textures by kind. One loop, because drivers inline: five calls took lavapipe twice as long to translate.
+// White where there is none.
+vec4 texture_at(TextureUseRecord use, Footprint f) {
+    return use.texture == no_index ? vec4(1.0) : texture_at(textures[use.texture], use, f);
+}
+
+// A material's textures by kind, white but for `kinds` (bits). One loop, because drivers inline: five calls took lavapipe twice as long to translate.
 struct MaterialTexels {
     vec4 of[texture_kinds];
 };
 
-MaterialTexels material_texels(uint material, Footprint f) {
+MaterialTexels material_texels(uint material, uint kinds, Footprint f) {
     MaterialTexels texels;
     for (uint kind = 0u; kind < texture_kinds; ++kind) texels.of[kind] = vec4(1.0);
-    for (uint left = used_textures & ((1u << texture_kinds) - 1u); left != 0u; left &= left - 1u) {
+    for (uint left = used_textures & kinds; left != 0u; left &= left - 1u) {
         const uint kind = uint(findLSB(left));
         texels.of[kind] = texture_at(materials[material].textures[kind], f);
     }
@@ -73,18 +77,23 @@ vec3 mapped_normal(uint draw, MaterialRecord material, vec3 n, vec4 tangent, vec
 // Hair's tangent runs along its fibres; fibres without one stick out.
 vec3 fibre(vec3 normal, vec4 tangent) { return dot(tangent.xyz, tangent.xyz) < 1e-20 ? normal : normalize(tangent.xyz); }
 
-// The varyings of draw.vert, as they are. A normal of a back face is turned around.
-MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent, vec4 varying_uv, vec4 color, bool front_facing) {
-    const MaterialRecord material = materials[draws[draw].material];
-    const MaterialTexels texels = material_texels(draws[draw].material, footprint(varying_uv));
-    const vec4 base = material.base_color * color * texels.of[base_color_texture];
+// The varyings of draw.vert, as they are, but for uv.
+struct Varyings {
+    vec3 position, normal;
+    vec4 tangent, color;
+    bool front_facing;
+};
+
+// A normal of a back face is turned around.
+MaterialPoint material_point(uint draw, MaterialRecord material, MaterialTexels texels, Varyings v) {
+    const vec4 base = material.base_color * v.color * texels.of[base_color_texture];
     const vec4 surface = texels.of[metallic_roughness_texture];
-    const vec3 outward = dot(normal, normal) > 0.0 ? normalize(normal) : face_normal(position, front_facing);
-    const vec3 facing = mapped_normal(draw, material, outward, tangent, texels.of[normal_texture].xyz);
+    const vec3 outward = dot(v.normal, v.normal) > 0.0 ? normalize(v.normal) : face_normal(v.position, v.front_facing);
+    const vec3 facing = mapped_normal(draw, material, outward, v.tangent, texels.of[normal_texture].xyz);
     MaterialPoint m;
-    m.position = position;
-    m.normal = front_facing ? facing : -facing;
-    if (material.lighting_model == model_hair) m.normal = fibre(m.normal, tangent);
+    m.position = v.position;
+    m.normal = v.front_facing ? facing : -facing;
+    if (material.lighting_model == model_hair) m.normal = fibre(m.normal, v.tangent);
     m.base_color = base.rgb;
     m.alpha = base.a;
     m.metallic = has_metals(material.lighting_model) ? material.metallic * surface.b : 0.0;
@@ -95,6 +104,12 @@ MaterialPoint material_point(uint draw, vec3 position, vec3 normal, vec4 tangent
     m.lighting_model = material.lighting_model;
     m.alpha_mode = material.alpha_mode;
     return m;
+}
+
+// With everything read from the material of the draw.
+MaterialPoint material_point(uint draw, vec4 uv, Varyings v) {
+    const uint material = draws[draw].material;
+    return material_point(draw, materials[material], material_texels(material, every_texture, footprint(uv)), v);
 }
 
 #endif

@@ -21,7 +21,7 @@ vec3 bordered(TextureRecord t, uint mip, vec2 uv) {
     const vec2 size = vec2(max(1u, t.width >> mip), max(1u, t.height >> mip));
     const vec2 at = uv * size - 0.5;
     const vec2 inside = clamp(min(at + 1.0, size - at), 0.0, 1.0);
-    return bilinear(t, mip, uv).rgb * (inside.x * inside.y);
+    return bilinear(t, mip_of(t, mip), uv).rgb * (inside.x * inside.y);
 }
 
 vec3 bordered_trilinear(TextureRecord t, vec2 uv, float lod) {

@@ -6,7 +6,8 @@
 #include "passes/shaders/ltc.shared.h"
 #include "passes/shaders/scene.shared.h"
 
-layout(set = 1, binding = 0, scalar) readonly buffer View { ViewRecord view; };
+// A uniform block: llvmpipe reads it once for all lanes of a vector, and a storage buffer lane by lane.
+layout(set = 1, binding = 0, scalar) uniform View { ViewRecord view; };
 layout(set = 1, binding = 1, scalar) readonly buffer Vertices { Vertex vertices[]; };
 layout(set = 1, binding = 2, scalar) readonly buffer Draws { DrawRecord draws[]; };
 layout(set = 1, binding = 3, scalar) readonly buffer Materials { MaterialRecord materials[]; };

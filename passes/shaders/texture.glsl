@@ -6,6 +6,8 @@
 
 // The formats of the textures that are read (passes/scene/texture_uses.h); the rest is compiled away.
 layout(constant_id = 21) const uint used_formats = 0xffffffffu;
+// Their address modes, as bits 1 << mode of one direction.
+layout(constant_id = 23) const uint used_addresses = 0xffffffffu;
 
 // TextureFormat and AddressMode of capture_format/frame.h.
 const uint texture_rgba8_unorm = 0u;
@@ -19,17 +21,20 @@ const uint address_clamp_both = 5u;
 
 bool has_format(uint format) { return (used_formats & (1u << format)) != 0u; }
 
+// A constant where all textures have one format.
+uint format_of(TextureRecord t) { return bitCount(used_formats) == 1 ? uint(findLSB(used_formats)) : t.format; }
+
 uint words_per_texel(uint format) { return format <= texture_rgba8_srgb ? 1u : format == texture_rgba16f ? 2u : 4u; }
 
 vec4 texel(TextureRecord t, uint index) {
-    const uint at = t.first + index * words_per_texel(t.format);
+    const uint format = format_of(t), at = t.first + index * words_per_texel(format);
     vec4 value = vec4(0.0);
-    if (t.format <= texture_rgba8_srgb && (has_format(texture_rgba8_unorm) || has_format(texture_rgba8_srgb))) {
+    if (format <= texture_rgba8_srgb && (has_format(texture_rgba8_unorm) || has_format(texture_rgba8_srgb))) {
         value = unpackUnorm4x8(texels[at]);
-        if (has_format(texture_rgba8_srgb) && t.format == texture_rgba8_srgb) value.rgb = srgb_to_linear(value.rgb);
-    } else if (has_format(texture_rgba16f) && t.format == texture_rgba16f) {
+        if (has_format(texture_rgba8_srgb) && format == texture_rgba8_srgb) value.rgb = srgb_to_linear(value.rgb);
+    } else if (has_format(texture_rgba16f) && format == texture_rgba16f) {
         value = vec4(unpackHalf2x16(texels[at]), unpackHalf2x16(texels[at + 1u]));
-    } else if (has_format(texture_rgba32f) && t.format == texture_rgba32f) {
+    } else if (has_format(texture_rgba32f) && format == texture_rgba32f) {
         value = uintBitsToFloat(uvec4(texels[at], texels[at + 1u], texels[at + 2u], texels[at + 3u]));
     }
     return value;
@@ -45,15 +50,24 @@ ivec4 modulo(ivec4 i, ivec4 n) {
 
 // Texels i of n, inside, each by its own mode. Every second turn of a mirrored texture runs backwards.
 ivec4 wrapped(ivec4 i, ivec4 n, uvec4 address) {
+    const ivec4 clamped = clamp(i, ivec4(0), n - 1);
+    if (used_addresses == 1u << address_clamp) return clamped;
+    if (used_addresses == 1u << address_repeat) return modulo(i, n);
     const ivec4 turn = modulo(i, mix(2 * n, n, equal(address, uvec4(address_repeat))));
-    return mix(min(turn, 2 * n - 1 - turn), clamp(i, ivec4(0), n - 1), equal(address, uvec4(address_clamp)));
+    return mix(min(turn, 2 * n - 1 - turn), clamped, equal(address, uvec4(address_clamp)));
 }
 
+// A mip: the texels before its own, and its size.
+struct Mip {
+    uint base;
+    uvec2 size;
+};
+
+Mip coarser(Mip mip) { return Mip(mip.base + mip.size.x * mip.size.y, max(uvec2(1u), mip.size >> 1u)); }
+
 // One mip, bilinear: texel centers at +.5. sRGB decodes before filtering.
-vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
-    uint base = 0u;
-    for (uint m = 0u; m < mip; ++m) base += max(1u, t.width >> m) * max(1u, t.height >> m);
-    const ivec2 size = max(ivec2(1), ivec2(t.width >> mip, t.height >> mip));
+vec4 bilinear(TextureRecord t, Mip mip, vec2 uv) {
+    const ivec2 size = ivec2(mip.size);
     const vec2 at = uv * vec2(size) - 0.5;
     const vec2 corner = floor(at);
     const vec2 f = at - corner;
@@ -62,20 +76,28 @@ vec4 bilinear(TextureRecord t, uint mip, vec2 uv) {
     const uvec4 corners = uvec4(wrapped(ivec4(low, low + 1), size.xyxy, modes.xyxy));  // x, y low, x, y high
     vec4 upper = vec4(0.0), lower = vec4(0.0);
     for (uint row = 0u; row < 2u; ++row) {
-        const uint first = base + (row == 0u ? corners.y : corners.w) * uint(size.x);
+        const uint first = mip.base + (row == 0u ? corners.y : corners.w) * uint(size.x);
         upper = lower;
         lower = mix(texel(t, first + corners.x), texel(t, first + corners.z), f.x);
     }
     return mix(upper, lower, f.y);
 }
 
+Mip mip_of(TextureRecord t, uint number) {
+    Mip mip = Mip(0u, uvec2(t.width, t.height));
+    for (uint m = 0u; m < number; ++m) mip = coarser(mip);
+    return mip;
+}
+
 vec4 trilinear(TextureRecord t, vec2 uv, float lod) {
     const float finer = floor(lod);
+    Mip mip = mip_of(t, uint(finer));
     vec4 fine = vec4(0.0), coarse = vec4(0.0);
     const uint mips = lod == finer ? 1u : 2u;
     for (uint i = 0u; i < mips; ++i) {
         fine = coarse;
-        coarse = bilinear(t, uint(finer) + i, uv);
+        coarse = bilinear(t, mip, uv);
+        mip = coarser(mip);
     }
     return mips == 1u ? coarse : mix(fine, coarse, lod - finer);
 }

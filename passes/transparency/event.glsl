@@ -7,8 +7,8 @@
 #include "passes/shaders/blockers.glsl"
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
-#include "passes/shaders/material.glsl"
 #include "passes/shaders/ordering.shared.h"
+#include "passes/transparency/event_material.glsl"
 #include "passes/transparency/sanitize.glsl"
 
 layout(location = 0) sample in vec3 in_position;
@@ -24,8 +24,13 @@ layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
+layout(constant_id = 9) const uint drawn = 3u;           // bits: what the frame has of meshes_drawn and particles_drawn
+layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has none
 layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
+
+const uint meshes_drawn = 1u;
+const uint particles_drawn = 2u;
 
 struct Event {
     float z;       // view depth, depth offset applied, or an interface layer's: what ordering uses
@@ -44,7 +49,7 @@ vec3 position_here() { return in_position * to_sample(); }
 
 // How much of a soft particle is left this far in front of the opaque surface behind it.
 float faded() {
-    const float metres = draws[in_draw].soft_fade;
+    const float metres = soft_fade_metres();
     if (soft_fade == 0u || metres <= 0.0) return 1.0;
     const float opaque = texelFetch(depth_layers, ivec3(gl_FragCoord.xy, gl_SampleID), 0).r;
     return opaque > 0.0 ? clamp((view_z(opaque) - position_here().z) / metres, 0.0, 1.0) : 1.0;
@@ -103,7 +108,7 @@ void add_fog(inout Event event) {
 }
 
 // 0: of the world.
-uint interface_layer() { return has_interfaces != 0u ? draws[in_draw].layer : 0u; }
+uint interface_layer() { return has_interfaces != 0u ? layer_here() : 0u; }
 
 // passes/reference/ordering.h has the same in double.
 float ordering_depth(float z) {
@@ -113,24 +118,27 @@ float ordering_depth(float z) {
 }
 
 // glTF culls back faces in every alpha mode. A particle has none.
-bool is_culled() { return !gl_FrontFacing && materials[draws[in_draw].material].double_sided == 0u; }
+bool is_culled() { return !gl_FrontFacing && !is_double_sided(); }
 
 // Adds nothing, hides nothing and bends nothing, also where a technique does not ask whether it is visible.
 Event no_event() { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), vec3(0.0), vec2(0.0), false); }
 
+bool is_particle() { return drawn == particles_drawn || drawn != meshes_drawn && in_draw >= view.first_emitter; }
+
 Event transparent_event() {
-    const bool particle = in_draw >= view.first_emitter;
+    const bool particle = is_particle();
     const float scale = to_sample();
     const vec4 color = particle ? vec4(1.0) : in_color * scale;
     const vec4 tangent = vec4(in_tangent.xyz, sign(in_tangent.w));
-    const MaterialPoint m = material_point(in_draw, position_here(), in_normal, tangent, in_uv * scale, color, gl_FrontFacing);
+    const Varyings here = Varyings(position_here(), in_normal, tangent, color, gl_FrontFacing);
+    const MaterialPoint m = material_point_here(in_draw, in_uv * scale, here);
     Event event = particle ? particle_event(m) : mesh_event(m);
-    if (view.fog_density > 0.0) add_fog(event);
+    if (has_fog != 0u && view.fog_density > 0.0) add_fog(event);
     event.p = finite_or_zero(event.p);
     event.e = finite_or_zero(event.e);
     event.visible = is_finite(event.z) && !invisible(event.alpha, event.p, event.e);
     if (distorts != 0u && !particle) {
-        event.d = materials[draws[in_draw].material].distortion * vec2(m.normal.x, -m.normal.y);
+        event.d = distortion_here() * vec2(m.normal.x, -m.normal.y);
         event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
     }
     if (!particle && is_culled()) event = no_event();

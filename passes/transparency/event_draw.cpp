@@ -9,12 +9,24 @@
 namespace strata {
 namespace {
 
+/// The constant `drawn` of event.glsl.
+std::uint32_t drawn(const FrameImages& images) {
+    constexpr std::uint32_t meshes = 1, particles = 2;
+    std::uint32_t bits = 0;
+    for (const std::uint32_t index : images.facts->lists().transparent)
+        bits |= index < images.recorded->draws.size() ? meshes : particles;
+    return bits;
+}
+
 DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
+        .fixes("drawn", drawn(images))
+        .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
+        .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features());
     return fix_textures(pass, images, Surfaces::transparent);
 }

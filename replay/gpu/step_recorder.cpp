@@ -88,7 +88,7 @@ void StepRecorder::record(const PlannedStep& planned, const ComputeWork& work) {
 }
 
 void StepRecorder::record(const PlannedStep& planned, const DrawWork& work) {
-    begin_rendering(planned, work.viewport);
+    begin_rendering(planned, {work.viewport, work.rows});
     bind(planned);
     const DrawList& list = work.list;
     constexpr std::uint32_t stride = sizeof(vk::DrawIndexedIndirectCommand);
@@ -107,7 +107,7 @@ void StepRecorder::record(const PlannedStep& planned, const DrawWork& work) {
 }
 
 void StepRecorder::record(const PlannedStep& planned, const FullscreenWork& work) {
-    begin_rendering(planned, work.viewport);
+    begin_rendering(planned, {work.viewport, {}});
     bind(planned);
     commands_->draw(3, 1, 0, 0);
     commands_->endRendering();
@@ -154,21 +154,22 @@ vk::RenderingAttachmentInfo StepRecorder::attach(const PlannedStep& planned, con
         .setStoreOp(is_read_only ? vk::AttachmentStoreOp::eNone : vk::AttachmentStoreOp::eStore);
 }
 
-void StepRecorder::begin_rendering(const PlannedStep& planned, std::optional<Extent> viewport) {
+void StepRecorder::begin_rendering(const PlannedStep& planned, const Pixels& pixels) {
     std::vector<vk::RenderingAttachmentInfo> colors;
     vk::RenderingAttachmentInfo depth;
-    Extent extent = viewport.value_or(Extent{});
+    Extent extent = pixels.viewport.value_or(Extent{});
     for (const Attachment& attachment : planned.step.attachments) {
         const Shape& shape = plan_->images[attachment.image.id].shape;
         const std::uint32_t mip = attachment.part.mip.value_or(0);
-        if (!viewport) extent = {at_mip(shape.extent.width, mip), at_mip(shape.extent.height, mip), 1};
+        if (!pixels.viewport) extent = {at_mip(shape.extent.width, mip), at_mip(shape.extent.height, mip), 1};
         if (is_depth(attachment)) {
             depth = attach(planned, attachment);
         } else {
             colors.push_back(attach(planned, attachment));
         }
     }
-    const vk::Rect2D area({0, 0}, {extent.width, extent.height});
+    const Rows rows = pixels.rows.value_or(Rows{0, extent.height});
+    const vk::Rect2D area({0, static_cast<std::int32_t>(rows.first)}, {extent.width, rows.count});
     commands_->beginRendering(vk::RenderingInfo({}, area, planned.layers, 0, colors, depth.imageView ? &depth : nullptr));
     const vk::Viewport whole(0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1);
     commands_->setViewport(0, whole);

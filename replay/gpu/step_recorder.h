@@ -29,8 +29,14 @@ private:
 
     /// Pipeline, descriptor sets and push constants.
     void bind(const PlannedStep&);
-    /// Begins a rendering scope over the step's attachments, or over the extent where it has none.
-    void begin_rendering(const PlannedStep&, std::optional<Extent> viewport);
+    /// What a step draws of its attachments: all of them where it says nothing.
+    struct Pixels {
+        std::optional<Extent> viewport;
+        std::optional<Rows> rows;
+    };
+    /// Begins a rendering scope over the step's attachments, or over the viewport where it has none. Rows are its scissor and its
+    /// render area: the viewport, and with it every coverage and depth, is the same with and without them.
+    void begin_rendering(const PlannedStep&, const Pixels&);
     vk::RenderingAttachmentInfo attach(const PlannedStep&, const Attachment&);
 
     const vk::raii::CommandBuffer* commands_;

@@ -1,6 +1,8 @@
-// The memory of transparency/sorted_lists: however small the pool, no fragment is dropped and no bit of the image changes.
+// Frames done in bands of rows: however small the memory, no fragment is dropped, no bit of the image changes, and no draw of a
+// band meets a fragment of another.
 #include <algorithm>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passes/reference/fragments.h"
@@ -38,6 +40,91 @@ TEST(SortedListsMemory, HoldsEveryFragmentTheReferenceFinds) {
     // Coverage at the edges and alphas around 1e-5 hang on rounding.
     EXPECT_NEAR(double(counted(run, "fragments")), double(lists.total()), 1e-3 * double(lists.total()));
     EXPECT_NEAR(double(counted(run, "deepest")), double(lists.deepest()), 2);
+}
+
+/// A technique that works in bands, with settings that make one band of the frame and several.
+struct Banded {
+    std::string_view technique, one_band, bands, draw;  ///< draw: a draw of each band
+};
+
+const std::vector<Banded>& banded() {
+    static const std::vector<Banded> techniques = {
+        {"transparency/sorted_lists", "pool=64", "pool=0.01", "transparency/lists/fill"},
+        {"transparency/multi_layer", "pool=64", "pool=0.01", "transparency/lists/fill"},
+        {"transparency/adaptive", "pool=64", "pool=0.01", "transparency/lists/count"},
+        {"transparency/exact_function", "pool=64", "pool=0.01", "transparency/exact_function/accumulate"},
+        {"transparency/stochastic", "memory=256", "memory=0.0625", "transparency/stochastic/shade"},
+    };
+    return techniques;
+}
+
+/// An odd number of rows, so that the last band has one, too.
+Session& odd_rows() {
+    static const auto session = [] {
+        std::vector<Frame> frames = scenario_frames("glass_and_smoke");
+        frames.push_back(scenario_frames("glass_and_smoke", 4).front());
+        for (Frame& frame : frames) frame.view.width = 121, frame.view.height = 69;
+        frames.push_back(frames.back());  // smoke at half resolution among panes at full
+        for (Emitter& emitter : frames.back().emitters) emitter.resolution = Resolution::low;
+        return must(Session::open(std::move(frames), {.validation = true}));
+    }();
+    return *session;
+}
+
+Request banded_request(std::size_t frame, const Banded& method, std::string_view setting) {
+    return {.variant = {.frame = frame}, .choices = chosen({std::string(method.technique)}, {std::string(setting)})};
+}
+
+/// The rows of the draws with this name, of targets that high, in the order of the plan.
+std::vector<Rows> rows_drawn(const Plan& plan, std::string_view name, std::uint32_t height) {
+    std::vector<Rows> rows;
+    for (const PlannedStep& step : plan.steps) {
+        const auto* draw = std::get_if<DrawWork>(&step.step.work);
+        if (!draw || step.step.name != name) continue;
+        if (plan.images[step.step.attachments.front().image.id].shape.extent.height != height) continue;
+        rows.push_back(draw->rows.value_or(Rows{0, height}));
+    }
+    return rows;
+}
+
+TEST(Bands, GiveTheSameBitsAsOneBand) {
+    for (const Banded& method : banded()) {
+        for (std::size_t frame = 0; frame < odd_rows().frame_count(); ++frame) {
+            SCOPED_TRACE(fmt::format("{}, frame {}", method.technique, frame));
+            Request one = banded_request(frame, method, method.one_band), several = banded_request(frame, method, method.bands);
+            one.outputs = several.outputs = {"color"};
+            const auto whole = must(odd_rows().run(one)), parts = must(odd_rows().run(several));
+            EXPECT_EQ(whole.images.at("color").texels, parts.images.at("color").texels);
+            EXPECT_GT(steps_called(parts, method.draw), steps_called(whole, method.draw));
+        }
+    }
+}
+
+TEST(Bands, AreDrawnRowByRowWithoutGapAndWithoutOverlap) {
+    for (const Banded& method : banded()) {
+        SCOPED_TRACE(method.technique);
+        const Plan plan = must(odd_rows().plan(banded_request(1, method, method.bands))).plan;
+        const std::vector<Rows> rows = rows_drawn(plan, method.draw, 69);
+        EXPECT_GT(rows.size(), 2u);
+        std::uint32_t next = 0;
+        for (const Rows& band : rows) {
+            EXPECT_EQ(band.first, next);
+            EXPECT_EQ(band.first % 2, 0u) << "no 2x2 quad straddles two bands";
+            next = band.first + band.count;
+        }
+        EXPECT_EQ(next, 69u);
+    }
+}
+
+TEST(Bands, OfHalfResolutionAreDrawnInHalfTheRows) {
+    const Banded& method = banded()[3];
+    const Plan plan = must(odd_rows().plan(banded_request(2, method, method.bands))).plan;
+    std::uint32_t next = 0;
+    for (const Rows& band : rows_drawn(plan, method.draw, 35)) {
+        EXPECT_EQ(band.first, next);
+        next = band.first + band.count;
+    }
+    EXPECT_EQ(next, 35u);
 }
 
 }  // namespace

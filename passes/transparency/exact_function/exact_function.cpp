@@ -23,8 +23,9 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
             .updates("Events", lists.events)
             .fixes("per_turn", fragments_per_turn(lists))
             .over(over(band));
-        draw_into(graph, "transparency/exact_function/accumulate", images, drawn,
-                  [&](DrawPass& draw, Resolution) { read_lists(draw, lists, band); });
+        draw_into(graph, "transparency/exact_function/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+            read_lists(draw, lists, band).in_rows(rows_of(band, resolution == Resolution::low ? 2 : 1));
+        });
     }
     return drawn;
 }

@@ -15,7 +15,7 @@ layout(location = 0) out vec4 out_motion;
 
 void main() {
     const MaterialRecord material = materials[draws[in_draw].material];
-    const MaterialPoint m = material_point(in_draw, in_position, in_normal, in_tangent, in_uv, in_color, gl_FrontFacing);
+    const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
     if (!gl_FrontFacing && material.double_sided == 0u) discard;
     if (m.alpha_mode == alpha_mask && m.alpha < material.mask_cutoff) discard;
     out_motion = vec4(pixels_moved(in_position, in_draw), 0.0, 0.0);

@@ -34,6 +34,7 @@ void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, 
     graph.clear(lists.counts, 0);
     graph.draw("transparency/lists/count", images.transparent)
         .tests_depth(images.depth)
+        .in_rows(rows_of(band))
         .updates("Counts", lists.counts)
         .push(band);
     graph.compute("transparency/lists/scan_cells.comp")
@@ -48,6 +49,7 @@ void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, 
 void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
     graph.clear(lists.counts, 0);
     draw_events(graph, "transparency/lists/fill", images.numbered, images)
+        .in_rows(rows_of(band))
         .updates("Counts", lists.counts)
         .loads("Starts", lists.starts)
         .loads("GroupStarts", lists.group_starts)

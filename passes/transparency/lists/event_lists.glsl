@@ -6,6 +6,7 @@
 layout(set = 0, binding = 2, scalar) readonly buffer Starts { uint starts[]; };           // within the group of cells
 layout(set = 0, binding = 3, scalar) readonly buffer GroupStarts { uint group_starts[]; };  // of the group's first cell
 
+// To be asked by draws, too, which are restricted to the rows of the band: see DrawPass::in_rows.
 bool in_band(uint row) { return row >= band.first_row && row - band.first_row < band.rows; }
 
 // x, y in the frame.

@@ -45,6 +45,11 @@ Pass& read_lists(Pass&& pass, const EventLists& lists, const Band& band) {
     return read_places(pass, lists, band).loads("Keys", lists.keys).loads("Events", lists.events);
 }
 
+/// The rows a draw is restricted to, so that it meets no fragment of another band; of images at half the extent with `divisor` 2.
+inline Rows rows_of(const Band& band, std::uint32_t divisor = 1) {
+    return {band.first_row / divisor, (band.rows + divisor - 1) / divisor};
+}
+
 /// Threads of a step over a band: one per cell.
 inline Extent over(const Band& band) { return {band.width, band.rows, band.samples}; }
 

@@ -16,10 +16,9 @@ layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; 
 layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
 
 void main() {
-    const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    if (!in_band(pixel.y)) return;  // bands have even rows: whole quads leave
     const Event event = transparent_event();
-    if (!event.visible) return;
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    if (!event.visible || !in_band(pixel.y)) return;
     const uint cell = cell_of(pixel, gl_SampleID);
     const uint node = list_start(cell) + atomicAdd(counts[cell], 1u);
     if (node >= band.pool) {

@@ -58,11 +58,14 @@ Targets create_targets(Graph& graph, const FrameImages& images, const Stochastic
 
 void draw(Graph& graph, const FrameImages& images, Targets& targets, const StochasticBand& band) {
     graph.clear(targets.depths, uncovered_depth);
+    const Rows rows{band.first_row, band.rows};
     draw_events(graph, "transparency/stochastic/cover", images.numbered, images)
+        .in_rows(rows)
         .multiplies(targets.reveal)
         .updates("Depths", targets.depths)
         .push(band);
     draw_events(graph, "transparency/stochastic/shade", images.numbered, images)
+        .in_rows(rows)
         .adds_to(targets.sum)
         .adds_to(targets.emitted)
         .loads("Depths", targets.depths)

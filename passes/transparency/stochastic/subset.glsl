@@ -7,6 +7,7 @@
 
 layout(push_constant, scalar) uniform Push { StochasticBand band; };
 
+// To be asked although draws are restricted to the rows of the band: see DrawPass::in_rows.
 bool in_band(uint row) { return row >= band.first_row && row - band.first_row < band.rows; }
 
 uint first_subsample(uvec2 pixel) {

@@ -18,6 +18,12 @@ layout(location = 4) in vec4 in_color[];
 layout(location = 5) in vec4 in_emissive[];
 layout(location = 6) flat in uint in_draw[];
 layout(location = 7) flat in uint in_triangle[];
+layout(location = 8) flat in vec4 in_base_color[];
+layout(location = 9) flat in uvec4 in_modes[];
+layout(location = 10) flat in uvec4 in_texture[];
+layout(location = 11) flat in uvec4 in_texture_use[];
+layout(location = 12) flat in vec4 in_row0[];
+layout(location = 13) flat in vec4 in_row1[];
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec4 out_tangent;
@@ -26,6 +32,12 @@ layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_emissive;
 layout(location = 6) flat out uint out_draw;
 layout(location = 7) flat out uint out_triangle;
+layout(location = 8) flat out vec4 out_base_color;
+layout(location = 9) flat out uvec4 out_modes;
+layout(location = 10) flat out uvec4 out_texture;
+layout(location = 11) flat out uvec4 out_texture_use;
+layout(location = 12) flat out vec4 out_row0;
+layout(location = 13) flat out vec4 out_row1;
 
 void hand_on(uint corner) {
     out_position = in_position[corner];
@@ -36,6 +48,12 @@ void hand_on(uint corner) {
     out_emissive = in_emissive[corner];
     out_draw = in_draw[corner];
     out_triangle = in_triangle[corner];
+    out_base_color = in_base_color[corner];
+    out_modes = in_modes[corner];
+    out_texture = in_texture[corner];
+    out_texture_use = in_texture_use[corner];
+    out_row0 = in_row0[corner];
+    out_row1 = in_row1[corner];
     gl_Position = gl_in[corner].gl_Position;
 }
 

@@ -1,0 +1,55 @@
+// Draws restricted to rows of their attachments: what the plan says of them and what it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passes/graph/describe.h"
+#include "tests/2_graph/small_graphs.h"
+
+namespace strata {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// 64 x 32 pixels, drawn in parts.
+struct DrawnInRows {
+    DrawnInRows() {
+        graph.clear(color, {});
+        graph.keep(color);
+    }
+    void draw(Rows rows) { graph.draw("paint", list).covers(color).in_rows(rows); }
+
+    Graph graph;
+    Image color = graph.create("color", small_shape());
+    DrawList list{graph.import("commands", 20, ImportId{1}), graph.import("indices", 12, ImportId{2}), 0, 1};
+};
+
+TEST(DrawsInRows, AreSaidToBeSoInThePlansText) {
+    DrawnInRows f;
+    f.draw({6, 12});
+    EXPECT_THAT(describe(compiled(f.graph)), HasSubstr("    paint, rows 6 to 17\n"));
+}
+
+TEST(DrawsInRows, KeepWhatWasDrawnIntoOtherRows) {
+    DrawnInRows f;
+    f.draw({0, 16});
+    f.draw({16, 16});
+    EXPECT_THAT(step_names(compiled(f.graph)), ElementsAre("clear color", "paint", "paint"));
+}
+
+TEST(DrawsInRows, ReachTheLastRowAndNoFurther) {
+    DrawnInRows last, beyond;
+    last.draw({31, 1});
+    EXPECT_EQ(compiled(last.graph).steps.size(), 2u);
+    beyond.draw({31, 2});
+    EXPECT_EQ(refusal(beyond.graph), "paint draws 2 rows from row 31, but there are 32");
+}
+
+TEST(DrawsInRows, HaveAtLeastOneRow) {
+    DrawnInRows f;
+    f.draw({8, 0});
+    EXPECT_EQ(refusal(f.graph), "paint draws 0 rows from row 8, but there are 32");
+}
+
+}  // namespace
+}  // namespace strata
