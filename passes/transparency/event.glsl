@@ -25,6 +25,7 @@ layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with s
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(constant_id = 22) const uint light_features = every_light_feature;
+layout(constant_id = 23) const uint has_lit_surfaces = 1u;  // 0: every transparent draw is unlit, or of particles, which are
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -59,6 +60,7 @@ bool reached(LightRecord light, MaterialPoint m) {
 
 // All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
 vec3 lit(MaterialPoint m) {
+    if (has_lit_surfaces == 0u) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
     for (uint i = 0u; i < view.light_count; ++i)

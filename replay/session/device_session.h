@@ -39,6 +39,7 @@ public:
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
     Result<const FragmentLists*> transparent_fragments(const Request&) override;
+    Result<const FragmentLists*> row_fragments(const Request&, std::uint32_t y) override;
     Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
     Result<ReloadedShaders> reload_shaders(const std::filesystem::path&, std::span<const Request> shown) override;
     void stop_when(std::stop_token stop) override { stop_ = std::move(stop); }
@@ -132,6 +133,7 @@ private:
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
+    std::optional<FragmentLists> row_fragments_;  ///< of the latest row_fragments()
     std::optional<BlendRounding> rounding_;
     std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
     std::stop_token stop_;

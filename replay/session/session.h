@@ -199,6 +199,10 @@ public:
     /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
     /// nothing when the frame and what made its depth are the same as the last time. Valid until the next call.
     virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
+    /// The same of one row of pixels; other rows may be empty. Executes no more than what leaves the opaque depth.
+    virtual Result<const FragmentLists*> row_fragments(const Request& request, std::uint32_t /*y*/) {
+        return transparent_fragments(request);
+    }
     /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
     virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
 
