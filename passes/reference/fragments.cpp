@@ -224,14 +224,15 @@ std::uint32_t FragmentLists::deepest() const {
     return static_cast<std::uint32_t>(most);
 }
 
-FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth) {
+FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows) {
     const View& view = frame.view;
     FragmentLists lists(view.width, view.height, view.samples);
     const std::vector<std::uint32_t> draws = transparent_draws(frame);
     const Raster raster(frame, draws);
     const LitFrame scene(frame);
     const bool has_interfaces = frame_features(frame).has(Feature::interface_layers);
-    oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
+    const std::uint32_t end = std::min(rows.end, view.height);
+    oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {
         FragmentLists::Row& row = lists.rows_[y];
         FoundRow found;
         raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {

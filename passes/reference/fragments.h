@@ -88,6 +88,11 @@ struct VisiblePoints {
 VisiblePoints visible_points(const Frame&, std::span<const std::uint32_t> draws,
                              RasterOptions = {.shade_at = ShadeAt::pixel_center});
 
+/// Rows of pixels from `begin` up to `end`, counted from the top.
+struct PixelRows {
+    std::uint32_t begin = 0, end = ~0u;
+};
+
 /// The transparent fragments of every sample.
 class FragmentLists {
 public:
@@ -102,7 +107,7 @@ public:
     std::uint32_t deepest() const;
 
 private:
-    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&);
+    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows);
     /// One pixel row: the lists of its samples (x * samples + sample) after each other.
     struct Row {
         std::vector<Fragment> fragments;
@@ -116,6 +121,7 @@ private:
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and
 /// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order
 /// of two that do not commute hangs on float rounding.
-FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth);
+/// Lists of other rows than those given stay empty.
+FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {});
 
 }  // namespace strata

@@ -1,6 +1,8 @@
 #include "passes/transparency/event_draw.h"
 
+#include <algorithm>
 #include <cassert>
+#include <span>
 #include <utility>
 
 #include "passes/scene/scene_facts.h"
@@ -18,6 +20,13 @@ std::uint32_t drawn(const FrameImages& images) {
     return bits;
 }
 
+/// Whether lights change how some transparent draw looks: indices past the draws are emitters, whose particles are unlit.
+bool has_lit_surfaces(const Frame& frame, std::span<const std::uint32_t> draws) {
+    return std::ranges::any_of(draws, [&](std::uint32_t draw) {
+        return draw < frame.draws.size() && frame.materials[frame.draws[draw].material].lighting_model != LightingModel::unlit;
+    });
+}
+
 DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
@@ -27,7 +36,8 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("drawn", drawn(images))
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
         .fixes("hands_on_material", 1u)
-        .fixes("light_features", images.facts->light_features());
+        .fixes("light_features", images.facts->light_features())
+        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists().transparent) ? 1u : 0u);
     return fix_textures(pass, images, Surfaces::transparent);
 }
 

@@ -1,7 +1,11 @@
 // strata report: error against time for every technique of a stage.
 #include <charconv>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -26,11 +30,38 @@ struct ReportArguments {
     std::vector<std::string> sweeps, methods;
     std::string error, within, error_at = "stage";
     bool defaults = false;
-    std::size_t frame = 0, repeats = 7;
+    std::size_t frame = 0;
+    std::optional<std::size_t> repeats;
+    std::optional<double> minutes;
     std::optional<std::uint32_t> flicker;
     std::optional<double> dolly, pan;
     bool json = false, csv = false, hard_cases = false, points = false;
     std::filesystem::path output;
+};
+
+/// Asks for a stop after so many minutes, and when another stop is requested.
+class Deadline {
+public:
+    Deadline(std::optional<double> minutes, const std::stop_token& other) : on_other_(other, Ask{source_}) {
+        if (!minutes) return;
+        waiting_ = std::jthread([source = source_, seconds = *minutes * 60](const std::stop_token& is_over) mutable {
+            std::mutex mutex;
+            std::condition_variable_any never;
+            std::unique_lock lock(mutex);
+            never.wait_for(lock, is_over, std::chrono::duration<double>(seconds), [] { return false; });
+            if (!is_over.stop_requested()) source.request_stop();
+        });
+    }
+    std::stop_token token() const { return source_.get_token(); }
+
+private:
+    struct Ask {
+        std::stop_source source;
+        void operator()() { source.request_stop(); }
+    };
+    std::stop_source source_;
+    std::stop_callback<Ask> on_other_;
+    std::jthread waiting_;
 };
 
 Result<Sweep> parse_sweep(const std::string& text) {
@@ -71,7 +102,9 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
     base->variant.frame = options.frame;
-    ReportRequest wanted{.base = *base, .repeats = options.repeats};
+    ReportRequest wanted{.base = *base};
+    if (options.repeats) wanted.repeats = *options.repeats;
+    else wanted.least_repeats = 3;
     if (options.error_at == "picture") wanted.error_at = ErrorAt::picture;
     const auto stage = find_stage(options.stage);
     std::vector<std::string_view> known;
@@ -112,11 +145,11 @@ Result<void> report_hard_cases(const ReportArguments& options) {
 
 Result<void> report(const ReportArguments& options, const CLI::App& app) {
     if (options.hard_cases) {
-        const auto fits =
-            check_not_given(app,
-                            {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--methods",
-                             "--defaults", "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--flicker"},
-                            "--hard-cases brings frames and settings of its own and writes text or --json");
+        const auto fits = check_not_given(
+            app,
+            {"--csv", "--allow-partial", "--use", "--set", "--force", "--samples", "--stage", "--methods", "--defaults",
+             "--error", "--error-at", "--within", "--sweep", "--frame", "--repeats", "--minutes", "--flicker"},
+            "--hard-cases brings frames and settings of its own and writes text or --json");
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
@@ -134,23 +167,29 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;
+    const Deadline deadline(options.minutes, signal.token());
     std::vector<Report> made;
     for (const std::filesystem::path& capture : options.captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
-        (*session)->stop_when(signal.token());
+        (*session)->stop_when(deadline.token());
         auto report = make_report(**session, request, progress);
         if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
+        if (!report && report.error().fault == Fault::stopped && !signal.token().stop_requested())
+            return fail(Fault::usage, "no row was measured within {} minutes; give the report more time", *options.minutes);
         if (!report) return report.error();
         report->capture_name = capture.filename().string();
         made.push_back(*std::move(report));
-        if (signal.token().stop_requested()) break;
+        if (deadline.token().stop_requested()) break;
     }
     const auto done = write(options, written(options, made));
     if (!done || (made.back().stopped.empty() && made.size() == options.captures.size())) return done;
-    return fail(Fault::stopped, "{}", made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped);
+    const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
+    if (signal.token().stop_requested()) return fail(Fault::stopped, "{}", missing);
+    to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
+    return done;
 }
 
 }  // namespace
@@ -176,7 +215,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                        "techniques to measure with their settings, like 'moments kind=power6,weighted'; default: all");
     methods->delimiter(',')->allow_extra_args(false);
     app.add_flag("--defaults", options->defaults, "measure each technique only at its default settings")->excludes(methods);
-    app.add_option("--error", options->error, "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
+    app.add_option("--error", options->error,
+                   "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
         ->check(CLI::IsMember({"stage", "picture"}));
@@ -186,8 +226,11 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "measure each value of a parameter, as key=a,b,c, instead of each technique's own settings; repeatable")
         ->allow_extra_args(false);
     app.add_option("--frame", options->frame, "index of the frame, default 0");
-    app.add_option("--repeats", options->repeats, "timed repeats of each row after a warm-up, default 7")
+    app.add_option("--repeats", options->repeats,
+                   "timed repeats of each row after a warm-up; default: 3, and up to 7 while a row's rank is uncertain")
         ->check(CLI::Range(1, 1000));
+    app.add_option("--minutes", options->minutes, "stop after this many minutes and report what is measured by then")
+        ->check(CLI::Range(1e-3, 1e6));
     app.add_option("--flicker", options->flicker,
                    "measure how errors change while the camera moves ahead and turns, over this many positions (64 if "
                    "no number follows)")

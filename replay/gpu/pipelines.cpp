@@ -8,6 +8,7 @@
 #include <span>
 #include <thread>
 
+#include "passes/graph/reached_code.h"
 #include "passes/graph/shader.h"
 #include "replay/gpu/format_table.h"
 #include "replay/gpu/opened_device.h"
@@ -96,12 +97,23 @@ vk::raii::PipelineLayout pipeline_layout(const vk::raii::Device& device, const S
     return {device, info};
 }
 
+/// What of a shader runs with its constants.
+std::vector<std::uint32_t> reached_code(const Shader& shader, const Constants& constants) {
+    std::vector<ConstantBits> bits;
+    for (std::size_t i = 0; i < constants.values.size(); ++i)
+        bits.push_back({constants.entries[i].constantID, constants.values[i]});
+    return strata::reached_code(shader.code, bits);
+}
+
 /// A module with its constants; the stage info points into both.
 struct ShaderPart {
     ShaderPart(const vk::raii::Device& device, const Shader& shader, const Step& step)
-        : module(device, vk::ShaderModuleCreateInfo({}, shader.code.size_bytes(), shader.code.data())),
-          constants(constants_of(shader, step)),
-          stage(shader.stage) {}
+        : constants(constants_of(shader, step)), module(make_module(device, shader)), stage(shader.stage) {}
+
+    vk::raii::ShaderModule make_module(const vk::raii::Device& device, const Shader& shader) const {
+        const std::vector<std::uint32_t> code = reached_code(shader, constants);
+        return {device, vk::ShaderModuleCreateInfo({}, code.size() * sizeof code[0], code.data())};
+    }
 
     vk::PipelineShaderStageCreateInfo info() {
         specialization.setMapEntries(constants.entries).setData<std::uint32_t>(constants.values);
@@ -110,8 +122,8 @@ struct ShaderPart {
         return {{}, bits[static_cast<std::size_t>(stage)], *module, "main", &specialization};
     }
 
-    vk::raii::ShaderModule module;
     Constants constants;
+    vk::raii::ShaderModule module;
     ShaderStage stage;
     vk::SpecializationInfo specialization;
 };

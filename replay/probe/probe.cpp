@@ -248,14 +248,16 @@ std::optional<PixelAt> nearest_with_some(const FragmentLists& lists, PixelAt at)
     return best;
 }
 
-Result<void> check_pixel(const FragmentLists& lists, PixelAt at) {
+Result<void> check_pixel(Session& session, const Request& request, const FragmentLists& lists, PixelAt at) {
     if (at.x >= lists.width() || at.y >= lists.height())
         return fail(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})", lists.width(),
                     lists.height(), at.x, at.y);
     if (at.sample >= lists.samples())
         return fail(Fault::usage, "a pixel has {} samples, counted from 0; there is no sample {}", lists.samples(), at.sample);
     if (!lists.at(at.x, at.y, at.sample).empty()) return {};
-    const auto other = nearest_with_some(lists, at);
+    const auto all = session.transparent_fragments(request);
+    if (!all) return all.error();
+    const auto other = nearest_with_some(**all, at);
     if (!other) return fail(Fault::usage, "no transparent fragment at ({}, {}), nor anywhere in the frame", at.x, at.y);
     return fail(Fault::usage, "no transparent fragment at ({}, {}); the nearest pixel with some is ({}, {})", at.x, at.y,
                 other->x, other->y);
@@ -302,9 +304,9 @@ Result<Probe> probe(Session& session, const Request& request, PixelAt at, const 
     if (const auto methods = parse_methods(options.methods); !methods) return methods.error();  // before seconds of work
     const auto frame = session.frame(request.variant.frame);
     if (!frame) return frame.error();
-    const auto lists = session.transparent_fragments(request);
+    const auto lists = session.row_fragments(request, at.y);
     if (!lists) return lists.error();
-    if (const auto checked = check_pixel(**lists, at); !checked) return checked.error();
+    if (const auto checked = check_pixel(session, request, **lists, at); !checked) return checked.error();
     const std::span<const Fragment> fragments = (*lists)->at(at.x, at.y, at.sample);
     const bool undecided = (*lists)->undecided(at.x, at.y, at.sample);
     const auto range = transparent_depth_range(*frame);

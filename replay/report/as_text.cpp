@@ -150,7 +150,10 @@ std::string heading(const Report& report) {
     std::string text =
         fmt::format("{} of {} frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.capture_name,
                     report.frame, report.width, report.height, plural(report.samples, "sample"), report.capture_id);
-    const std::string repeats = report.is_timed ? fmt::format(", {} each, interleaved", plural(report.repeats, "timed run")) : "";
+    const std::string count = report.least_repeats < report.repeats && report.least_repeats > 0
+                                  ? fmt::format("{} to {}", report.least_repeats, plural(report.repeats, "timed run"))
+                                  : plural(report.repeats, "timed run");
+    const std::string repeats = report.is_timed ? fmt::format(", {} each, interleaved", count) : "";
     text += fmt::format("device {} ({}){}\n", report.device.name, report.device.driver, repeats);
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "passes/scene/object_order.h"
 #include "replay/plural.h"
+#include "replay/report/enough_repeats.h"
 #include "replay/report/flicker.h"
 #include "replay/report/picture_error.h"
 #include "replay/report/variants.h"
@@ -99,6 +101,23 @@ void add_timing(Measurement& row, const Run& run, const Report& report) {
                          [&](const CounterRecord& counter) { return counter.technique == row.technique; });
 }
 
+/// The stage's time, and in multiples of the unit's in the same turns, which has times in every turn that the row has; null: no
+/// unit.
+void add_times(Measurement& row, const Run& run, const Run* unit, Stage stage) {
+    const std::string stage_name(name(stage));
+    const std::vector<double>& times = run.stage_ms_by_repeat.at(stage_name);
+    row.stage_ms = spread_of(times);
+    if (!unit) return;
+    std::vector<double> units;
+    for (const std::size_t turn : run.turns) units.push_back(unit->stage_ms_by_repeat.at(stage_name).at(turn));
+    if (!units.empty() && std::ranges::min(units) > 0) row.time = ratio_of(times, units);
+}
+
+/// Repeats that every row has: all of them, or fewer where rows are timed again only while their place is uncertain.
+std::size_t least_repeats_of(const Report& report) {
+    return report.least_repeats > 0 ? std::min(report.least_repeats, report.repeats) : report.repeats;
+}
+
 /// Times of all rows that can do the frame, and the same in units of the technique whose time is the unit.
 Result<void> time_rows(Session& session, std::span<const Variant> all, Report& report, const Progress& tell) {
     std::vector<Request> timed;
@@ -108,26 +127,41 @@ Result<void> time_rows(Session& session, std::span<const Variant> all, Report& r
         timed.push_back(all[i].request);
         places.push_back(i);
     }
-    const auto runs = session.time(timed, report.repeats, tell);
-    if (!runs) return runs.error();
     const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
     // At its defaults, where they are measured.
     const auto is_unit = [&](std::size_t i) { return all[i].technique->abilities.is_time_unit; };
     auto unit = std::ranges::find_if(places, [&](std::size_t i) { return is_unit(i) && all[i].settings.empty(); });
     if (unit == places.end()) unit = std::ranges::find_if(places, is_unit);
+    const std::size_t unit_place = std::size_t(unit - places.begin());
+    const Repeats repeats{.least = least_repeats_of(report), .most = report.repeats, .again = [&](std::span<const Run> so_far) {
+                              std::vector<Measurement> rows;
+                              for (std::size_t i = 0; i < places.size(); ++i) {
+                                  rows.push_back({.accuracy = report.rows[places[i]].accuracy});
+                                  add_times(rows.back(), so_far[i], unit == places.end() ? nullptr : &so_far[unit_place],
+                                            report.stage);
+                              }
+                              std::vector<bool> again = uncertain_rows(standings(rows), report.question);
+                              if (unit != places.end() && std::ranges::count(again, true) > 0) again[unit_place] = true;
+                              return again;
+                          }};
+    const auto runs = session.time_until(timed, repeats, tell);
+    if (!runs) return runs.error();
     std::vector<double> unit_times;
-    if (unit != places.end()) unit_times = times((*runs)[std::size_t(unit - places.begin())]);
+    if (unit != places.end()) unit_times = times((*runs)[unit_place]);
     const bool measurable = !unit_times.empty() && std::ranges::min(unit_times) > 0;  // 0: a clock too coarse for the frame
     if (measurable) report.time_unit = all[*unit].technique->name;
     for (std::size_t i = 0; i < places.size(); ++i) {
         Measurement& row = report.rows[places[i]];
         add_timing(row, (*runs)[i], report);
-        if (measurable) row.time = ratio_of(times((*runs)[i]), unit_times);
+        add_times(row, (*runs)[i], measurable ? &(*runs)[unit_place] : nullptr, report.stage);
     }
-    if (const std::size_t done = runs->empty() ? report.repeats : times(runs->front()).size(); done < report.repeats) {
-        report.stopped = fmt::format("stopped after {} of {} timed runs", done, report.repeats);
-        report.repeats = done;
-    }
+    if (runs->empty()) return {};
+    const auto repeats_of = [](const Run& run) { return run.turns.size(); };
+    const std::size_t done = std::ranges::max(*runs, {}, repeats_of).turns.size();
+    report.least_repeats = std::ranges::min(*runs, {}, repeats_of).turns.size();
+    const bool is_enough = done >= repeats.least && (done >= repeats.most || std::ranges::count(repeats.again(*runs), true) == 0);
+    if (!is_enough) report.stopped = fmt::format("stopped after {} of {} timed runs", done, report.repeats);
+    report.repeats = done;
     return {};
 }
 
@@ -157,6 +191,22 @@ void count_sorted(const Frame& frame, Report& report) {
     report.sorted_objects = back_to_front_draws(frame).size();
     for (const Emitter& emitter : frame.emitters) report.sorted_particles += emitter.particles.size();
 }
+
+/// While a report is made, stage outputs that no other row shares do not fill the memo: it keeps about two frames of them (a
+/// frame at 1080p and four samples takes 1 GiB, 130 bytes per sample).
+class MemoLimit {
+public:
+    MemoLimit(Session& session, const View& view) : session_(&session) {
+        constexpr std::uint64_t bytes_per_sample = 256, least = std::uint64_t(64) << 20;
+        session.limit_memo(std::max(least, bytes_per_sample * view.width * view.height * view.samples));
+    }
+    ~MemoLimit() { session_->limit_memo(std::numeric_limits<std::uint64_t>::max()); }
+    MemoLimit(const MemoLimit&) = delete;
+    MemoLimit& operator=(const MemoLimit&) = delete;
+
+private:
+    Session* session_;
+};
 
 /// Progress of a report whose steps take, in units of one run, about 4 for a row's errors, a run per frame of its flicker, and
 /// one per timed run and the one that warms up.
@@ -230,11 +280,13 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
                   .error_at = wanted.error_at,
                   .frame = wanted.base.variant.frame,
                   .repeats = wanted.repeats,
+                  .least_repeats = wanted.least_repeats,
                   .width = view.width,
                   .height = view.height,
                   .samples = view.samples,
                   .device = session.device(),
                   .question = wanted.question};
+    const MemoLimit limit(session, view);
     const auto planned = session.plan(wanted.base);
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped)

@@ -41,6 +41,9 @@ struct ReportRequest {
     std::vector<Sweep> sweeps;         ///< instead of their own points
     Question question;
     std::size_t repeats = 7;
+    /// Above 0 and below `repeats`: rows are timed so often, and then again only while their place is uncertain
+    /// (enough_repeats.h).
+    std::size_t least_repeats = 0;
     std::optional<Walk> flicker;
     /// Told of each row as soon as its errors are known: the row, its place from 1 on, and of how many.
     std::function<void(const Measurement&, std::size_t, std::size_t)> on_row = {};
@@ -71,7 +74,8 @@ struct Report {
     std::string capture_name;       ///< for people; the caller's
     std::string capture_id, truth;  ///< truth: "exact, in double" or which technique stood in and how exact it is
     ErrorAt error_at = ErrorAt::stage;
-    std::size_t frame = 0, repeats = 0;
+    std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
+    std::size_t least_repeats = 0;       ///< of the row with the fewest
     std::uint32_t width = 0, height = 0, samples = 1;
     DeviceInfo device;
     std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured

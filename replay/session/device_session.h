@@ -32,6 +32,7 @@ public:
     Result<Run> run(const Request&) override;
     Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) override;
     Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress&) override;
+    Result<std::vector<Run>> time_until(std::span<const Request>, const Repeats&, const Progress&) override;
     Result<PlannedFrame> plan(const Request&) override;
     Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) override;
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
@@ -40,10 +41,12 @@ public:
     Result<ImageSet> truth(const Request&, Stage) override;
     Result<Accuracy> judge(const Request&, Stage, Against, const ImageSet* truth) override;
     Result<const FragmentLists*> transparent_fragments(const Request&) override;
+    Result<const FragmentLists*> row_fragments(const Request&, std::uint32_t y) override;
     Result<std::vector<Run>> run(Frame, std::span<const Request>) override;
     Result<ReloadedShaders> reload_shaders(const std::filesystem::path&, std::span<const Request> shown) override;
     void stop_when(std::stop_token stop) override { stop_ = std::move(stop); }
     void forget_memo() override;
+    void limit_memo(std::uint64_t bytes) override;
 
     /// A run that executes everything, with what each step took and counted.
     struct TimedRun {
@@ -57,8 +60,9 @@ public:
         std::map<std::string, double> sorts;
     };
     using Turn = std::vector<TurnTimes>;
-    /// Runs every request once, what they share once. The first turn makes the runs that the others add times to.
-    Result<Turn> time_in_turn(std::span<const Request>, std::size_t turn, std::vector<Run>&, const Progress&);
+    /// Runs every request that is due once, what they share once; times of the others stay empty. The first turn, at which all
+    /// are due, makes the runs that the others add times to.
+    Result<Turn> time_in_turn(std::span<const Request>, const std::vector<bool>& due, std::vector<Run>&, const Progress&);
     Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 
 private:
@@ -135,6 +139,7 @@ private:
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;
+    std::optional<FragmentLists> row_fragments_;  ///< of the latest row_fragments()
     std::optional<BlendRounding> rounding_;
     std::vector<std::unique_ptr<ShaderSet>> shader_sets_;  ///< the last one is used; plans that were handed out point into others
     std::stop_token stop_;

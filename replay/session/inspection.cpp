@@ -312,4 +312,21 @@ Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request&
     return &*found_->fragments;
 }
 
+Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request, std::uint32_t y) {
+    Request for_depth = request;
+    for_depth.outputs = {"depth_layers"};
+    for_depth.once = true;  // to fill the memo, the frame would be executed whole
+    const auto run = this->run(for_depth);
+    if (!run) return run.error();
+    if (std::ranges::count(run->skipped, Stage::transparency, &SkippedStage::stage) > 0)
+        return fail(Fault::usage, "the frame does not need the stage {}", name(Stage::transparency));
+    const auto depth = run->images.find("depth_layers");
+    const View& view = loaded_->frame.view;
+    row_fragments_ = strata::transparent_fragments(
+        loaded_->frame,
+        depth != run->images.end() ? in_double(depth->second) : ReferenceImage(view.width, view.height, view.samples),
+        {y, y == ~0u ? y : y + 1});
+    return &*row_fragments_;
+}
+
 }  // namespace strata

@@ -197,6 +197,8 @@ void DeviceSession::make_remembered(const Plan& plan) {
         }
 }
 
+void DeviceSession::limit_memo(std::uint64_t bytes) { memo_.limit(std::min(bytes, memo_budget_bytes)); }
+
 void DeviceSession::forget_memo() {
     memo_.clear();
     remembered_.clear();

@@ -98,6 +98,7 @@ struct Run {
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
     std::map<std::string, std::vector<double>> stage_ms_by_repeat;  ///< what stage_ms is the spread of, in turn
+    std::vector<std::size_t> turns;                                 ///< with timing: in which turn each of these repeats was
     std::map<std::string, Spread>
         stage_sort_ms;  ///< of stage_ms: what the host sorts, of techniques with Abilities::sorts_objects
     std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
@@ -146,6 +147,13 @@ struct ReloadedShaders {
     std::size_t compiled = 0;           ///< the others of them were, by an earlier reload
 };
 
+/// How often requests are timed: all of them `least` times, and then those that `again` says true of (told of every request's
+/// times so far, in their order), until none is left or they have `most` repeats.
+struct Repeats {
+    std::size_t least = 3, most = 7;
+    std::function<std::vector<bool>(std::span<const Run>)> again;
+};
+
 /// What a result is compared with. The model of a frame of a million samples takes minutes, and who asks for the model alone
 /// waits for no truth.
 enum class Against { model_and_truth, model, truth };
@@ -173,6 +181,11 @@ public:
     /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread. Stopped
     /// (stop_when), it gives the repeats that were complete for all, or fails where there is none.
     virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;
+    /// The same with as many repeats as each request is worth. Turns stay whole: what is timed in one runs one after the other.
+    virtual Result<std::vector<Run>> time_until(std::span<const Request> requests, const Repeats& repeats,
+                                                const Progress& progress = {}) {
+        return time(requests, repeats.most, progress);
+    }
     /// The plan of a request, without running it.
     struct PlannedFrame {
         Plan plan;
@@ -202,6 +215,10 @@ public:
     /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
     /// nothing when the frame and what made its depth are the same as the last time. Valid until the next call.
     virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
+    /// The same of one row of pixels; other rows may be empty. Executes no more than what leaves the opaque depth.
+    virtual Result<const FragmentLists*> row_fragments(const Request& request, std::uint32_t /*y*/) {
+        return transparent_fragments(request);
+    }
     /// Runs a frame made in code instead of one of the capture's, on this device; Request::frame does not matter.
     virtual Result<std::vector<Run>> run(Frame, std::span<const Request>) = 0;
 
@@ -214,6 +231,8 @@ public:
     /// frame, compile a pipeline, submit to the device, compute a truth, a row of a model. A new token lets it go on.
     virtual void stop_when(std::stop_token) = 0;
 
+    /// Keeps at most so much of stage outputs from here on, and as much as one run uses.
+    virtual void limit_memo(std::uint64_t /*bytes*/) {}
     /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;
 };

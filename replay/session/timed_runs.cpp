@@ -1,4 +1,7 @@
 // Timing several requests beside each other: what they have in common is executed, and timed, once per repeat.
+#include <algorithm>
+#include <functional>
+
 #include "passes/scene/object_order.h"
 #include "replay/measure/host_timer.h"
 #include "replay/session/describe_run.h"
@@ -104,14 +107,16 @@ Result<void> DeviceSession::time_sorts(const Request& request, const Run& run, s
     return {};
 }
 
-Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, std::size_t turn,
+Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, const std::vector<bool>& due,
                                                         std::vector<Run>& runs, const Progress& progress) {
+    const bool is_first = runs.empty();
     memo_.clear();
     ExecutedActs acts;
     Turn times(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
+        if (!due[i]) continue;
         if (progress) progress("", double(i) / double(requests.size()));
-        if (turn == 0) {
+        if (is_first) {
             auto planned = plan_run(requests[i]);
             if (!planned) return planned.error();
             runs.push_back(*std::move(planned));
@@ -126,13 +131,13 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
             const RequestScopes of(*declared, i);
             add_executed(*declared, *execution, of, acts);
             costs = costs_of(runs[i].steps, of, acts);
-            if (turn == 0) add_results(runs[i], finished(*declared, *execution));
+            if (is_first) add_results(runs[i], finished(*declared, *execution));
         }
         if (!costs) {
             auto alone = time_alone(requests[i]);
             if (!alone) return alone.error();
             costs = std::move(alone->step_costs);
-            if (turn == 0) runs[i] = std::move(alone->run);
+            if (is_first) runs[i] = std::move(alone->run);
         }
         times[i].steps = *std::move(costs);
         if (const auto sorted = time_sorts(requests[i], runs[i], times[i].sorts); !sorted) return sorted.error();
@@ -140,29 +145,65 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
     return times;
 }
 
-Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
-    std::vector<Run> runs;
-    std::vector<Turn> turns;
-    for (std::size_t turn = 0; turn <= repeats; ++turn) {
-        const auto told = [&](std::string_view, double done) {
-            if (progress)
-                progress(turn == 0 ? "warming up" : fmt::format("timing, {} of {}", turn, repeats),
-                         (double(turn) + done) / double(repeats + 1));
-        };
-        auto times = time_in_turn(requests, turn, runs, told);
-        if (!times && times.error().fault == Fault::stopped && !turns.empty()) break;
-        if (!times) return times.error();
-        if (turn > 0) turns.push_back(*std::move(times));  // the first warms up
+namespace {
+
+/// What was measured of one request.
+struct TimesSoFar {
+    std::vector<std::vector<StepCost>> steps;
+    SortTimes sorts;
+    std::vector<std::size_t> turns;
+
+    void add(DeviceSession::TurnTimes&& times, std::size_t turn) {
+        steps.push_back(std::move(times.steps));
+        for (const auto& [stage, ms] : times.sorts) sorts[stage].push_back(ms);
+        turns.push_back(turn);
     }
+    void add_to(Run& run) const {
+        add_costs(run, steps, sorts);
+        run.turns = turns;
+    }
+};
+
+/// Which requests the next turn times; none when it is enough.
+std::vector<bool> due_next(const std::vector<Run>& runs, const std::vector<TimesSoFar>& times, const Repeats& repeats,
+                           std::size_t turns) {
+    if (turns < repeats.least) return std::vector<bool>(runs.size(), true);
+    if (turns >= repeats.most || !repeats.again) return std::vector<bool>(runs.size(), false);
+    std::vector<Run> measured;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        std::vector<std::vector<StepCost>> steps;
-        SortTimes sorts;
-        for (Turn& turn : turns) {
-            steps.push_back(std::move(turn[i].steps));
-            for (const auto& [stage, ms] : turn[i].sorts) sorts[stage].push_back(ms);
-        }
-        add_costs(runs[i], steps, sorts);
+        Run& run = measured.emplace_back(Run{.steps = runs[i].steps, .choices = runs[i].choices});
+        times[i].add_to(run);
     }
+    return repeats.again(measured);
+}
+
+}  // namespace
+
+Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
+    return time_until(requests, {.least = repeats, .most = repeats, .again = {}}, progress);
+}
+
+Result<std::vector<Run>> DeviceSession::time_until(std::span<const Request> requests, const Repeats& repeats,
+                                                   const Progress& progress) {
+    std::vector<Run> runs;
+    std::vector<TimesSoFar> so_far(requests.size());
+    const auto turn_of = [&](const std::vector<bool>& due, const std::string& what, std::size_t place) {
+        return time_in_turn(requests, due, runs, [&](std::string_view, double done) {
+            if (progress) progress(what, (double(place) + done) / double(repeats.most + 1));
+        });
+    };
+    const auto warmed = turn_of(std::vector<bool>(requests.size(), true), "warming up", 0);
+    if (!warmed) return warmed.error();
+    for (std::size_t turn = 0;; ++turn) {
+        const std::vector<bool> due = due_next(runs, so_far, repeats, turn);
+        if (std::ranges::none_of(due, std::identity())) break;
+        auto times = turn_of(due, fmt::format("timing, {} of {}", turn + 1, repeats.most), turn + 1);
+        if (!times && times.error().fault == Fault::stopped && turn > 0) break;
+        if (!times) return times.error();
+        for (std::size_t i = 0; i < due.size(); ++i)
+            if (due[i]) so_far[i].add(std::move((*times)[i]), turn);
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) so_far[i].add_to(runs[i]);
     return runs;
 }
 

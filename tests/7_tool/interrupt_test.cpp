@@ -90,6 +90,24 @@ TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
     }
 }
 
+/// A thousand repeats of every row last longer than any time tried here; the least time in which a row is measured is not known.
+TEST(Interrupt, ByTheMinutesThatAReportMayTakeIsNoFailure) {
+    write_file(folder() / "sound.strata", sound_capture());
+    for (double minutes = .02; minutes < 10; minutes *= 2) {
+        const Finished report = strata(fmt::format("report sound.strata --repeats 1000 --minutes {}", minutes));
+        if (report.code == 2) {
+            EXPECT_THAT(report.err, testing::HasSubstr(fmt::format("no row was measured within {} minutes", minutes)));
+            continue;
+        }
+        EXPECT_EQ(report.code, 0);
+        EXPECT_THAT(report.out, testing::HasSubstr("sorted_lists"));
+        EXPECT_THAT(report.out, testing::HasSubstr("\nstopped after "));
+        EXPECT_THAT(report.err, testing::HasSubstr(fmt::format("{} minutes are over: stopped after ", minutes)));
+        return;
+    }
+    FAIL() << "no row in 10 minutes";
+}
+
 /// What was there before is whole and old, or whole and new.
 TEST(Interrupt, OfARecordingLeavesTheOldCapture) {
     const auto old = sound_capture();

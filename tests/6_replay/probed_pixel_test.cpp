@@ -1,0 +1,74 @@
+// A probe replays no more of the frame than what decides a pixel's fragments: what it finds is what the whole frame gives.
+#include <gtest/gtest.h>
+
+#include "passes/reference/ordering.h"
+#include "replay/probe/probe.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+bool are_equal(const Fragment& a, const Fragment& b) {
+    return a.depth == b.depth && a.color == b.color && a.transmittance == b.transmittance && a.emission == b.emission &&
+           a.alpha == b.alpha && a.distortion == b.distortion && a.layer == b.layer && a.submission == b.submission;
+}
+
+std::vector<Fragment> copy(std::span<const Fragment> list) { return {list.begin(), list.end()}; }
+
+TEST(ProbedPixel, ARowOfFragmentsIsThatOfTheWholeFrame) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const auto session = scenario_session("glass_and_smoke", samples);
+        std::size_t compared = 0;
+        for (std::uint32_t y = 0; y < must(session->frame(0)).view.height; y += 31) {
+            const FragmentLists row = *must(session->row_fragments({}, y)), &all = *must(session->transparent_fragments({}));
+            ASSERT_EQ(row.width(), all.width());
+            ASSERT_EQ(row.samples(), samples);
+            for (std::uint32_t x = 0; x < all.width(); ++x)
+                for (std::uint32_t sample = 0; sample < samples; ++sample) {
+                    const auto a = copy(row.at(x, y, sample)), b = copy(all.at(x, y, sample));
+                    ASSERT_TRUE(std::ranges::equal(a, b, are_equal)) << x << ", " << y << ", sample " << sample;
+                    ASSERT_EQ(row.undecided(x, y, sample), all.undecided(x, y, sample));
+                    compared += a.size();
+                }
+        }
+        EXPECT_GT(compared, 100u);
+    }
+}
+
+TEST(ProbedPixel, EveryTechniqueShowsWhatItShowsOfTheFragmentsOfTheWholeFrame) {
+    const auto session = scenario_session("glass_and_smoke");
+    const Frame frame = must(session->frame(0));
+    const PixelAt at{frame.view.width / 2, frame.view.height / 2};
+    const auto fragments = copy((*must(session->transparent_fragments({}))).at(at.x, at.y));
+    ASSERT_FALSE(fragments.empty());
+    const DepthRange range = transparent_depth_range(frame);
+    const ProbedStack stack{
+        .fragments = fragments, .nearest = double(range.nearest), .farthest = double(range.farthest), .seed = frame.seed};
+    const Probe of_stack = must(probe(*session, stack, {.samples = 32})),
+                of_pixel = must(probe(*session, {}, at, {.samples = 32}));
+    ASSERT_EQ(of_pixel.curves.size(), techniques_of(Stage::transparency).size());
+    for (std::size_t i = 0; i < of_pixel.curves.size(); ++i) {
+        const ProbeCurve &a = of_pixel.curves[i], &b = of_stack.curves[i];
+        EXPECT_EQ(a.through, b.through) << a.method;
+        EXPECT_EQ(a.at_events, b.at_events) << a.method;
+        EXPECT_EQ(a.total, b.total) << a.method;
+        EXPECT_EQ(a.notes, b.notes) << a.method;
+    }
+}
+
+TEST(ProbedPixel, AnEmptyPixelNamesTheNearestOneWithAFragmentInAnyRow) {
+    const auto session = scenario_session("three_panes");
+    const FragmentLists lists = *must(session->transparent_fragments({}));
+    for (std::uint32_t y = 0; y < lists.height(); ++y) {
+        if (!lists.at(0, y).empty()) continue;
+        const auto made = probe(*session, {}, {0, y}, {});
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().fault, Fault::usage);
+        EXPECT_NE(made.error().sentence.find("the nearest pixel with some is ("), std::string::npos) << made.error().sentence;
+        return;
+    }
+    FAIL() << "every pixel of the first column has a fragment";
+}
+
+}  // namespace
+}  // namespace strata
