@@ -27,7 +27,7 @@ layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has int
 layout(constant_id = 9) const uint drawn = 3u;           // bits: what the frame has of meshes_drawn and particles_drawn
 layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has none
 layout(constant_id = 22) const uint light_features = every_light_feature;
-layout(constant_id = 23) const uint has_lit_surfaces = 1u;  // 0: every transparent draw is unlit, or of particles, which are
+layout(constant_id = 29) const uint has_lit_surfaces = 1u;  // 0: every transparent draw is unlit, or of particles, which are
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 const uint meshes_drawn = 1u;
