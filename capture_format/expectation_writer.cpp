@@ -35,11 +35,17 @@ Result<void> ExpectationWriter::Extended::begin() {
     return {};
 }
 
-Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path& capture) {
-    // Before anything is locked: what is no capture is refused with its own sentence.
+Result<void> ExpectationWriter::check(const std::filesystem::path& capture) {
     const auto old = Container::open(capture);
     if (!old) return old.error();
-    if (old->damage()) return *old->damage();
+    if (!old->damage()) return {};
+    return fail(old->damage()->fault, "{}; expectations are appended to the end of a complete capture: record it again",
+                old->damage()->sentence);
+}
+
+Result<ExpectationWriter> ExpectationWriter::extend(const std::filesystem::path& capture) {
+    // Before anything is locked: what is no capture is refused with its own sentence.
+    if (const auto whole = check(capture); !whole) return whole.error();
     auto lock = FileLock::take(capture);
     if (!lock) return lock.error();
     return ExpectationWriter(std::make_unique<Extended>(Extended{capture, *std::move(lock)}));

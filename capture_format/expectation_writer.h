@@ -18,6 +18,8 @@ public:
     /// Waits while another writer, of this or another process, extends the capture: read what it expects after this. Fails for
     /// what is no finished capture.
     static Result<ExpectationWriter> extend(const std::filesystem::path& capture);
+    /// Fails as extend() would for what is no finished capture, and locks nothing.
+    static Result<void> check(const std::filesystem::path& capture);
     ExpectationWriter(ExpectationWriter&&) noexcept;
     ExpectationWriter& operator=(ExpectationWriter&&) noexcept;
     ~ExpectationWriter();

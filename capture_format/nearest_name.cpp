@@ -7,6 +7,8 @@
 namespace strata {
 namespace {
 
+constexpr std::size_t shortest_beginning = 3;  // letters of a name that say which one is meant
+
 /// Levenshtein distance, one row at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -25,7 +27,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known) {
     std::string_view best;
-    std::size_t best_distance = std::max<std::size_t>(typed.size() / 3, 2) + 1;
+    // Of a word of three letters one may be wrong: 9x9 is no misspelt 2x2.
+    std::size_t best_distance =
+        std::min(std::max<std::size_t>(typed.size() / 3, 2), std::max<std::size_t>(typed.size() / 2, 1)) + 1;
     for (const std::string_view name : known) {
         const std::size_t lengths = std::max(name.size(), typed.size()) - std::min(name.size(), typed.size());
         if (lengths >= best_distance) continue;  // no distance is less: a word of megabytes is told by its length
@@ -35,7 +39,9 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
             best_distance = distance;
         }
     }
-    return best;
+    if (!best.empty() || typed.size() < shortest_beginning) return best;
+    const auto begins = std::ranges::find_if(known, [&](std::string_view name) { return name.starts_with(typed); });
+    return begins == known.end() ? best : *begins;
 }
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known) {

@@ -215,7 +215,7 @@ Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name
 Result<Capture> Capture::read(Result<Container> container, Partial partial, std::uint64_t memory_budget) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
-        return fail(Fault::bad_input, "{}; what is whole before it can be read if partial captures are allowed",
+        return fail(Fault::bad_input, "{}; pass --allow-partial to replay, info or export to read the complete frames before it",
                     container->damage()->sentence);
     }
     auto contents = std::make_unique<Contents>(*std::move(container), memory_budget);

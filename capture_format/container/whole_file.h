@@ -13,6 +13,10 @@
 
 namespace strata {
 
+/// Removes the temporaries and ends the program at once: for where it cannot go on, as without memory. The thread that calls it
+/// must not be writing a file here.
+[[noreturn]] void end_program(int code);
+
 /// A file being written. Until commit() the target is as it was; without commit() the temporary is removed.
 class WholeFile {
 public:
@@ -31,6 +35,7 @@ public:
 
 private:
     friend Result<void> leave_nothing_half_written_when_stopped();
+    friend void end_program(int code);
     struct Pending;
     explicit WholeFile(std::unique_ptr<Pending>);
     std::unique_ptr<Pending> pending_;

@@ -10,24 +10,28 @@ namespace strata {
 namespace {
 
 Result<void> check(const GltfOptions& options) {
-    if (!(std::abs(options.azimuth) <= 360 && std::abs(options.elevation) < 90)) {
+    const double azimuth = options.azimuth.value_or(0), elevation = options.elevation.value_or(0);
+    if (!(std::abs(azimuth) <= 360 && std::abs(elevation) < 90)) {
         return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
-                    options.azimuth, options.elevation);
+                    azimuth, elevation);
     }
+    if ((options.azimuth || options.elevation) && (options.eye || options.inside))
+        return fail(Fault::usage, "--azimuth and --elevation place a camera outside of the scene; {} places another: choose one",
+                    options.eye ? "--eye" : "--inside");
     if (options.target && !options.eye) return fail(Fault::usage, "a target needs an eye to be looked at from (--eye)");
     if (options.eye && (options.inside || options.camera >= 0))
         return fail(Fault::usage, "--eye places the camera; --inside and --camera do so, too: choose one");
     if (options.inside && options.camera >= 0) return fail(Fault::usage, "choose a camera of the file or --inside");
     if (options.eye && options.target && *options.eye == *options.target)
         return fail(Fault::usage, "the eye cannot look at the place where it is");
-    if (options.fov != 0 && !(options.fov >= 1 && options.fov <= 170))
-        return fail(Fault::usage, "a field of view has 1 to 170 degrees, not {}", options.fov);
+    if (options.fov && !(*options.fov >= 1 && *options.fov <= 170))
+        return fail(Fault::usage, "a field of view has 1 to 170 degrees, not {}", *options.fov);
     if (options.width == 0 || options.height == 0 || (options.samples != 1 && options.samples != 4)) {
         return fail(Fault::usage, "{} x {} pixels with {} samples cannot be rendered", options.width, options.height,
                     options.samples);
     }
-    if (!(options.fps > 0 && options.fps <= 1e6)) {
-        return fail(Fault::usage, "there are more than 0 and at most 1000000 frames per second, not {}", options.fps);
+    if (options.fps && !(*options.fps > 0 && *options.fps <= 1e6)) {
+        return fail(Fault::usage, "there are more than 0 and at most 1000000 frames per second, not {}", *options.fps);
     }
     return {};
 }
@@ -53,6 +57,8 @@ Result<GltfScene> GltfScene::read(std::vector<std::byte> bytes, const gltf::Fold
     MemoryBudget budget(options.memory_budget);
     if (const auto room = budget.take(bytes.size(), 1, "the file"); !room) return room.error();
     auto document = gltf::load_document(std::move(bytes), folder, budget);
+    if (!document && document.error().fault == Fault::device_lacks)  // nothing is known to be wrong with the file
+        return fail(Fault::device_lacks, "{}: {}", name, document.error().sentence);
     if (!document) return fail(document.error().fault, "{} is no readable glTF: {}", name, document.error().sentence);
     auto contents = std::make_unique<Contents>(std::move(name), *std::move(document), options, budget);
     if (const auto read = contents->source.read(); !read) {

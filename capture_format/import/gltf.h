@@ -25,13 +25,14 @@ struct GltfOptions {
     std::uint32_t width = 160, height = 90, samples = 1;
     std::int32_t camera = -1;  ///< index of a glTF camera; -1: the first, or a framing camera when there is none
     /// Degrees from the front (+z) towards the right (+x), and above the horizon: where the framing camera stands.
-    double azimuth = 22, elevation = 16;
+    std::optional<double> azimuth, elevation;  ///< default 22 and 16
     /// Where the eye is and what it looks at, in metres, instead of any camera; without a target the middle of the scene.
     std::optional<glm::dvec3> eye, target;
-    double fov = 0;  ///< degrees from the bottom to the top of the picture, of all but the file's cameras; 0: as the view needs
-    bool inside = false;    ///< the camera stands within the scene where it sees farthest, as for a closed room
-    double fps = 30;        ///< frames per second of the animation
-    std::string animation;  ///< by name or index; empty: the first one, if there is one
+    /// Degrees from the bottom to the top of the picture, of all but the file's cameras; without it as the view needs.
+    std::optional<double> fov;
+    bool inside = false;        ///< the camera stands within the scene where it sees farthest, as for a closed room
+    std::optional<double> fps;  ///< frames per second of the animation, default 30
+    std::string animation;      ///< by name or index; empty: the first one, if there is one
     /// Bytes that the file, its buffers, vertices and pictures may take in memory together, frames and what becomes of them until
     /// they are recorded among them; hostile files claim more. 0: half of the machine's memory.
     std::uint64_t memory_budget = 0;
@@ -40,7 +41,7 @@ struct GltfOptions {
 class GltfScene {
 public:
     /// Reads a file and what it refers to below its own folder. Fails with the name of a required extension that is not
-    /// supported, or with what is wrong in the file.
+    /// supported, with what is wrong in the file, or with the option that has no effect on it.
     static Result<GltfScene> open(const std::filesystem::path&, const GltfOptions&);
     /// The same for a file in memory. Opens no files: only a .glb's chunk and data URIs are read. The name is for sentences.
     static Result<GltfScene> open(std::span<const std::byte> bytes, const std::string& name, const GltfOptions&);
@@ -50,7 +51,8 @@ public:
 
     /// The scene at index / fps seconds; an animation begins again after its last key. previous_to_world is the transform one
     /// frame earlier, that of the frame itself at index 0. A framing camera stands still and sees the whole animation; the
-    /// exposure is that of frame 0. Meshes that skins or morph targets move are new in every frame, the others are the same.
+    /// exposure is that of frame 0. Fails for azimuth, elevation or fov where the file's own camera is used. Meshes that skins or
+    /// morph targets move are new in every frame, the others are the same.
     Result<Frame> frame(std::uint32_t index);
     /// What was ignored and why, of the file and of the frames made so far.
     const std::vector<std::string>& warnings() const;

@@ -91,6 +91,8 @@ Result<void> FrameSource::read_animation() {
     const auto index = find_animation(document_, options_.animation);
     if (!index) return index.error();
     moving_.assign(document_.nodes.size(), false);
+    if (*index < 0 && options_.fps)
+        return fail(Fault::usage, "--fps has no effect: the glTF has no animation that could be sampled");
     if (*index < 0) return {};
     const Animation& animation = document_.animations[static_cast<std::size_t>(*index)];
     auto clip = Clip::read(document_, animation, budget_);
@@ -287,6 +289,10 @@ Result<void> FrameSource::set_view(Making& making) {
     }
     const bool is_placed = options_.eye || options_.inside;
     const auto seen = cameras > 0 && !is_placed ? seen_by_camera(making.to_world) : std::nullopt;
+    if (seen && (options_.azimuth || options_.elevation || options_.fov))
+        return fail(Fault::usage,
+                    "--fov, --azimuth and --elevation have no effect: the glTF's own camera is used. Leave them out, or place a "
+                    "camera with --eye or --inside");
     if (!seen && !framing_) {
         if (const auto framed = frame_everything(); !framed) return framed;
     }
@@ -326,8 +332,9 @@ Result<Frame> FrameSource::frame(std::uint32_t index) {
     if (index > 0 && !exposure_) {  // what stays is taken from frame 0
         if (const auto first = frame(0); !first) return first.error();
     }
-    Making making = begin(index / options_.fps, (index == 0 ? 0 : index - 1) / options_.fps);
-    making.frame.time = index / options_.fps;
+    const double fps = options_.fps.value_or(30);
+    Making making = begin(index / fps, (index == 0 ? 0 : index - 1) / fps);
+    making.frame.time = index / fps;
     making.frame.index = index;
     making.frame.materials = surfaces_.materials;
     making.frame.textures = surfaces_.textures;

@@ -38,6 +38,19 @@ Light convert_light(const LightSource& source, const glm::dmat4& to_world) {
     return light;
 }
 
+/// What the specification of KHR_lights_punctual does not allow, and what becomes of it.
+void warn_of_light(std::vector<std::string>& warnings, int number, const LightSource& source) {
+    const auto warn = [&](const std::string& what) {
+        warnings.push_back(fmt::format("light {} '{:.60}' {}", number, source.name, what));
+    };
+    if (source.type != "directional" && source.type != "point" && source.type != "spot")
+        warn(fmt::format("has the unknown type '{:.60}'; a point light is used", source.type));
+    if (source.intensity < 0) warn(fmt::format("has the intensity {:g}, which is below 0", source.intensity));
+    if (source.type == "spot" && source.inner_angle > source.outer_angle)
+        warn(fmt::format("has an inner cone of {:g} and an outer of {:g} radians; the outer is used for both", source.inner_angle,
+                         source.outer_angle));
+}
+
 }  // namespace
 
 std::vector<std::string> add_lights(Frame& frame, const Document& document, const Hierarchy& hierarchy,
@@ -52,6 +65,7 @@ std::vector<std::string> add_lights(Frame& frame, const Document& document, cons
             warnings.push_back(fmt::format("node '{}' has light {}, which does not exist", node.name, node.light));
             continue;
         }
+        warn_of_light(warnings, node.light, document.lights[static_cast<std::size_t>(node.light)]);
         const Light light = convert_light(document.lights[static_cast<std::size_t>(node.light)], to_world[index]);
         if (light.type == LightType::directional && !has_sun) {
             has_sun = true;

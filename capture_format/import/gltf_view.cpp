@@ -61,7 +61,7 @@ namespace {
 double aspect_of(const GltfOptions& options) { return static_cast<double>(options.width) / options.height; }
 
 /// Radians; `usual` where the options name none.
-double fov_of(const GltfOptions& options, double usual) { return options.fov == 0 ? usual : glm::radians(options.fov); }
+double fov_of(const GltfOptions& options, double usual) { return options.fov ? glm::radians(*options.fov) : usual; }
 
 View looking(const glm::dvec3& eye, const glm::dvec3& target, double radius, const GltfOptions& options) {
     constexpr double usual_fov = 1.1;  // 63 degrees: a wide lens, as rooms are photographed with
@@ -123,7 +123,7 @@ View framing_view(std::span<const glm::dvec3> points, const Bounds& bounds, cons
     constexpr double margin = 1.05;
     const double aspect = aspect_of(options);
     const double slope = std::tan(vertical_fov / 2) / margin;
-    const double azimuth = glm::radians(options.azimuth), elevation = glm::radians(options.elevation);
+    const double azimuth = glm::radians(options.azimuth.value_or(22)), elevation = glm::radians(options.elevation.value_or(16));
     const glm::dvec3 towards_eye(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                                  std::cos(azimuth) * std::cos(elevation));
     // From the far distance every point is inside a sphere that fits; then as near as all points still fit.

@@ -99,7 +99,9 @@ Result<void> accept(const AcceptArguments& options) {
     request->acts = Acts::brought_back;
     // Held from before the capture is read: an accept at the same time waits and then reads what this one wrote.
     std::optional<ExpectationWriter> writer;
-    if (!options.dry_run) {
+    if (options.dry_run) {
+        if (const auto whole = ExpectationWriter::check(options.open.capture); !whole) return whole;
+    } else {
         auto extended = ExpectationWriter::extend(options.open.capture);
         if (!extended) return extended.error();
         writer = *std::move(extended);
@@ -142,8 +144,8 @@ Result<void> accept(const AcceptArguments& options) {
 
 std::function<Result<void>()> declare_accept(CLI::App& app) {
     const auto options = std::make_shared<AcceptArguments>();
-    add_options(app, options->open);
-    app.get_option("capture")->type_name(extended_file);
+    app.add_option("capture", options->open.capture, "capture (.strata file)")->required()->type_name(extended_file);
+    add_options(app, options->open.device);
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "indices of frames, like 0,4-8; default all");
     app.add_flag("--with-images", options->with_images, "store the images, too; --tolerance and the worst texel need them");

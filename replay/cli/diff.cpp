@@ -33,6 +33,7 @@ struct DiffArguments {
     std::string frames, rerun;
     ErrorLimits limits;
     std::filesystem::path junit, folder;
+    const CLI::App* app = nullptr;  ///< what was given
 };
 
 enum class FileKind { capture, exr, png };
@@ -157,6 +158,27 @@ Result<void> check_room(const NamedImages& images, const MemoryBudget& budget) {
     return {};
 }
 
+/// Limits on what none of the images holds.
+Result<void> check_limits(const NamedImages& images, const CLI::App& app) {
+    bool has_depth = false, has_radiance = false, has_light = false;
+    for (const auto& [name, image] : images) {
+        const Content content = content_of(name, image.shape.format);
+        has_depth = has_depth || content == Content::depth;
+        has_radiance = has_radiance || content == Content::radiance;
+        has_light = has_light || content == Content::radiance || content == Content::display;
+    }
+    const auto fits = [&](bool has, std::initializer_list<const char*> options, std::string_view why) {
+        return has ? Result<void>() : check_not_given(app, options, why);
+    };
+    return fits(has_depth, {"--ulps"}, "none of the images is depth")
+        .and_then([&] {
+            return fits(has_radiance, {"--tone-mapper", "--exposures"}, "no image holds radiance, whose tones FLIP maps");
+        })
+        .and_then([&] {
+            return fits(has_light, {"--flip-limit", "--ppd"}, "no image holds light, which FLIP compares");
+        });
+}
+
 /// The images of a file against the capture's own of the same names, made now.
 Result<void> compare_with_images(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.b.file) == FileKind::png)
@@ -166,6 +188,7 @@ Result<void> compare_with_images(const DiffArguments& options, Pictures& picture
     const auto images = read_images(options.b.file, budget);
     if (!images) return images.error();
     if (const auto room = check_room(*images, budget); !room) return room;
+    if (const auto fits = check_limits(*images, *options.app); !fits) return fits;
     auto request = request_of_side(options, options.a);
     if (!request) return request.error();
     const auto session = open_side(options, options.a);
@@ -198,6 +221,7 @@ Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Com
     const auto b = read_images(options.b.file, budget);
     if (!b) return b.error();
     if (const auto room = check_room(*a, budget); !room) return room;
+    if (const auto fits = check_limits(*a, *options.app); !fits) return fits;
     comparison.a = {.name = options.a.file.filename().string()};
     comparison.b = {.name = options.b.file.filename().string()};
     auto made = compare_image_sets(*a, *b, options.limits, seeing(pictures, 0));
@@ -225,9 +249,21 @@ Error over_tolerance(const Comparison& comparison) {
     return fail(Fault::over_tolerance, "over tolerance");
 }
 
-/// What is said of replaying where one side or both are images.
-Result<void> check_options(const DiffArguments& options, const CLI::App& app) {
+/// Whether something is said of B: the same two ways of replaying give the same, but a device may be compared with itself.
+bool has_a_side_b(const DiffArguments& options) {
+    return !options.b.gpu.empty() || options.a.uses != options.b.uses || options.a.sets != options.b.sets ||
+           options.a.gpu != options.b.gpu;
+}
+
+/// What is said of replaying where one side or both are images, and what is missing where there is one file.
+Result<void> check_options(const DiffArguments& options) {
+    const CLI::App& app = *options.app;
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
+    if (options.b.file.empty() && is_image(options.a.file))
+        return fail(Fault::usage, "{} is an image and cannot be replayed in another way: name a second image to compare it with",
+                    options.a.file.string());
+    if (options.b.file.empty() && !has_a_side_b(options))
+        return fail(Fault::usage, "A is compared with what? Name a second file, or what B does otherwise: --use, --set, --gpu-b");
     if (!is_image(options.b.file)) return {};
     const auto of_b = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed");
     if (!of_b || !is_image(options.a.file)) return of_b;
@@ -238,13 +274,7 @@ Result<void> check_options(const DiffArguments& options, const CLI::App& app) {
 }
 
 Result<void> diff(DiffArguments options) {
-    if (options.b.file.empty()) {
-        const bool same = options.a.uses == options.b.uses && options.a.sets == options.b.sets && options.a.gpu == options.b.gpu;
-        if (same)
-            return fail(Fault::usage,
-                        "A is compared with what? Name a second file, or what B does otherwise: --use, --set, --gpu-b");
-        options.b.file = options.a.file;
-    }
+    if (options.b.file.empty()) options.b.file = options.a.file;
     if (!options.folder.empty())
         if (const auto made = make_folder(options.folder); !made) return made;
     Pictures pictures(options);
@@ -270,8 +300,7 @@ void add_sides(CLI::App& app, DiffArguments& options) {
     list("--use-a", options.a.uses, "technique for A as stage/technique; repeatable");
     list("--set-a", options.a.sets, "parameter for A as key=value or stage/technique:key=value; repeatable");
     list("--force", options.both.force, "turn on a feature that the frames of A and B lack, or 'all'");
-    app.add_option("--samples", options.both.samples, "replace the recorded samples per pixel of A and B")
-        ->check(CLI::IsMember({1, 4}));
+    app.add_option("--samples", options.both.samples, "replace the recorded samples per pixel of A and B")->check(one_or_four());
     add_options(app, options.device);
     app.add_option("--gpu-a", options.a.gpu, "device for A; default that of --gpu");
     app.add_option("--gpu-b", options.b.gpu, "device for B; default that of --gpu");
@@ -346,7 +375,8 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     app.add_flag("--json", options->json, "print JSON instead of text");
     return [options, &app] {
         options->rerun = command_line(app);
-        return check_options(*options, app).and_then([&] { return diff(*options); });
+        options->app = &app;
+        return check_options(*options).and_then([&] { return diff(*options); });
     };
 }
 

@@ -28,6 +28,9 @@ Result<void> export_images(const ExportOptions& options) {
     const auto run = (*session)->run(*request);
     if (!run) return run.error();
     for (const std::string& name : options.images)
+        if (run->tables.contains(name))
+            return fail(Fault::usage, "'{}' is a table: strata replay --outputs {} --json prints it", name, name);
+    for (const std::string& name : options.images)
         if (!run->images.contains(name)) return fail(Fault::usage, "the frame has no '{}': its stage is left out", name);
     if (kind == ".png") return write_picture(options, *run);
     return write_exr(options.output, run->images, provenance(**session, *request, *run));

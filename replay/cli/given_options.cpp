@@ -1,5 +1,6 @@
 #include "replay/cli/given_options.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -82,6 +83,8 @@ std::string problem_of_real(std::string& text) {
 
 Result<void> check_names(const CLI::App& program, std::span<const std::string> arguments) {
     const CLI::App* verb = &program;
+    if (std::ranges::count(arguments, "--version") > 0 && arguments.size() > 1)
+        return fail(Fault::usage, "--version is given alone, without a verb and other options");
     for (const std::string& argument : arguments) {
         if (argument == "--") return {};
         if (verb == &program && !argument.starts_with('-')) {
@@ -110,6 +113,21 @@ CLI::Validator not_negative() {
     return CLI::Validator(
         [](std::string& text) { return text.starts_with('-') ? fmt::format("takes a number of 0 or more, not {}", text) : ""; },
         "");
+}
+
+CLI::Validator one_or_four() {
+    return CLI::Validator(
+        [](std::string& text) { return text == "1" || text == "4" ? "" : fmt::format("takes 1 or 4, not {}", text); }, "{1,4}");
+}
+
+Result<void> check_values(const CLI::App& verb) {
+    for (const CLI::Option* option : verb.get_options()) {
+        if (option->get_items_expected_min() == 0) continue;  // flags, and options whose value may be left out
+        for (const std::string& value : option->results())
+            if (value.find_first_not_of(" \t\r\n") == value.npos)
+                return fail(Fault::usage, "{} is given an empty value", option->get_name());
+    }
+    return {};
 }
 
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why) {

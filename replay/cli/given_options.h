@@ -20,6 +20,12 @@ void refuse_what_is_no_number(CLI::App& verb);
 /// For options whose number is 0 or more.
 CLI::Validator not_negative();
 
+/// For samples per pixel.
+CLI::Validator one_or_four();
+
+/// Fails where an option or argument that was given is empty or blank, which would count as not given.
+Result<void> check_values(const CLI::App& verb);
+
 /// Fails where one of these options was given: it would be ignored, and `why` says why.
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why);
 

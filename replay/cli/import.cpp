@@ -1,4 +1,6 @@
 // strata import: a glTF scene becomes a capture, of one frame or of an animation's; so does a deep image.
+#include <array>
+#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -117,6 +119,13 @@ Result<void> import_deep_image(const ImportArguments& options) {
     return {};
 }
 
+/// By its first four bytes.
+bool is_open_exr(const std::filesystem::path& path) {
+    std::array<char, 4> first{};
+    return std::ifstream(path, std::ios::binary).read(first.data(), first.size()) &&
+           first == std::array{'\x76', '\x2f', '\x31', '\x01'};
+}
+
 std::vector<std::string> notes_on_view(const Frame& frame) {
     constexpr double little = 0.03;  // of the picture
     const double share = frame.draws.empty() ? 0 : seen_share(frame);
@@ -133,6 +142,13 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
                                           "a deep image is one frame with a view of its own");
         return fits ? import_deep_image(options) : fits;
     }
+    if (options.frames == 1)
+        if (const auto fits =
+                check_not_given(app, {"--fps"}, "one frame is taken at the start of the animation; ask for more with --frames");
+            !fits)
+            return fits;
+    if (is_open_exr(options.scene))
+        return fail(Fault::usage, "{} is an OpenEXR image: pass --deep to import one with deep samples", options.scene.string());
     const auto extent = extent_of(options.size);
     if (!extent) return extent.error();
     GltfOptions gltf = options.gltf;
@@ -174,7 +190,7 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("-o,--output", options->output, "capture to write; default: the scene's name with .strata")
         ->type_name(output_file);
     app.add_option("--size", options->size, "extent as WIDTHxHEIGHT, default 640x360");
-    app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
+    app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(one_or_four());
     app.add_option("--camera", options->gltf.camera,
                    "index of the scene's camera; default: the first, or without cameras one that frames the scene")
         ->check(not_negative());

@@ -148,6 +148,8 @@ Result<const Technique*> shader_of_tiles(const IsaArguments& options, Request& r
     if (options.tiles.empty()) return nullptr;
     const auto technique = technique_of_variants(request.choices);
     if (technique) request.choices.use(**technique);
+    if (technique && options.choices.uses.empty())
+        to_stderr("strata: --tiles are those of {}, whatever the capture was recorded with\n", (*technique)->name);
     return technique;
 }
 

@@ -21,6 +21,8 @@ struct ListArguments {
     bool names = false, scenarios = false, images = false, views = false, json = false;
 };
 
+std::string_view short_name(const Technique& technique) { return technique.name.substr(technique.name.find('/') + 1); }
+
 std::string range_text(const Param& param) {
     if (param.choices.empty()) return fmt::format("{:g} to {:g}, default {:g}", param.low, param.high, param.fallback);
     std::string text;
@@ -150,7 +152,7 @@ Result<void> list(const ListArguments& options) {
         const bool whole_stage = options.what.empty() || options.what == stage.name;
         bool headed = false;
         for (const Technique* technique : techniques_of(stage.stage)) {
-            if (!whole_stage && options.what != technique->name) continue;
+            if (!whole_stage && options.what != technique->name && options.what != short_name(*technique)) continue;
             found = true;
             json["techniques"].push_back(json_of(*technique));
             if (options.json) continue;
@@ -163,7 +165,7 @@ Result<void> list(const ListArguments& options) {
     if (!found) {
         std::vector<std::string_view> known;
         for (const StageInfo& stage : stages()) known.push_back(stage.name);
-        for (const Technique& technique : techniques()) known.push_back(technique.name);
+        for (const Technique& technique : techniques()) known.insert(known.end(), {technique.name, short_name(technique)});
         return fail(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
     }
     if (options.json) write_stdout(json_text(json));

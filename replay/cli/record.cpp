@@ -7,6 +7,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/recorder.h"
 #include "captures/scenarios.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
 #include "replay/progress_line.h"
@@ -89,7 +90,7 @@ std::function<Result<void>()> declare_record(CLI::App& app) {
     app.add_option("-o,--output", options->output, "capture to write; default SCENARIO.strata")->type_name(output_file);
     app.add_option("--frames", options->frames.frames, "number of frames")->check(CLI::Range(1, 100000));
     app.add_option("--size", options->size, "extent as WIDTHxHEIGHT; default: the scenario's own");
-    app.add_option("--samples", options->frames.samples, "samples per pixel")->check(CLI::IsMember({1, 4}));
+    app.add_option("--samples", options->frames.samples, "samples per pixel")->check(one_or_four());
     app.add_option("--seed", options->frames.seed, "seed of the random numbers");
     app.add_option("--budget", options->recorder.budget_bytes,
                    "largest memory for frames waiting to be written, like 64MiB; every frame must fit")

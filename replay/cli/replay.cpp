@@ -181,10 +181,36 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
                         request.variant.frame, where, sentence(*verdict.first_divergence()));
         case Agreement::no_expectation:
             return fail(Fault::expectation_missing,
-                        "frame {} has no expectation for this device and these choices; it gives\n  {}\naccept it with: {}",
-                        request.variant.frame, short_json(*replayed.got), command_to_accept(options, request.variant.frame));
+                        "frame {} has no expectation for this device and these choices; {}accept it with: {}",
+                        request.variant.frame, options.json ? fmt::format("it gives\n  {}\n", short_json(*replayed.got)) : "",
+                        command_to_accept(options, request.variant.frame));
     }
     return {};
+}
+
+/// Why a frame that was replayed has no image or table of that name. Several stages may make an image: all must be left out.
+std::string why_missing(const std::string& output, const Run& run, const ReplayArguments& options) {
+    const SkippedStage* first = nullptr;
+    bool is_made = false;
+    for (const StageInfo& stage : stages()) {
+        if (!output.starts_with(fmt::format("{}/", stage.name)) && std::ranges::count(stage.outputs, output) == 0) continue;
+        const auto skipped = std::ranges::find(run.skipped, stage.stage, &SkippedStage::stage);
+        is_made = is_made || skipped == run.skipped.end();
+        if (!first && skipped != run.skipped.end()) first = &*skipped;
+    }
+    if (is_made && !options.until.empty()) return fmt::format("--until {} ends the frame before it is made", options.until);
+    if (!is_made && first) return fmt::format("the stage {} is left out ({})", name(first->stage), first->reason);
+    return "no stage of the frame makes it";
+}
+
+/// Fails where an output that was asked for by its name is not there; the others are.
+Result<void> check_outputs(const Request& request, const Run& run, const ReplayArguments& options) {
+    std::string missing;
+    for (const std::string& output : options.outputs)
+        if (!run.images.contains(output) && !run.tables.contains(output))
+            missing += fmt::format("{}'{}': {}", missing.empty() ? "" : "; ", output, why_missing(output, run, options));
+    if (missing.empty()) return {};
+    return fail(Fault::usage, "frame {} has no {}", request.variant.frame, missing);
 }
 
 Result<void> check_supported(const Request& request, const Run& run) {
@@ -235,6 +261,8 @@ Result<void> replay(const ReplayArguments& options) {
     if (!frames) return frames.error();
     if (!options.folder.empty())
         if (const auto made = make_folder(options.folder); !made) return made;
+    if (!options.outputs.empty() && options.folder.empty() && !options.json)
+        to_stderr("strata: --outputs alone writes nothing: pass -o FOLDER for images, -o FOLDER or --json for tables\n");
     std::optional<std::vector<Expectation>> known;
     if (expects(**session, options)) {
         auto parsed = expectations_of(*(*session)->capture());
@@ -258,6 +286,7 @@ Result<void> replay(const ReplayArguments& options) {
         if (options.timed > 0 && !options.json) print_times(replayed->run);
         auto now = judge(*request, *replayed, options);
         if (now && options.strict) now = check_supported(*request, replayed->run);
+        if (now) now = check_outputs(*request, replayed->run, options);
         if (!now && (judged || now.error().fault < judged.error().fault)) judged = now;
         all["frames"].push_back(std::move(replayed->json));
     }
@@ -277,8 +306,8 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
                    "Names: strata list --images, --views")
         ->delimiter(',');
     auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this text");
-    app.add_option("--repeat", options->repeat, "replay this many times; exit code 7 if any image of any pass differs")
-        ->check(CLI::Range(1, 100000))
+    app.add_option("--repeat", options->repeat, "replay this many times, 2 or more; exit code 7 if any image of any pass differs")
+        ->check(CLI::Range(2, 100000))
         ->excludes(until);
     app.add_option("--time", options->timed, "time every step over this many repeats after a warm-up; print median and deviation")
         ->check(CLI::Range(1, 10000));

@@ -95,6 +95,8 @@ Result<void> spectra(const SpectraArguments& options) {
     if (!base) return base.error();
     const auto technique = technique_of_spectra(base->choices);
     if (!technique) return technique.error();
+    if (options.choices.uses.empty())
+        to_stderr("strata: feature spectra are those of {}, whatever the captures were recorded with\n", (*technique)->name);
     auto frames = gather(options, **technique, *base);
     if (!frames) return frames.error();
     CostQuestion question{.technique = **technique,

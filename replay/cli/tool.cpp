@@ -1,6 +1,10 @@
 #include "replay/cli/tool.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <system_error>
 
@@ -23,7 +27,7 @@ namespace {
 constexpr const char* exit_codes =
     "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
     "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable,\n"
-    "8 a mistake of strata, 130 interrupted";
+    "8 a mistake of strata, 130 interrupted (128 + the signal)";
 
 struct GpusArguments {
     bool list = false, json = false;
@@ -109,6 +113,7 @@ Result<void> keep_inputs(const CLI::App& verb) {
 /// Whether a verb is to run: help and versions are printed here.
 Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
     if (const auto known = check_names(app, arguments); !known) return known.error();
+    const bool has_separator = std::ranges::count(arguments, "--") > 0;
     try {
         std::ranges::reverse(arguments);  // CLI11 takes a vector from its back
         app.parse(arguments);
@@ -119,6 +124,10 @@ Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
         write_stdout(out.str());
         if (code != 0) {
             const auto verb = app.get_subcommands();
+            if (has_separator && !verb.empty())
+                return fail(Fault::usage,
+                            "what follows -- is read as file names, and strata {} takes no more of them; write options before it",
+                            verb.front()->get_name());
             return fail(Fault::usage, "{}; see strata help{}", error.what(), verb.empty() ? "" : " " + verb.front()->get_name());
         }
         return false;
@@ -148,18 +157,41 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     const auto goes_on = parse(app, std::move(arguments));
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
+    if (gpus.list && !app.get_subcommands().empty())
+        return fail(Fault::usage, "--list-gpus is given without a verb; {} would be ignored",
+                    app.get_subcommands().front()->get_name());
     if (gpus.list) return list_gpus(gpus);
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
     if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)
-        if (sub->parsed()) return keep_inputs(*sub).and_then(verb);
+        if (sub->parsed()) return keep_inputs(*sub).and_then([&] { return check_values(*sub); }).and_then(verb);
     write_stdout(app.help());
     return {};
 }
 
 }  // namespace
 
+namespace {
+
+/// SPIRV-Cross ends the program where malloc() fails or a vector of its own throws. No thread of ours is left joinable, so that
+/// a call of terminate() without an exception is this.
+[[noreturn]] void end_without_memory() {
+    bool is_memory = !std::current_exception();
+    if (!is_memory) try {
+            throw;
+        } catch (const std::bad_alloc&) {
+            is_memory = true;
+        } catch (...) {}
+    if (!is_memory) std::abort();
+    constexpr std::string_view words = "strata: this machine has not the memory that is needed\n";
+    [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
+    end_program(static_cast<int>(Fault::device_lacks));
+}
+
+}  // namespace
+
 int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
+    std::set_terminate(end_without_memory);
     const Result<void> done = without_exceptions(
         [&] { return leave_nothing_half_written_when_stopped().and_then([&] { return run(std::move(arguments), verbs); }); });
     const Result<void> written = finish_stdout();

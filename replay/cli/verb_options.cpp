@@ -9,6 +9,7 @@
 #include "capture_format/nearest_name.h"
 #include "capture_format/reader.h"
 #include "capture_format/recorder.h"
+#include "replay/cli/given_options.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
 #include "replay/session/choice_text.h"
@@ -98,7 +99,7 @@ void add_options(CLI::App& app, ChoiceOptions& options) {
     app.add_option("--set", options.sets, "parameter to set, as key=value or stage/technique:key=value; repeatable")
         ->allow_extra_args(false);
     app.add_option("--force", options.force, "turn on a feature that the frame lacks, or 'all'")->allow_extra_args(false);
-    app.add_option("--samples", options.samples, "replace the recorded samples per pixel")->check(CLI::IsMember({1, 4}));
+    app.add_option("--samples", options.samples, "replace the recorded samples per pixel")->check(one_or_four());
 }
 
 Result<Request> request_of(const ChoiceOptions& options) {
@@ -176,7 +177,7 @@ Result<std::optional<Texture>> make_thumbnail(const Frame& frame, const DeviceCh
     // Replayed small and with one sample: 640 x 360 with 4 samples of thick smoke took lavapipe minutes.
     auto session = Session::open(std::vector<Frame>{small(frame)}, device);
     const auto run = session ? (*session)->run({.variant = {.samples = 1}}) : Result<Run>(session.error());
-    if (!run && run.error().fault == Fault::usage) return run.error();  // no such device
+    if (!run && (run.error().fault == Fault::usage || !device.gpu.empty())) return run.error();  // a device that was asked for
     if (!run) {
         to_stderr("strata: no thumbnail: {}\n", run.error().sentence);
         return std::optional<Texture>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "replay/gpu/device_memory.h"
 #include "replay/gpu/opened_device.h"
 #include "replay/gpu/plan_memory.h"
 #include "replay/gpu/readback.h"
@@ -98,7 +99,8 @@ private:
     std::string place_;                 // what is being done, for failures
 };
 
-/// Runs the action; whatever goes wrong becomes a DeviceFailure that says where, and the plan's memory starts anew.
+/// Runs the action; whatever goes wrong becomes a DeviceFailure or MemoryLacks that says where, and the plan's memory starts
+/// anew.
 template <typename Action>
 void VulkanExecutor::as_device_failure(std::string place, Action action) {
     place_ = std::move(place);
@@ -112,6 +114,10 @@ void VulkanExecutor::as_device_failure(std::string place, Action action) {
         }
     } catch (const vk::DeviceLostError& problem) {
         throw DeviceLost(fmt::format("{}: {}", place_, problem.what()));
+    } catch (const vk::OutOfDeviceMemoryError& problem) {
+        throw MemoryLacks(fmt::format("{}: the device has not the memory that is needed ({})", place_, problem.what()));
+    } catch (const vk::OutOfHostMemoryError& problem) {
+        throw MemoryLacks(fmt::format("{}: this machine has not the memory that the driver needs ({})", place_, problem.what()));
     } catch (const vk::SystemError& problem) {
         throw DeviceFailure(fmt::format("{}: {}", place_, problem.what()));
     } catch (const std::out_of_range&) {

@@ -18,6 +18,7 @@ namespace strata {
 struct HostImage {
     Shape shape;
     std::vector<std::byte> texels;
+    glm::ivec2 place{0};  ///< of the first texel in the picture; an EXR's data window may lie anywhere in the display window
 };
 
 /// Images of a run or a file.

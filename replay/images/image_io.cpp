@@ -109,6 +109,12 @@ constexpr std::uint64_t exr_bytes_per_byte = 2;
 /// While a PNG is decoded: its texels as they are stored, converted to four channels, and the image's own.
 constexpr std::uint64_t png_bytes_per_byte = 3;
 
+/// stb_image leaves the reason empty for some files that end too early.
+std::string png_problem() {
+    const char* reason = stbi_failure_reason();
+    return reason && *reason ? reason : "it is damaged or cut short";
+}
+
 struct ChannelRow {
     std::string_view in_file;           ///< in the file's order, which is the alphabet's
     std::vector<const char*> in_texel;  ///< channels the file lacks read as 1
@@ -146,6 +152,10 @@ Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudg
     const auto edge = [](int low, int high) { return static_cast<std::uint32_t>(std::int64_t{high} - low + 1); };
     const Extent extent{edge(window.min.x, window.max.x), edge(window.min.y, window.max.y), 1};
     image.shape.extent = extent;
+    const auto display = header.displayWindow().min;
+    // Far from each other, both are the file's word: in 64 bits, and what does not fit in 32 is only compared.
+    const auto from = [](int at, int origin) { return static_cast<int>(std::int64_t{at} - origin); };
+    image.place = {from(window.min.x, display.x), from(window.min.y, display.y)};
     if (std::max(extent.width, extent.height) > largest_edge)
         return fail(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
     const std::string what = fmt::format("part {} of {} x {} texels", index, extent.width, extent.height);
@@ -187,8 +197,8 @@ Result<void> add_part(NamedImages& images, const std::string& in_file, HostImage
         return {};
     }
     Shape& shape = known->second.shape;
-    if (read.shape.extent != shape.extent || read.shape.format != shape.format)
-        return fail(Fault::bad_input, "part '{}' has not the size and channels of the layers before it", part);
+    if (read.shape.extent != shape.extent || read.shape.format != shape.format || read.place != known->second.place)
+        return fail(Fault::bad_input, "part '{}' has not the size, place and channels of the layers before it", part);
     known->second.texels.insert(known->second.texels.end(), read.texels.begin(), read.texels.end());
     ++shape.layers;
     return {};
@@ -285,7 +295,7 @@ Result<HostImage> read_png(const std::filesystem::path& path) {
 Result<HostImage> read_png(const std::filesystem::path& path, MemoryBudget& budget) {
     int width = 0, height = 0, channels = 0;
     if (!stbi_info(path.c_str(), &width, &height, &channels))
-        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), stbi_failure_reason());
+        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
     const auto wide = static_cast<std::uint32_t>(width), high = static_cast<std::uint32_t>(height);
     HostImage image{{.extent = {wide, high, 1}, .format = Format::rgba8_unorm}, {}};
     if (std::max(wide, high) > largest_edge)
@@ -297,7 +307,7 @@ Result<HostImage> read_png(const std::filesystem::path& path, MemoryBudget& budg
         return fail(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(path.c_str(), &width, &height, &channels, STBI_rgb_alpha),
                                                            stbi_image_free);
-    if (!pixels) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), stbi_failure_reason());
+    if (!pixels) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
     const auto texels = std::as_bytes(std::span(pixels.get(), bytes(image.shape)));
     image.texels.assign(texels.begin(), texels.end());
     return image;

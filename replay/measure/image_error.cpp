@@ -59,6 +59,13 @@ double limit_of(Kind kind, const ErrorLimits& limits) {
     return kind == Kind::depth ? double(limits.ulps) : 0;
 }
 
+/// "(4, 0) to (19, 8)".
+std::string window_text(const HostImage& image) {
+    const auto last = [](int first, std::uint32_t edge) { return std::int64_t{first} + edge - 1; };
+    return fmt::format("({}, {}) to ({}, {})", image.place.x, image.place.y, last(image.place.x, image.shape.extent.width),
+                       last(image.place.y, image.shape.extent.height));
+}
+
 }  // namespace
 
 std::string shape_text(const Shape& shape) {
@@ -71,8 +78,13 @@ std::string shape_text(const Shape& shape) {
 Result<void> check_comparable(const std::string& name, const HostImage& a, const HostImage& b) {
     const FormatRow &of_a = row(a.shape.format), &of_b = row(b.shape.format);
     const bool integers = of_a.kind == FormatKind::integer, same_kind = integers == (of_b.kind == FormatKind::integer);
-    if (a.shape.extent == b.shape.extent && a.shape.layers == b.shape.layers && of_a.channels == of_b.channels && same_kind)
-        return {};
+    const bool same_shape =
+        a.shape.extent == b.shape.extent && a.shape.layers == b.shape.layers && of_a.channels == of_b.channels && same_kind;
+    if (same_shape && a.place == b.place) return {};
+    if (same_shape)
+        return fail(Fault::usage,
+                    "'{}' cannot be compared: A covers the pixels {} of its picture, B {}; bring both to one data window", name,
+                    window_text(a), window_text(b));
     return fail(Fault::usage, "'{}' cannot be compared: A is {}, B is {}; bring both to one size, number of layers and channels",
                 name, shape_text(a.shape), shape_text(b.shape));
 }

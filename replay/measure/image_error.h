@@ -50,7 +50,8 @@ struct ImageError {
     std::uint64_t disagreeing = 0;  ///< values that are NaN or infinite in one and not the same in the other: never allowed
 };
 
-/// Whether two images can be compared at all: extent, layers, channels and kind of number. The sentence has both shapes.
+/// Whether two images can be compared at all: extent, place, layers, channels and kind of number. The
+/// sentence has both shapes or places.
 Result<void> check_comparable(const std::string& name, const HostImage& a, const HostImage& b);
 
 /// Of images that check_comparable() lets through (asserted). `depth` says that real values are depth, too.

@@ -26,6 +26,20 @@ Variant at_point(Variant variant, std::string_view point) {
     return variant;
 }
 
+/// Every value of a sweep that one of the techniques has must be one of its values: known before the first row is measured.
+Result<void> check_sweeps(std::span<const Variant> swept, std::span<const Sweep> sweeps) {
+    for (const Variant& variant : swept)
+        for (const Sweep& sweep : sweeps) {
+            if (!has_param(*variant.technique, sweep.key)) continue;
+            Settings settings(variant.technique->params);
+            for (const std::string& value : sweep.values)
+                if (const auto fits = settings.set(sweep.key, value); !fits)
+                    return fail(fits.error().fault, "--sweep {}={}: {}: {}", sweep.key, value, variant.technique->name,
+                                fits.error().sentence);
+        }
+    return {};
+}
+
 std::vector<Variant> swept(const Variant& defaults, std::span<const Sweep> sweeps) {
     std::vector<Variant> variants{defaults};
     for (const Sweep& sweep : sweeps) {
@@ -83,6 +97,7 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
         std::ranges::move(method->settings, std::back_inserter(listed.request.choices.settings));
         std::ranges::move(swept(listed, wanted.sweeps), std::back_inserter(all));
     }
+    if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
     if (!wanted.methods.empty()) return with_the_time_unit(std::move(all), wanted);
     for (const Technique* technique : techniques) {
         Variant defaults{technique, wanted.base, ""};
@@ -91,6 +106,7 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
         if (!wanted.sweeps.empty() || wanted.defaults_only) continue;
         for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));
     }
+    if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
     return all;
 }
 

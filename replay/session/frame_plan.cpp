@@ -38,8 +38,16 @@ Result<void> apply(Choices& choices, const SettingChange& change) {
         if (const auto done = std::visit(set, change.value); !done) return done.error();
         found = true;
     }
-    if (!found)
-        return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
+    if (!found) {
+        const auto has_it = [&](const Technique& one) { return std::ranges::count(one.params, change.key, &Param::name) > 0; };
+        const auto is_meant = [&](const Technique& one) {
+            return (!change.technique || change.technique == &one) && has_it(one);
+        };
+        const auto owner = std::ranges::find_if(techniques(), is_meant);
+        return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", change.key,
+                    owner == techniques().end() ? did_you_mean(change.key, known)
+                                                : fmt::format("; {0} has it: pass --use {0}", owner->name));
+    }
     return {};
 }
 

@@ -30,6 +30,8 @@ void count_images(const Executor& executor, const Plan& plan, MemoryNeed& need) 
         need.images += bytes;
         need.largest.emplace_back(plan.images[slot.images.front()].name, bytes);
     }
+    for (const BufferRecord& buffer : plan.buffers)
+        if (!buffer.import) need.largest.emplace_back(buffer.name, executor.buffer_bytes(buffer.bytes));
     std::ranges::stable_sort(need.largest, std::ranges::greater(), &std::pair<std::string, std::uint64_t>::second);
     need.largest.resize(std::min(need.largest.size(), largest_named));
 }
@@ -61,7 +63,7 @@ std::string text(const MemoryNeed& need) {
         "of small things",
         mib(need.total()), mib(need.images), mib(need.buffers), mib(need.scene), mib(need.read_back), mib(need.other));
     for (std::size_t i = 0; i < need.largest.size(); ++i)
-        text += fmt::format("{}'{}' {:.1f}", i == 0 ? "; the largest images are " : ", ", need.largest[i].first,
+        text += fmt::format("{}'{}' {:.1f}", i == 0 ? "; the largest are " : ", ", need.largest[i].first,
                             mib(need.largest[i].second));
     return text;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
+#include "replay/gpu/device_memory.h"
 #include "replay/measure/host_memory.h"
 #include "replay/measure/host_timer.h"
 #include "replay/measure/measured_rounding.h"
@@ -166,6 +167,9 @@ std::invoke_result_t<Action> DeviceSession::failures_as_errors(Action action) {
     } catch (const DeviceLost& failure) {
         is_lost_ = true;
         return fail(Fault::device_failed, "{}; open the capture again", failure.what());
+    } catch (const MemoryLacks& failure) {
+        return fail(Fault::device_lacks, "{}; replay a smaller frame, with --samples 1 or with another technique",
+                    failure.what());
     } catch (const DeviceFailure& failure) {
         return fail(Fault::device_failed, "{}", failure.what());
     }

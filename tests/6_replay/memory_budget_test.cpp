@@ -55,7 +55,7 @@ TEST(MemoryBudget, WhatDoesNotFitIsRefusedWithNumbersAndNothingIsAllocated) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::device_lacks);
     EXPECT_THAT(refused.error().sentence, HasSubstr("the memory budget is 16.0 MiB"));
-    EXPECT_THAT(refused.error().sentence, HasSubstr("the largest images are '"));
+    EXPECT_THAT(refused.error().sentence, HasSubstr("the largest are '"));
     EXPECT_FALSE(session->run({.acts = Acts::brought_back}));
     // What fits afterwards shows how much there ever was.
     const auto small = must(session->run({.variant = {.extent_divisor = 16, .samples = 1}}));

@@ -1,4 +1,5 @@
 // strata diff: what it says of captures, settings and images that are and are not the same.
+#include <array>
 #include <fstream>
 
 #include <fmt/core.h>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/7_tool/process.h"
+#include "tests/support/deep_exr.h"
 #include "tests/support/file_text.h"
 #include "tests/support/second_device.h"
 
@@ -133,6 +135,39 @@ TEST_F(Diff, WritesPicturesAndJunitAndRemovesPicturesThatNoLongerHold) {
     ASSERT_EQ(strata("diff panes.strata panes.strata -o out --junit out/diff.xml").code, 0);
     EXPECT_FALSE(exists(picture));
     EXPECT_THAT(contents("out/diff.xml"), Not(HasSubstr("<failure")));
+}
+
+TEST_F(Diff, OfOneImageIsRefusedAndSoAreLimitsOnWhatImagesDoNotHold) {
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    const std::string png = "out/panes.f0000.png", two = png + " " + png + " ";
+    for (const std::string of_b :
+         {"", " --use weighted", " --use nonsense", " --set weight=w9", " --use-a weighted", " --gpu-b 0"})
+        expect_refusals("diff", std::array{Refusal{png + of_b, 2, "name a second image to compare it with"}});
+    const Refusal refusals[] = {{two + "--ulps 3", 2, "--ulps does not apply: none of the images is depth"},
+                                {two + "--tone-mapper hable", 2, "--tone-mapper does not apply"},
+                                {two + "--exposures 1,2", 2, "--exposures does not apply"}};
+    expect_refusals("diff", refusals);
+    EXPECT_EQ(strata("diff " + two + "--ppd 40").code, 0);
+    EXPECT_EQ(strata("diff out/panes.f0000.exr out/panes.f0000.exr --ulps 3 --tone-mapper hable").code, 0);
+    EXPECT_EQ(strata("diff panes.strata --gpu-a 0 --gpu-b 0").code, 0);  // a device may be compared with itself
+}
+
+TEST_F(Diff, OfImagesAtTwoPlacesOfTheirPicturesIsExitTwoWithBothWindows) {
+    std::ofstream(folder() / "a.exr", std::ios::binary) << flat_file(4, 2);
+    std::ofstream(folder() / "b.exr", std::ios::binary) << flat_file(4, 2, {3, 1});
+    const Finished refused = strata("diff a.exr b.exr");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("A covers the pixels (0, 0) to (3, 1) of its picture, B (3, 1) to (6, 2)"));
+    EXPECT_EQ(strata("diff b.exr b.exr").code, 0);
+}
+
+TEST_F(Diff, OfAPngThatEndsTooEarlySaysSo) {
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    const std::string whole = contents("out/panes.f0000.png");
+    std::ofstream(folder() / "cut.png", std::ios::binary) << whole.substr(0, whole.size() / 2);
+    const Finished failed = strata("diff cut.png out/panes.f0000.png");
+    EXPECT_EQ(failed.code, 3);
+    EXPECT_THAT(failed.err, testing::MatchesRegex("strata: cannot read cut.png: .+\n"));
 }
 
 TEST_F(Diff, WhatCannotBeComparedIsASentence) {

@@ -156,7 +156,7 @@ TEST(Expect, OtherChoicesAreExitSixWithTheCommandThatAcceptsThem) {
     const std::string other = " --use " + std::string(techniques_of(Stage::transparency)[1]->name);
     const Finished missing = strata("replay panes.strata" + other);
     EXPECT_EQ(missing.code, 6);
-    EXPECT_THAT(missing.err, HasSubstr("\"transparency\":{\"color\":\""));
+    EXPECT_THAT(strata("replay panes.strata --json" + other).err, HasSubstr("\"transparency\":{\"color\":\""));
     const std::string command = "accept 'panes.strata' --frames 0" + other;
     EXPECT_THAT(missing.err, HasSubstr("strata " + command));
     ASSERT_EQ(strata(command).code, 0);

@@ -153,6 +153,75 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
     EXPECT_EQ(strata(mixed).code, 0);
 }
 
+/// An empty value once counted as none given.
+TEST(Options, WhoseValueIsEmptyAreRefused) {
+    write_file(folder() / "sound.strata", sound_capture());
+    for (const char* given : {"replay sound.strata --frames ''", "replay sound.strata --until ''", "replay sound.strata --eye ''",
+                              "replay sound.strata --shaders ''", "replay sound.strata --gpu ''", "replay sound.strata --gpu ' '",
+                              "replay sound.strata -o ''", "list ''", "list --stage ''", "bench voxel --only ''"}) {
+        const Finished refused = strata(given);
+        EXPECT_EQ(refused.code, 2) << given;
+        EXPECT_THAT(refused.err, HasSubstr("is given an empty value")) << given;
+    }
+}
+
+TEST(Options, OfTheProgramStandWithoutAVerb) {
+    for (const char* given : {"--list-gpus list", "--version --json", "--version list", "list -- --version", "list --version"}) {
+        const Finished refused = strata(given);
+        EXPECT_EQ(refused.code, 2) << given << refused.out;
+        EXPECT_EQ(refused.out, "") << given;
+    }
+    EXPECT_EQ(strata("--version").code, 0);
+}
+
+TEST(Options, ThatCannotBeFollowedAreASentence) {
+    write_file(folder() / "sound.strata", sound_capture());
+    const auto whole = sound_capture();
+    write_file(folder() / "cut.strata", std::span(whole).first(whole.size() - 1));
+    write_file(folder() / "x.exr", std::as_bytes(std::span("\x76\x2f\x31\x01")));
+    const Ignored all[] = {
+        {"replay sound.strata --repeat 1", "--repeat"},
+        {"replay sound.strata --samples 4294967297", "takes 1 or 4, not 4294967297"},
+        {"replay sound.strata --frames 0 --until gbuffer --outputs display", "frame 0 has no 'display': --until gbuffer ends"},
+        {"replay sound.strata --frames 0 --until gbuffer --outputs gbuffer0,display -o out", "frame 0 has no 'display'"},
+        {"accept sound.strata --allow-partial", "accept has no option --allow-partial"},
+        {"replay sound.strata -- --json", "what follows -- is read as file names"},
+        {"record smoke", "did you mean smoke_"},
+        {"replay sound.strata --set weight=w9", "transparency/weighted has it: pass --use transparency/weighted"},
+        {"import x.exr", "is an OpenEXR image: pass --deep"},
+        {"report sound.strata --sweep weight=w7,w99 --methods weighted", "--sweep weight=w99: transparency/weighted"},
+    };
+    for (const auto& [command, says] : all) {
+        const Finished refused = strata(command);
+        EXPECT_EQ(refused.code, 2) << command << refused.err;
+        EXPECT_THAT(refused.err, HasSubstr(says)) << command;
+    }
+    EXPECT_TRUE(std::filesystem::exists(only_file(folder() / "out", ".exr")));  // the outputs that are there are written
+    EXPECT_THAT(strata("replay sound.strata --frames 0 --outputs color").err, HasSubstr("pass -o FOLDER"));
+    EXPECT_THAT(strata("list weighted").out, HasSubstr("--set weight"));
+    EXPECT_THAT(strata("replay cut.strata").err, HasSubstr("pass --allow-partial"));
+    for (const char* accept : {"accept cut.strata", "accept cut.strata --dry-run"}) {
+        const Finished refused = strata(accept);
+        EXPECT_EQ(refused.code, 3) << accept;
+        EXPECT_THAT(refused.err, HasSubstr("appended to the end of a complete capture")) << accept;
+    }
+}
+
+TEST(Options, OfTheFramingCameraAreRefusedWhereAnotherOneIsUsed) {
+    write_file(folder() / "sound.strata", sound_capture());
+    ASSERT_EQ(strata("export sound.strata --gltf -o own.glb").code, 0);
+    const Refusal refusals[] = {{"own.glb --fov 30", 2, "the glTF's own camera is used"},
+                                {"own.glb --azimuth 30", 2, "the glTF's own camera is used"},
+                                {"own.glb --fov 0", 2, "a field of view has 1 to 170 degrees"},
+                                {"own.glb --inside --elevation 30", 2, "--inside places another"},
+                                {"own.glb --eye 0,1,5 --azimuth 30", 2, "--eye places another"},
+                                {"own.glb --fps 3", 2, "ask for more with --frames"},
+                                {"own.glb --frames 2 --fps 3", 2, "the glTF has no animation"},
+                                {"own.glb --gpu no_such_device --size 16x9", 2, "no device is called 'no_such_device'"}};
+    expect_refusals("import", refusals);
+    EXPECT_EQ(strata("import own.glb --eye 0,1,5 --fov 30 --size 16x9").code, 0);
+}
+
 TEST(Techniques, NeedTheirStageOnlyWhereSeveralHaveOneOfThatName) {
     write_file(folder() / "sound.strata", sound_capture());
     const std::string replay = "replay sound.strata --frames 0 --outputs color -o out ";

@@ -112,11 +112,13 @@ TEST(Interrupt, ByTheMinutesThatAReportMayTakeIsNoFailure) {
 TEST(Interrupt, OfARecordingLeavesTheOldCapture) {
     const auto old = sound_capture();
     write_file(folder() / "made.strata", old);
-    const pid_t process = start_strata("record three_panes --frames 100000 -o made.strata");
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    kill(process, SIGINT);
-    EXPECT_EQ(code_of(process), 130);
-    EXPECT_EQ(read_file(folder() / "made.strata"), old);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const pid_t process = start_strata("record three_panes --frames 100000 -o made.strata");
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        kill(process, signal);
+        EXPECT_EQ(code_of(process), 128 + signal);
+        EXPECT_EQ(read_file(folder() / "made.strata"), old);
+    }
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder()), std::filesystem::directory_iterator()), 1);
 }
 

@@ -128,6 +128,7 @@ TEST(Device, WithoutOneEveryVerbThatNeedsItSaysSoAndTheOthersGoOn) {
     for (const char* verb : {"info sound.strata", "validate sound.strata", "list", "record three_panes -o made.strata"})
         EXPECT_EQ(strata_after(none, verb).code, 0) << verb;
     EXPECT_EQ(strata("validate made.strata").code, 0);
+    EXPECT_EQ(strata_after(none, "record three_panes --gpu nvidia -o made.strata").code, 4);  // a device that was asked for
 }
 
 TEST(Device, ThatLacksAFeatureIsNamedWithIt) {
@@ -204,6 +205,19 @@ TEST(Memory, ThatDoesNotSufficeIsASentence) {
     const Finished failed = strata_after("ulimit -v 400000", "info vast.strata");
     EXPECT_EQ(failed.code, 4) << failed.err;
     EXPECT_THAT(failed.err, HasSubstr("memory"));
+}
+
+// From where the driver cannot start to where the frame is replayed. A driver may crash without memory; strata may not.
+TEST(Memory, ThatDoesNotSufficeForADeviceIsNoCrashOfOurs) {
+    write_sound_capture();
+    for (const char* limit : {"300000", "340000", "400000"}) {
+        const Finished failed = strata_after(fmt::format("ulimit -c 0 && ulimit -v {}", limit), "replay sound.strata --frames 0");
+        EXPECT_THAT(failed.err, Not(HasSubstr("terminate called"))) << limit;
+        EXPECT_NE(failed.code, 5) << limit << failed.err;
+        if (failed.code == 4) {
+            EXPECT_THAT(failed.err, HasSubstr("memory")) << limit;
+        }
+    }
 }
 
 }  // namespace

@@ -110,15 +110,16 @@ std::string deep_file(const std::vector<std::pair<std::string, DeepSource>>& par
 
 std::string deep_file(const DeepSource& source) { return deep_file({{std::string(), source}}); }
 
-std::string flat_file(std::uint32_t width, std::uint32_t height) {
+std::string flat_file(std::uint32_t width, std::uint32_t height, glm::ivec2 at) {
     Imf::StdOSStream stream;
     {
-        Imf::Header header{int(width), int(height)};
+        Imf::Header header{int(width) + at.x, int(height) + at.y};
+        header.dataWindow().min = {at.x, at.y};
         header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
         Imf::OutputFile file(stream, header);
         std::vector<float> texels(std::size_t{width} * height);
         Imf::FrameBuffer buffer;
-        buffer.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(texels.data()), 4, 4 * std::size_t{width}));
+        buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, texels.data(), header.dataWindow(), 4, 4 * std::size_t{width}));
         file.setFrameBuffer(buffer);
         file.writePixels(int(height));
     }

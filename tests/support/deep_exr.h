@@ -29,8 +29,8 @@ struct DeepSource {
 std::string deep_file(const DeepSource&);
 /// Several images as named parts, all in lines.
 std::string deep_file(const std::vector<std::pair<std::string, DeepSource>>& parts);
-/// One RGBA image of a size that is not deep.
-std::string flat_file(std::uint32_t width, std::uint32_t height);
+/// One image of depth 0 that is not deep, whose data window begins at a place of the display window.
+std::string flat_file(std::uint32_t width, std::uint32_t height, glm::ivec2 at = glm::ivec2(0));
 
 /// What Imf::CompositeDeepScanLine makes of a file: RGB and A in float, row by row from the data window's corner.
 struct OpenExrComposite {

@@ -7,6 +7,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
 #include "replay/images/image_io.h"
+#include "replay/standard_streams.h"
 #include "ui/script/script.h"
 #include "ui/widgets/widget_tree.h"
 #include "ui/window/keys.h"
@@ -214,7 +215,9 @@ Result<void> Player::expect(const std::string& path, const std::string& text) co
 
 Result<void> Player::shot(const std::filesystem::path& path) {
     return this->picture().and_then([&](auto& picture) {
-        return write_png(path, Extent{picture.width, picture.height, 1}, picture.rgb);
+        const auto written = write_png(path, Extent{picture.width, picture.height, 1}, picture.rgb);
+        if (written) to_stderr("wrote {}\n", path.filename().string());
+        return written;
     });
 }
 
