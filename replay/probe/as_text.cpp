@@ -66,8 +66,7 @@ std::string as_text(const Probe& probe) {
         "step. E_w: at the fragments, weighted by what they hide. total: T - exact behind everything. T of a method is the "
         "share\n"
         "of a probe's light that arrives. Along the ray probes are submitted last, which a method that keeps what comes first\n"
-        "treats as too late; at fragments they come with the fragment. Every fragment is a card of its own: what sorts objects\n"
-        "sorts fragments here.\n";
+        "treats as too late; at fragments they come with the fragment. Every fragment is a card of its own.\n";
     for (const ProbeCurve& curve : probe.curves)
         for (const std::string& note : curve.notes) text += fmt::format("{}: {}\n", curve.method, note);
     return text;

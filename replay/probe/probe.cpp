@@ -215,6 +215,10 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
             curves[i]->at_events.assign(samples, of.through.end());
             curves[i]->total = of.total;
             curves[i]->notes = notes_of(of, kind);
+            if (together[i].technique->abilities.sorts_objects)
+                curves[i]->notes.push_back(
+                    "it sorts objects, and here every fragment is one: how wrong their order is in the frame does not show; "
+                    "compare the pixel with `strata diff`");
             curves[i]->slices = std::move(of.slices);
             curves[i]->figures = figures_of(probe, *curves[i]);
         }

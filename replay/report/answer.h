@@ -23,7 +23,7 @@ struct Answer {
     bool keeps_all = false;
     std::optional<std::size_t> cheapest;       ///< the fastest that keeps the error
     std::optional<std::size_t> most_accurate;  ///< that keeps the time
-    std::vector<std::size_t> as_fast;   ///< that keep the error and are as fast as the cheapest within their spreads
+    std::vector<std::size_t> as_fast;          ///< that keep the error and are as fast as the cheapest within their spreads
     std::vector<std::size_t> unsteady;  ///< of those, such as have a spread above a quarter of their time: they say nothing
 };
 Answer find_answer(std::span<const Standing>, std::optional<std::size_t> baseline, const Question&);

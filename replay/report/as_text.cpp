@@ -190,8 +190,8 @@ std::string as_text(const Report& report) {
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
     const std::string legends = std::string(legend) + std::string(has_ties ? tie_legend : "");
     return text + "\n" + as_text(table_of(report)) + "\n" + legends + implementation_text(report) + mirrors_text(report) +
-           best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) + counters_text(report) + stopped +
-           answer_text(report);
+           best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) + counters_text(report) +
+           stopped + answer_text(report);
 }
 
 std::string as_text(const Pool& pool) {
