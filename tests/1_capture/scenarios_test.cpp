@@ -1,6 +1,7 @@
 // Scenarios are the input of most other tests, so they must be repeatable, valid and moving.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -144,13 +145,33 @@ TEST(Scenarios, TrianglesTurnAroundTheirNormals) {
 TEST(Scenarios, SmokeIsTwoThousandSoftSpritesThatGrowAndRise) {
     const Scenario& scenario = **find_scenario("smoke_grenade");
     const Frame early = build(scenario, 0, 8), late = build(scenario, 7, 8);
-    ASSERT_EQ(late.emitters.size(), 1u);
+    ASSERT_EQ(late.emitters.size(), 2u);
     const Emitter &before = early.emitters[0], &after = late.emitters[0];
     ASSERT_EQ(after.particles.size(), 2000u);
     EXPECT_GT(after.soft_depth_fade, 0);
     EXPECT_GT(late.textures[after.texture].mips, 1u);
     EXPECT_GT(after.particles[1999].center.y, before.particles[1999].center.y + 0.5);
     EXPECT_GT(after.particles[0].size, before.particles[0].size);
+}
+
+/// In view depth the signal begins in front of the cloud's nearest sprite and ends behind its middle, and the boxes of both share
+/// a middle: no order of the two emitters is right.
+TEST(Scenarios, ASignalsSmokeGoesThroughTheCloud) {
+    const Frame frame = build(**find_scenario("smoke_grenade"), 0, 1);
+    const std::vector<Particle>&cloud = frame.emitters[0].particles, &signal = frame.emitters[1].particles;
+    const auto depth = [&](const Particle& p) { return (frame.view.to_view * (p.center - frame.view.origin)).z; };
+    const auto share_in_front = [&](const Particle& p) {
+        return double(std::ranges::count_if(cloud, [&](const Particle& c) { return depth(c) < depth(p); })) /
+               double(cloud.size());
+    };
+    ASSERT_EQ(signal.size(), 400u);
+    EXPECT_LT(share_in_front(signal.front()), .1);
+    EXPECT_GT(share_in_front(signal.back()), .75);
+    const auto within = std::ranges::count_if(signal, [&](const Particle& p) {
+        const double share = share_in_front(p);
+        return share > .1 && share < .9;
+    });
+    EXPECT_GT(within, 150);
 }
 
 TEST(Scenarios, CityShowsFewOfItsBoxes) {
