@@ -13,16 +13,25 @@ namespace {
 
 constexpr std::uint32_t width = 96, height = 54;
 
+/// The frame that most tests are about comes first: few steps, of which every one takes long enough to be seen on the timeline.
+std::vector<const Scenario*> in_order() {
+    std::vector<const Scenario*> order = {must(find_scenario("three_cards"))};
+    for (const Scenario& scenario : scenarios())
+        if (&scenario != order.front()) order.push_back(&scenario);
+    return order;
+}
+
 }  // namespace
 
 std::vector<Frame> small_scenarios() {
     std::vector<Frame> frames;
-    for (const Scenario& scenario : scenarios()) frames.push_back(scenario.build(0, {.width = width, .height = height}));
+    for (const Scenario* scenario : in_order()) frames.push_back(scenario->build(0, {.width = width, .height = height}));
     return frames;
 }
 
 std::size_t frame_of(std::string_view scenario) {
-    return static_cast<std::size_t>(must(find_scenario(scenario)) - scenarios().data());
+    const std::vector<const Scenario*> order = in_order();
+    return static_cast<std::size_t>(std::ranges::find(order, scenario, &Scenario::name) - order.begin());
 }
 
 Desk::Desk() : layer(must(ImguiLayer::headless({.validation = true}))) {
