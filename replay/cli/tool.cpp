@@ -169,10 +169,6 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     return {};
 }
 
-}  // namespace
-
-namespace {
-
 /// SPIRV-Cross ends the program where malloc() fails or a vector of its own throws. No thread of ours is left joinable, so that
 /// a call of terminate() without an exception is this.
 [[noreturn]] void end_without_memory() {
