@@ -32,6 +32,17 @@ constexpr std::array divergences = {
         "it interpolates between corners snapped to 1/16 pixel: a steep depth moves by what it changes in so much (G-buffers: "
         ".0019 and .061)"},
     Divergence{"facade_at_150m", .005, .12, "the same moves fine textures (stochastic: .0023 and .056)"},
+    Divergence{"lighting_models", .004, .13, "the same moves the normals of small spheres (octahedral: .0647)"},
+    Divergence{
+        "city_of_boxes", .03, 3.6,
+        "the same moves the planes of a box and of the floor that it stands on: a texel shows the other (G-buffers: .0142 and "
+        "1.79)"},
+    Divergence{"nan_particles", .01, .45,
+               "the same moves the sprites' texture (stochastic, by its random numbers: .0046 and .20)"},
+    Divergence{"explosion", 8e-4, .04, "the same moves the sprites' texture (alpha_blend: 3.7e-4, voxel: .0186)"},
+    Divergence{"interface_layers", .003, .08, "the same moves the windows' texture (stochastic: .0013 and .038)"},
+    Divergence{"glass_and_smoke", .005, .25,
+               "the same moves the smoke's texture (depth_peeling, by another layer: .0023 and .12)"},
     Divergence{"smoke_grenade", 2e-4, .01, "the same moves the textures of 2400 sprites (depth_peeling: 9.3e-5 and .0037)"},
 };
 /// SwiftShader gives all four samples of a pixel one gl_FragCoord.z and one value of a varying that is `sample`, so that every

@@ -108,6 +108,12 @@ Seen DrivenWindow::look() {
     return seen_;
 }
 
+Seen DrivenWindow::look_until(const std::function<bool(const Seen&)>& is_there) {
+    const auto end = Clock::now() + patience;
+    while (!is_there(look()) && Clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return seen_;
+}
+
 /// Scrolls to it.
 SeenWidget DrivenWindow::reach(const std::string& path) {
     for (int turn = 0; turn < 40; ++turn) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,9 @@ public:
 
     /// Once nothing is being computed.
     Seen look();
+    /// Looks until something is seen that comes from outside the window, such as a dropped file: it can arrive long after the
+    /// window has settled. Gives what was seen last.
+    Seen look_until(const std::function<bool(const Seen&)>& is_there);
     /// What look() saw last.
     const Seen& seen() const { return seen_; }
 

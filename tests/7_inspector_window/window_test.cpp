@@ -267,13 +267,15 @@ void takes_what_is_dropped(Sitting& at) {
     const Seen before = at.window->look();
     const auto [x, y] = at.on_screen("Image/picture", 0, 0);
     drop_file(notes, "Strata", x, y);
-    EXPECT_THAT(at.window->look().said("status/refused"), HasSubstr("notes.txt"));
+    const auto is_refused = [](const Seen& seen) { return seen.has("status/refused"); };
+    EXPECT_THAT(at.window->look_until(is_refused).said("status/refused"), HasSubstr("notes.txt"));
     EXPECT_EQ(at.window->seen().command, before.command) << "what was open stays";
     const Finished recorded =
         strata(fmt::format("record glass_and_smoke -o '{}' --size {}x{}", other.string(), picture_width, picture_height));
     ASSERT_EQ(recorded.code, 0) << recorded.err;
     drop_file(other, "Strata", x, y);
-    EXPECT_THAT(at.window->look().title, StartsWith("another capture.strata, frame 0"));
+    const auto is_another = [](const Seen& seen) { return seen.title.starts_with("another capture.strata"); };
+    EXPECT_THAT(at.window->look_until(is_another).title, StartsWith("another capture.strata, frame 0"));
     EXPECT_FALSE(at.window->seen().at("top/undo").enabled);
     at.shown = "another capture";
     at.window->click("Image/100 %");

@@ -123,7 +123,8 @@ TEST(List, ShowsTheImagesAndViewsThatOutputsTakes) {
     for (std::string line; std::getline(lines, line);)
         if (line != "depth") all += (all.empty() ? "" : ",") + line;  // at 4 samples its layers are asked for
     // Not every image comes into being in this frame, which is exit 2, but each is known.
-    EXPECT_THAT(strata("replay panes.strata --outputs " + all).err, AllOf(HasSubstr("is left out"), Not(HasSubstr("has no image"))));
+    EXPECT_THAT(strata("replay panes.strata --outputs " + all).err,
+                AllOf(HasSubstr("is left out"), Not(HasSubstr("has no image"))));
     EXPECT_THAT(strata("replay panes.strata --outputs colour").err, HasSubstr("has no image"));
     EXPECT_EQ(strata("list --views --images").code, 2);
 }
