@@ -40,11 +40,15 @@ Particle sprite(int index, double progress, std::uint64_t seed) {
 Particle signal_sprite(int index, double progress, std::uint64_t seed) {
     Random random(seed * 0x10001 + static_cast<std::uint64_t>(sprite_count + index));
     const glm::dvec3 source{-1.9, 0.15, 1.3}, way{4.2, 2.1, -2.4};
-    const double age = (index + 0.5) / signal_count * progress;                             // share of the way
-    const double spread = 0.08 + 0.55 * std::sqrt(age);                                     // half a width
-    const auto aside = [&] { return spread * random.between(-1.0, 1.0) * random.unit(); };  // denser in the middle
+    const double age = (index + 0.5) / signal_count * progress;  // share of the way
+    const double spread = 0.08 + 0.55 * std::sqrt(age);          // half a width
+    const auto aside = [&] {
+        const double side = random.between(-1.0, 1.0);
+        return spread * side * random.unit();  // denser in the middle
+    };
+    const double z = aside(), y = aside(), x = aside();  // arguments of one call would be drawn in the compiler's order
     Particle particle;
-    particle.center = source + way * age + glm::dvec3(aside(), aside(), aside());
+    particle.center = source + way * age + glm::dvec3(x, y, z);
     particle.size = static_cast<float>(0.12 + 0.33 * std::sqrt(age) * random.between(0.8, 1.2));
     particle.rotation = static_cast<float>(random.between(0.0, 2 * std::numbers::pi) + progress);
     particle.color = glm::vec3(1, 0.38f, 0.08f) * random.between(0.6f, 1.0f);

@@ -166,12 +166,14 @@ TEST(Scenarios, ASignalsSmokeGoesThroughTheCloud) {
     };
     ASSERT_EQ(signal.size(), 400u);
     EXPECT_LT(share_in_front(signal.front()), .1);
-    EXPECT_GT(share_in_front(signal.back()), .75);
+    EXPECT_GT(share_in_front(signal.back()), .7);
     const auto within = std::ranges::count_if(signal, [&](const Particle& p) {
         const double share = share_in_front(p);
         return share > .1 && share < .9;
     });
     EXPECT_GT(within, 150);
+    // As GCC 12 made it. Random numbers drawn by two arguments of one call would come in another order from another compiler.
+    EXPECT_NEAR(glm::distance(signal.back().center, glm::dvec3(0)), 3.670158599, 1e-6);
 }
 
 TEST(Scenarios, CityShowsFewOfItsBoxes) {
