@@ -25,6 +25,12 @@ std::uint32_t interface_layer(const Frame& frame, std::uint32_t index) {
     return index < draws ? frame.draws[index].layer : frame.emitters[index - draws].layer;
 }
 
+bool has_lit_surfaces(const Frame& frame, const DrawLists& lists) {
+    return std::ranges::any_of(lists.transparent, [&](std::uint32_t index) {
+        return index < frame.draws.size() && frame.materials[frame.draws[index].material].lighting_model != LightingModel::unlit;
+    });
+}
+
 std::uint32_t triangles_drawn(const Frame& frame, std::uint32_t index) {
     const std::size_t draws = frame.draws.size();
     const std::size_t triangles = index < draws ? frame.meshes[frame.draws[index].mesh].indices.size() / 3

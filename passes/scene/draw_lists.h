@@ -21,6 +21,9 @@ std::uint32_t interface_layer(const Frame&, std::uint32_t index);
 /// Of everything transparent; 0 where no draw or emitter is in an interface layer.
 std::uint32_t highest_interface_layer(const Frame&, const DrawLists&);
 
+/// Whether lights change how some transparent draw looks. Particles are unlit.
+bool has_lit_surfaces(const Frame&, const DrawLists&);
+
 /// Triangles of a draw, or two per particle of an emitter.
 std::uint32_t triangles_drawn(const Frame&, std::uint32_t index);
 

@@ -8,6 +8,7 @@
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
 #include "passes/shaders/ordering.shared.h"
+#include "passes/transparency/event.shared.h"
 #include "passes/transparency/event_material.glsl"
 #include "passes/transparency/sanitize.glsl"
 
@@ -29,9 +30,6 @@ layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has non
 layout(constant_id = 22) const uint light_features = every_light_feature;
 layout(constant_id = 29) const uint has_lit_surfaces = 1u;  // 0: every transparent draw is unlit, or of particles, which are
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
-
-const uint meshes_drawn = 1u;
-const uint particles_drawn = 2u;
 
 struct Event {
     float z;       // view depth, depth offset applied, or an interface layer's: what ordering uses

@@ -1,30 +1,21 @@
 #include "passes/transparency/event_draw.h"
 
-#include <algorithm>
 #include <cassert>
-#include <span>
 #include <utility>
 
 #include "passes/scene/scene_facts.h"
 #include "passes/scene/texture_uses.h"
+#include "passes/transparency/event.shared.h"
 
 namespace strata {
 namespace {
 
 /// The constant `drawn` of event.glsl.
 std::uint32_t drawn(const FrameImages& images) {
-    constexpr std::uint32_t meshes = 1, particles = 2;
     std::uint32_t bits = 0;
     for (const std::uint32_t index : images.facts->lists().transparent)
-        bits |= index < images.recorded->draws.size() ? meshes : particles;
+        bits |= index < images.recorded->draws.size() ? meshes_drawn : particles_drawn;
     return bits;
-}
-
-/// Whether lights change how some transparent draw looks: indices past the draws are emitters, whose particles are unlit.
-bool has_lit_surfaces(const Frame& frame, std::span<const std::uint32_t> draws) {
-    return std::ranges::any_of(draws, [&](std::uint32_t draw) {
-        return draw < frame.draws.size() && frame.materials[frame.draws[draw].material].lighting_model != LightingModel::unlit;
-    });
 }
 
 DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
@@ -37,7 +28,7 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
         .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features())
-        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists().transparent) ? 1u : 0u);
+        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists()) ? 1u : 0u);
     return fix_textures(pass, images, Surfaces::transparent);
 }
 

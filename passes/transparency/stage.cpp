@@ -1,6 +1,4 @@
 // The stage transparency: what it writes, and when a frame does not need it.
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "passes/frame_images.h"
@@ -23,12 +21,7 @@ std::optional<std::string> beyond_device(const FrameImages& images) {
     const std::uint64_t turns = images.facts->light_turns();
     constexpr std::uint64_t other_turns = 1024;  // of the material's textures and the technique
     if (turns + other_turns <= most_short_turns || has(images.capabilities, Capability::long_loops)) return std::nullopt;
-    const DrawLists& lists = images.facts->lists();
-    const auto is_lit = [&](std::uint32_t draw) {
-        const Frame& frame = *images.recorded;
-        return draw < frame.draws.size() && frame.materials[frame.draws[draw].material].lighting_model != LightingModel::unlit;
-    };
-    if (std::ranges::none_of(lists.transparent, is_lit)) return std::nullopt;
+    if (!has_lit_surfaces(*images.recorded, images.facts->lists())) return std::nullopt;
     return fmt::format(
         "a transparent fragment asks {} lights with their blockers and portals, up to {} turns of a loop, and this device ends "
         "loops after {}",

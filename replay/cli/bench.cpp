@@ -13,6 +13,7 @@
 #include "passes/registry.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -28,8 +29,6 @@ struct BenchArguments {
     bool json = false;
     std::filesystem::path output;
 };
-
-std::string_view short_name(const Technique& technique) { return technique.name.substr(technique.name.find('/') + 1); }
 
 /// Ratios of the technique of that name, with or without its stage. `only` is in their names.
 Result<std::vector<Claim>> claims_of(const std::string& word, const std::string& only) {

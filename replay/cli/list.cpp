@@ -10,6 +10,7 @@
 #include "passes/frame_images.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -20,8 +21,6 @@ struct ListArguments {
     std::string what;
     bool names = false, scenarios = false, images = false, views = false, json = false;
 };
-
-std::string_view short_name(const Technique& technique) { return technique.name.substr(technique.name.find('/') + 1); }
 
 std::string range_text(const Param& param) {
     if (param.choices.empty()) return fmt::format("{:g} to {:g}, default {:g}", param.low, param.high, param.fallback);

@@ -160,10 +160,8 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
         const std::string row_label = label(row.technique, row.settings);
         if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
-        const Figure& error = ranking_figure(row);
-        const bool is_touched = !row.accuracy.touched.empty() && row.accuracy.touched_share < 1;
-        to_stderr("strata: {} of {}  {}: {}{} {}\n", place, of, row_label, error.name, is_touched ? " touched" : "",
-                  short_number(error.value));
+        to_stderr("strata: {} of {}  {}: {} {}\n", place, of, row_label, ranking_name(row),
+                  short_number(ranking_figure(row).value));
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;

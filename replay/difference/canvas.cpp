@@ -77,6 +77,14 @@ int Canvas::text(std::string_view text, Box at, Rgb ink) {
     return text_width(copy);
 }
 
+int Canvas::text(const std::vector<std::string>& lines, Box at, Rgb ink) {
+    for (const std::string& each : lines) {
+        text(each, at, ink);
+        at.y += line;
+    }
+    return at.y;
+}
+
 Rgb magma(double share) {
     static constexpr Rgb stops[] = {{0, 0, 4},      {28, 16, 68},   {79, 18, 123},   {129, 37, 129}, {181, 54, 122},
                                     {229, 80, 100}, {251, 135, 97}, {254, 194, 135}, {252, 253, 191}};

@@ -31,6 +31,9 @@ public:
     /// Letters 7 `scale` high whose upper left corner is x, y; cut off at `width`. Returns the width of what was drawn.
     int text(std::string_view, Box at, Rgb ink);
 
+    /// Lines below each other, from at.y on. Returns where the next one would stand.
+    int text(const std::vector<std::string>& lines, Box at, Rgb ink);
+
     static constexpr int scale = 2;          ///< of letters
     static constexpr int line = 13 * scale;  ///< from line to line
 

@@ -225,8 +225,7 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
     int below = top + Canvas::line + shown.height * zoom + (panel.legend ? bar_height + 10 + Canvas::line : gap);
     const auto lines = (legend.colors.empty() ? 1 : 0) + swatches.size() + (legend.help.empty() ? 0 : help.size());
     Canvas canvas(width + 2 * gap, below + static_cast<int>(lines) * Canvas::line + gap, paper);
-    for (std::size_t i = 0; i < titles.size(); ++i)
-        canvas.text(titles[i], {gap, gap + static_cast<int>(i) * Canvas::line, width, 0}, mark);
+    canvas.text(titles, {gap, gap, width, 0}, mark);
     draw(canvas, panel, {gap, top, width, 0}, shown, nullptr);
     const auto write_line = [&](const std::string& text, int indent, Rgb color) {
         canvas.text(text, {gap + indent, below, width - indent, 0}, color);
@@ -239,8 +238,7 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
         canvas.outline(box, faint);
         write_line(shortened(swatch.meaning, width - box.width - gap), box.width + gap, ink);
     }
-    if (!legend.help.empty())
-        for (const std::string& line : help) write_line(line, 0, faint);
+    if (!legend.help.empty()) canvas.text(help, {gap, below, width, 0}, faint);
     return canvas;
 }
 
@@ -263,8 +261,7 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     const std::vector<std::string> title = wrapped(titles.title, across - 2 * gap);
     const int reason_at = gap + static_cast<int>(title.size()) * Canvas::line, top = reason_at + gap + Canvas::line;
     Canvas canvas(across, top + rows * (cell.height + gap), paper);
-    for (std::size_t i = 0; i < title.size(); ++i)
-        canvas.text(title[i], {gap, gap + static_cast<int>(i) * Canvas::line, across - 2 * gap, 0}, mark);
+    canvas.text(title, {gap, gap, across - 2 * gap, 0}, mark);
     canvas.text(shortened(made.reason, across - 2 * gap), {gap, reason_at, across - 2 * gap, 0}, ink);
     for (int i = 0; i < static_cast<int>(panels.size()); ++i)
         draw(canvas, panels[static_cast<std::size_t>(i)],

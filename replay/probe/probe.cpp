@@ -167,7 +167,7 @@ Result<std::vector<Measured>> measure(Session& session, ProbeScene scene, std::s
     return all;
 }
 
-std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind) {
+std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind, const Technique& technique) {
     std::vector<std::string> notes;
     if (kind != ProbeKind::additive)
         notes.push_back(fmt::format("it cannot do additive light: probed by cards of alpha 1/{:.0f}, which hide as much",
@@ -180,6 +180,10 @@ std::vector<std::string> notes_of(const Measured& measured, ProbeKind kind) {
     if (measured.slices.size() != measured.own_slices)
         notes.push_back(fmt::format("the probe's cards take slices, too: {} are in use, {} without them", measured.slices.size(),
                                     measured.own_slices));
+    if (technique.abilities.sorts_objects)
+        notes.push_back(
+            "it sorts objects, and here every fragment is one: how wrong their order is in the frame does not show; compare the "
+            "pixel with `strata diff`");
     return notes;
 }
 
@@ -214,11 +218,7 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
             curves[i]->through.assign(of.through.begin(), samples);
             curves[i]->at_events.assign(samples, of.through.end());
             curves[i]->total = of.total;
-            curves[i]->notes = notes_of(of, kind);
-            if (together[i].technique->abilities.sorts_objects)
-                curves[i]->notes.push_back(
-                    "it sorts objects, and here every fragment is one: how wrong their order is in the frame does not show; "
-                    "compare the pixel with `strata diff`");
+            curves[i]->notes = notes_of(of, kind, *together[i].technique);
             curves[i]->slices = std::move(of.slices);
             curves[i]->figures = figures_of(probe, *curves[i]);
         }

@@ -38,6 +38,12 @@ const Measurement* first_measured(const Report& report) {
     return row == report.rows.end() ? nullptr : &*row;
 }
 
+/// What rows are ranked by.
+std::string ranking_name(const Report& report) {
+    const Measurement* row = first_measured(report);
+    return row ? ranking_name(*row) : "error";
+}
+
 /// Whether errors over what the stage touches say more than those over the frame.
 bool leaves_much(const Report& report) {
     const Measurement* row = first_measured(report);
@@ -48,7 +54,7 @@ Table table_of(const Report& report) {
     Table table;
     if (const Measurement* row = first_measured(report))
         for (const Figure& figure : shown_errors(*row)) table.heads.push_back(figure.name + " " + figure.unit);
-    if (leaves_much(report)) table.heads.push_back(ranking_figure(*first_measured(report)).name + " touched");
+    if (leaves_much(report)) table.heads.push_back(ranking_name(report));
     if (!report.time_unit.empty()) table.heads.push_back(time_head(report.time_unit));
     if (report.is_timed) table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
     if (report.flicker) table.heads.emplace_back("flicker");
@@ -67,12 +73,6 @@ Table table_of(const Report& report) {
         table.rows.push_back(std::move(line));
     }
     return table;
-}
-
-/// What rows are ranked by, for people: "relative rmse touched".
-std::string ranking_name(const Report& report) {
-    const Measurement* row = first_measured(report);
-    return row ? ranking_figure(*row).name + (leaves_much(report) ? " touched" : "") : "error";
 }
 
 /// The most accurate row of each budget, with what it is ranked by. Without a time unit time has none.

@@ -227,6 +227,11 @@ const Figure& ranking_figure(const Measurement& row) {
     return relative == figures.end() ? figures.front() : *relative;
 }
 
+std::string ranking_name(const Measurement& row) {
+    const bool is_touched = !row.accuracy.touched.empty() && row.accuracy.touched_share < 1;
+    return ranking_figure(row).name + (is_touched ? " touched" : "");
+}
+
 std::vector<Standing> standings(std::span<const Measurement> rows) {
     std::vector<Standing> all;
     for (const Measurement& row : rows) {

@@ -96,6 +96,8 @@ void mark_fronts(std::vector<Measurement>&);
 /// What a supported row is ranked and pooled by: frames differ in brightness and in how much of them the stage touches, so the
 /// relative error over what it touches where there is one; else the first figure of its judge.
 const Figure& ranking_figure(const Measurement&);
+/// Its name, and whether it is over what the stage touches alone: "relative rmse touched".
+std::string ranking_name(const Measurement&);
 /// The rows by their ranking figures; time in the time unit, or in milliseconds without one.
 std::vector<Standing> standings(std::span<const Measurement>);
 /// The row whose time is 1, if it was measured.

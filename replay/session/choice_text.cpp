@@ -17,9 +17,8 @@ Result<const Technique*> technique_of_word(std::string_view word) {
     std::vector<const Technique*> found;
     std::vector<std::string_view> names, known;
     for (const Technique& technique : techniques()) {
-        const std::string_view short_name = technique.name.substr(technique.name.find('/') + 1);
-        known.insert(known.end(), {technique.name, short_name});
-        if (short_name != word) continue;
+        known.insert(known.end(), {technique.name, short_name(technique)});
+        if (short_name(technique) != word) continue;
         found.push_back(&technique);
         names.push_back(technique.name);
     }
@@ -56,6 +55,8 @@ std::string text_of(const SettingChange& change) {
 }
 
 }  // namespace
+
+std::string_view short_name(const Technique& technique) { return technique.name.substr(technique.name.find('/') + 1); }
 
 Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span<const std::string> sets) {
     ChoiceChanges changes;

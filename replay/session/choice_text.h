@@ -10,6 +10,9 @@
 
 namespace strata {
 
+/// A technique's name without its stage.
+std::string_view short_name(const Technique&);
+
 /// uses: "stage/technique", at most one of a stage, or "technique" where one stage alone has it; sets: "key=value" for every
 /// chosen technique that has the key, or "stage/technique:key=value". Fails for a technique that does not exist. Whether the
 /// frame has the keys and they take the values is known to choose().

@@ -70,12 +70,18 @@ struct Difference {
     std::size_t lit = 0;  ///< texels of the golden image that are not black
 };
 
+/// What errors are relative to where a texel is darker.
+double scale_of(const ReferenceImage& golden) {
+    double power = 0;
+    for (const glm::dvec4& t : golden.texels) power += glm::dot(glm::dvec3(t), glm::dvec3(t)) / 3;
+    return std::max(std::sqrt(power / static_cast<double>(golden.texels.size())), 1e-9);
+}
+
 Difference difference(const ReferenceImage& got, const ReferenceImage& golden) {
-    double power = 0, squares = 0;
+    double squares = 0;
     Difference d;
     const auto texels = static_cast<double>(golden.texels.size());
-    for (const glm::dvec4& t : golden.texels) power += glm::dot(glm::dvec3(t), glm::dvec3(t)) / 3;
-    const double scale = std::max(std::sqrt(power / texels), 1e-9);
+    const double scale = scale_of(golden);
     for (std::size_t i = 0; i < golden.texels.size(); ++i) {
         const glm::dvec4 a = got.texels[i], b = golden.texels[i];
         if (glm::length(glm::dvec3(b)) > 1e-3) ++d.lit;
@@ -144,9 +150,8 @@ constexpr double off_elsewhere = .02;
 constexpr double most_off_elsewhere = .05;
 
 double share_off(const ReferenceImage& got, const ReferenceImage& golden) {
-    double power = 0, off = 0;
-    for (const glm::dvec4& t : golden.texels) power += glm::dot(glm::dvec3(t), glm::dvec3(t)) / 3;
-    const double scale = std::sqrt(power / double(golden.texels.size()));
+    double off = 0;
+    const double scale = scale_of(golden);
     for (std::size_t i = 0; i < golden.texels.size(); ++i) {
         const glm::dvec3 wanted(golden.texels[i]), error = glm::abs(glm::dvec3(got.texels[i]) - wanted);
         const glm::dvec3 relative = error / glm::max(glm::abs(wanted), glm::dvec3(scale));
