@@ -160,8 +160,10 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     request.on_row = [](const Measurement& row, std::size_t place, std::size_t of) {
         const std::string row_label = label(row.technique, row.settings);
         if (!row.accuracy.not_supported.empty()) return to_stderr("strata: {} of {}  {}: not supported\n", place, of, row_label);
-        to_stderr("strata: {} of {}  {}: {} {}\n", place, of, row_label, ranking_name(row),
-                  short_number(ranking_figure(row).value));
+        const std::string time = row.time ? fmt::format("time {}", short_number(row.time->median))
+                                          : fmt::format("{} ms", short_number(row.stage_ms.median));
+        to_stderr("strata: {} of {}  {}: {} {}, {}\n", place, of, row_label, ranking_name(row),
+                  short_number(ranking_figure(row).value), time);
     };
     const Progress progress = progress_line();
     const StopAtSignal signal;

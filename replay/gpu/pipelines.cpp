@@ -22,6 +22,9 @@ namespace {
 // Vulkan measures winding as displayed.
 constexpr vk::FrontFace front_face = vk::FrontFace::eCounterClockwise;
 
+// A report times rows in groups that use about 45.
+constexpr std::size_t most_kept = 64;
+
 std::uint32_t bits_of(const SpecValue& value) {
     std::uint32_t bits = 0;
     std::visit([&](auto number) { std::memcpy(&bits, &number, sizeof bits); }, value);
@@ -244,11 +247,13 @@ void PipelineStore::make(const Plan& plan, std::size_t steps, const std::stop_to
         std::optional<Pipeline> pipeline;
     };
     std::map<std::string, Missing> missing;
+    ++plans_;
     for (const PlannedStep& planned : std::span(plan.steps).first(steps)) {
         if (planned.shaders.empty()) continue;
         const RasterState state = state_of(planned, plan.images, device_->info().software);
         std::string key = key_of(planned, state);
-        if (!pipelines_.contains(key)) missing.try_emplace(std::move(key), Missing{&planned, state, {}});
+        if (const auto kept = pipelines_.find(key); kept != pipelines_.end()) kept->second.used = plans_;
+        else missing.try_emplace(std::move(key), Missing{&planned, state, {}});
     }
     if (missing.empty()) return;
     std::vector<Missing*> order;  // the largest first, so that none is left over at the end
@@ -270,17 +275,32 @@ void PipelineStore::make(const Plan& plan, std::size_t steps, const std::stop_to
     }
     milliseconds_ += timer();
     for (auto& [key, one] : missing)
-        if (one.pipeline) pipelines_.emplace(key, *std::move(one.pipeline));
+        if (one.pipeline) keep(key, *std::move(one.pipeline));
+    drop_old();
+}
+
+const Pipeline& PipelineStore::keep(std::string key, Pipeline pipeline) {
+    ++created_;
+    return pipelines_.emplace(std::move(key), Kept{std::move(pipeline), plans_}).first->second.pipeline;
+}
+
+void PipelineStore::drop_old() {
+    if (pipelines_.size() <= most_kept) return;
+    std::vector<std::map<std::string, Kept>::iterator> old;
+    for (auto kept = pipelines_.begin(); kept != pipelines_.end(); ++kept)
+        if (kept->second.used < plans_) old.push_back(kept);
+    std::ranges::sort(old, {}, [](const auto& kept) { return kept->second.used; });
+    for (std::size_t i = 0; i < old.size() && pipelines_.size() > most_kept; ++i) pipelines_.erase(old[i]);
 }
 
 const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {
     const RasterState state = state_of(planned, images, device_->info().software);
     std::string key = key_of(planned, state);
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second;
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second.pipeline;
     HostTimer timer;
-    const auto made_now = pipelines_.emplace(std::move(key), made(planned, state)).first;
+    const Pipeline& made_now = keep(std::move(key), made(planned, state));
     milliseconds_ += timer();
-    return made_now->second;
+    return made_now;
 }
 
 }  // namespace strata

@@ -1,5 +1,6 @@
 // Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once and
-// kept as long as the device: a CPU driver compiles at the first use of each, for up to seconds.
+// kept while they are among the latest used: a CPU driver compiles at the first use of each, for up to seconds, and holds a
+// megabyte for it.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +36,24 @@ public:
     void make(const Plan&, std::size_t steps, const std::stop_token&);
     /// The pipeline of a compute or raster step. Images are those of the plan.
     const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
-    std::size_t created() const { return pipelines_.size(); }
+    std::size_t created() const { return created_; }
     /// What making them took so far.
     double milliseconds() const { return milliseconds_; }
 
 private:
+    struct Kept {
+        Pipeline pipeline;
+        std::uint64_t used = 0;  ///< the latest plan of which it was, counted
+    };
     Pipeline made(const PlannedStep&, const RasterState&) const;
+    const Pipeline& keep(std::string key, Pipeline);
+    /// Drops those that were not used for longest, and none of the latest plan's.
+    void drop_old();
 
     OpenedDevice* device_;
-    std::map<std::string, Pipeline> pipelines_;
+    std::map<std::string, Kept> pipelines_;
+    std::uint64_t plans_ = 0;
+    std::size_t created_ = 0;
     double milliseconds_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "replay/measure/host_memory.h"
 
+#include <malloc.h>
+
 #include <fstream>
 #include <string>
 
@@ -11,5 +13,7 @@ std::uint64_t host_peak_bytes() {
         if (std::uint64_t kib = 0; word == "VmHWM:" && status >> kib) return kib << 10;
     return 0;
 }
+
+void release_freed_memory() { malloc_trim(0); }
 
 }  // namespace strata

@@ -9,4 +9,8 @@ namespace strata {
 /// device's memory is part of it.
 std::uint64_t host_peak_bytes();
 
+/// Gives the system back what the process has freed: the C library keeps it, by thread, and a driver frees a hundred megabytes
+/// with its pipelines.
+void release_freed_memory();
+
 }  // namespace strata

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "passes/scene/object_order.h"
+#include "replay/measure/host_memory.h"
 #include "replay/plural.h"
 #include "replay/report/enough_repeats.h"
 #include "replay/report/flicker.h"
 #include "replay/report/picture_error.h"
+#include "replay/report/row_times.h"
 #include "replay/report/variants.h"
 
 namespace strata {
@@ -87,82 +89,9 @@ Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stag
     return judged ? std::move(accuracy) : Result<Accuracy>(judged.error());
 }
 
-/// What a timed run gave, in its row.
-void add_timing(Measurement& row, const Run& run, const Report& report) {
-    const std::string stage_name(name(report.stage));
-    row.stage_ms = run.stage_ms.at(stage_name);
-    row.frame_ms = *run.frame_ms;
-    if (const auto sorted = run.stage_sort_ms.find(stage_name); sorted != run.stage_sort_ms.end()) row.sort_ms = sorted->second;
-    if (const auto bytes = run.stage_bytes.find(stage_name); bytes != run.stage_bytes.end()) row.stage_bytes = bytes->second;
-    row.bytes_per_pixel = double(row.stage_bytes) / (double(report.width) * report.height);
-    if (const auto ran = run.stage_invocations.find(stage_name); ran != run.stage_invocations.end())
-        row.invocations = ran->second;
-    std::ranges::copy_if(run.counters, std::back_inserter(row.counters),
-                         [&](const CounterRecord& counter) { return counter.technique == row.technique; });
-}
-
-/// The stage's time, and in multiples of the unit's in the same turns, which has times in every turn that the row has; null: no
-/// unit.
-void add_times(Measurement& row, const Run& run, const Run* unit, Stage stage) {
-    const std::string stage_name(name(stage));
-    const std::vector<double>& times = run.stage_ms_by_repeat.at(stage_name);
-    row.stage_ms = spread_of(times);
-    if (!unit) return;
-    std::vector<double> units;
-    for (const std::size_t turn : run.turns) units.push_back(unit->stage_ms_by_repeat.at(stage_name).at(turn));
-    if (!units.empty() && std::ranges::min(units) > 0) row.time = ratio_of(times, units);
-}
-
 /// Repeats that every row has: all of them, or fewer where rows are timed again only while their place is uncertain.
-std::size_t least_repeats_of(const Report& report) {
-    return report.least_repeats > 0 ? std::min(report.least_repeats, report.repeats) : report.repeats;
-}
-
-/// Times of all rows that can do the frame, and the same in units of the technique whose time is the unit.
-Result<void> time_rows(Session& session, std::span<const Variant> all, Report& report, const Progress& tell) {
-    std::vector<Request> timed;
-    std::vector<std::size_t> places;  // in the report, of what is timed
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!report.rows[i].accuracy.not_supported.empty()) continue;
-        timed.push_back(all[i].request);
-        places.push_back(i);
-    }
-    const auto times = [&](const Run& run) { return run.stage_ms_by_repeat.at(std::string(name(report.stage))); };
-    // At its defaults, where they are measured.
-    const auto is_unit = [&](std::size_t i) { return all[i].technique->abilities.is_time_unit; };
-    auto unit = std::ranges::find_if(places, [&](std::size_t i) { return is_unit(i) && all[i].settings.empty(); });
-    if (unit == places.end()) unit = std::ranges::find_if(places, is_unit);
-    const std::size_t unit_place = std::size_t(unit - places.begin());
-    const Repeats repeats{.least = least_repeats_of(report), .most = report.repeats, .again = [&](std::span<const Run> so_far) {
-                              std::vector<Measurement> rows;
-                              for (std::size_t i = 0; i < places.size(); ++i) {
-                                  rows.push_back({.accuracy = report.rows[places[i]].accuracy});
-                                  add_times(rows.back(), so_far[i], unit == places.end() ? nullptr : &so_far[unit_place],
-                                            report.stage);
-                              }
-                              std::vector<bool> again = uncertain_rows(standings(rows), report.question);
-                              if (unit != places.end() && std::ranges::count(again, true) > 0) again[unit_place] = true;
-                              return again;
-                          }};
-    const auto runs = session.time_until(timed, repeats, tell);
-    if (!runs) return runs.error();
-    std::vector<double> unit_times;
-    if (unit != places.end()) unit_times = times((*runs)[unit_place]);
-    const bool measurable = !unit_times.empty() && std::ranges::min(unit_times) > 0;  // 0: a clock too coarse for the frame
-    if (measurable) report.time_unit = all[*unit].technique->name;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        Measurement& row = report.rows[places[i]];
-        add_timing(row, (*runs)[i], report);
-        add_times(row, (*runs)[i], measurable ? &(*runs)[unit_place] : nullptr, report.stage);
-    }
-    if (runs->empty()) return {};
-    const auto repeats_of = [](const Run& run) { return run.turns.size(); };
-    const std::size_t done = std::ranges::max(*runs, {}, repeats_of).turns.size();
-    report.least_repeats = std::ranges::min(*runs, {}, repeats_of).turns.size();
-    const bool is_enough = done >= repeats.least && (done >= repeats.most || std::ranges::count(repeats.again(*runs), true) == 0);
-    if (!is_enough) report.stopped = fmt::format("stopped after {} of {} timed runs", done, report.repeats);
-    report.repeats = done;
-    return {};
+std::size_t least_repeats_of(const ReportRequest& wanted) {
+    return wanted.least_repeats > 0 ? std::min(wanted.least_repeats, wanted.repeats) : wanted.repeats;
 }
 
 /// Flicker of all rows that can do the frame.
@@ -208,15 +137,140 @@ private:
     Session* session_;
 };
 
-/// Progress of a report whose steps take, in units of one run, about 4 for a row's errors, a run per frame of its flicker, and
-/// one per timed run and the one that warms up.
+/// Progress of a report whose steps take, in units of one run, about 4 for a row's errors, one per timed run, and a run per frame
+/// of its flicker; at the end the rows that are timed again, of which there are few.
 struct Shares {
-    double errors = 4, flicker = 0, times = 0;
-    explicit Shares(const ReportRequest& wanted)
-        : flicker(wanted.flicker ? wanted.flicker->frames : 0), times(double(wanted.repeats + 1)) {
-        const double all = errors + flicker + times;
-        errors /= all, flicker /= all, times /= all;
+    double rows = 4, flicker = 0, again = 0;
+    explicit Shares(const ReportRequest& wanted) : flicker(wanted.flicker ? wanted.flicker->frames : 0) {
+        const auto least = double(least_repeats_of(wanted));
+        rows += least;
+        again = .2 * (double(wanted.repeats) - least);
+        const double all = rows + flicker + again;
+        rows /= all, flicker /= all, again /= all;
     }
+};
+
+/// Rows that are timed beside each other. A row waits for the others of its group until its times are known, and the pipelines of
+/// a group are kept; but each group runs the unit, too, and what comes before the stage.
+constexpr std::size_t group_size = 8;
+
+/// Whose time may be the unit first, at its defaults before its other settings: each group has it beside its rows.
+void put_unit_first(std::vector<Variant>& rows) {
+    std::ranges::stable_sort(
+        rows, {}, [](const Variant& row) { return row.technique->abilities.is_time_unit ? (row.settings.empty() ? 0 : 1) : 2; });
+}
+
+/// Makes the rows of a report one group after the other, and times again those whose place is not certain.
+class RowMaker {
+public:
+    RowMaker(Session& session, const ReportRequest& wanted, std::span<const Variant> all, const Yardstick& yardstick,
+             Report& report)
+        : session_(&session),
+          wanted_(&wanted),
+          all_(all),
+          yardstick_(&yardstick),
+          report_(&report),
+          times_(session, wanted.stage, all) {}
+
+    /// Errors and times. Stopped, the report has the complete groups; if there is none, the rows whose errors are known.
+    Result<void> make_all(const Progress& tell) {
+        while (report_->rows.size() < all_.size() && report_->stopped.empty()) {
+            release_freed_memory();
+            const std::size_t begin = report_->rows.size(), end = std::min(begin + group_size, all_.size());
+            if (const auto made = make_group(end, tell); made) continue;
+            else if (made.error().fault != Fault::stopped || report_->rows.empty()) return made;
+            if (begin == 0) {
+                report_->is_timed = false;
+                report_->stopped = fmt::format("stopped after the errors of {} of {} rows; no time was measured",
+                                               report_->rows.size(), all_.size());
+            } else {
+                report_->rows.resize(begin);
+                report_->stopped = fmt::format("stopped after {} of {} rows", begin, all_.size());
+            }
+        }
+        count_repeats();
+        return {};
+    }
+    /// Times the rows whose place is uncertain as often as rows are timed at most.
+    Result<void> time_again(const Progress& tell) {
+        const std::size_t most = wanted_->repeats, least = least_repeats_of(*wanted_);
+        if (most == least) return {};
+        const std::vector<bool> uncertain = uncertain_rows(standings(report_->rows), wanted_->question);
+        std::vector<std::size_t> rows;
+        for (std::size_t i = 0; i < uncertain.size(); ++i)
+            if (uncertain[i] && i != unit_) rows.push_back(i);
+        for (std::size_t begin = 0; begin < rows.size() && report_->stopped.empty(); begin += group_size) {
+            const std::span group = std::span(rows).subspan(begin, std::min(group_size, rows.size() - begin));
+            const auto told = [&](std::string_view what, double done) {
+                tell(fmt::format("{} of {} once more, {}", plural(rows.size(), "row"), all_.size(), what),
+                     (double(begin) + done * double(group.size())) / double(rows.size()));
+            };
+            const auto timed = times_.time({group.begin(), group.end()}, most - least, told);
+            if (!timed && timed.error().fault != Fault::stopped) return timed;
+            for (const std::size_t i : group) {
+                times_.add_to(report_->rows[i], i, *report_);
+                if (times_.repeats(i) < most)
+                    report_->stopped = fmt::format("stopped after {} of {} timed runs", times_.repeats(i), most);
+            }
+        }
+        if (unit_) times_.add_to(report_->rows[*unit_], *unit_, *report_);
+        count_repeats();
+        return {};
+    }
+
+private:
+    Result<void> make_group(std::size_t end, const Progress& tell) {
+        const std::size_t begin = report_->rows.size();
+        for (std::size_t i = begin; i < end; ++i) {
+            const Variant& variant = all_[i];
+            tell(fmt::format("{} of {}, {}", i + 1, all_.size(), label(variant.technique->name, variant.settings)),
+                 double(i) / double(all_.size()));
+            auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, *yardstick_);
+            if (!accuracy) return accuracy.error();
+            const Tolerance tolerance = tolerance_at(variant.technique->tolerance, variant.settings, {});
+            report_->rows.push_back({.technique = std::string(variant.technique->name),
+                                     .settings = variant.settings,
+                                     .accuracy = *std::move(accuracy),
+                                     .tolerance = tolerance.rmse,
+                                     .tolerated_worst = tolerance.worst,
+                                     .model_is = variant.technique->model_is});
+            if (!unit_ && is_supported(i) && variant.technique->abilities.is_time_unit) times_.set_unit(*(unit_ = i));
+        }
+        std::vector<std::size_t> timed;
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_supported(i)) timed.push_back(i);
+        const auto told = [&](std::string_view what, double) {
+            tell(fmt::format("{} to {} of {}, {}", begin + 1, end, all_.size(), what), double(end) / double(all_.size()));
+        };
+        if (const auto done = times_.time(timed, least_repeats_of(*wanted_), told); !done) return done;
+        if (times_.has_unit()) report_->time_unit = all_[*unit_].technique->name;
+        for (const std::size_t i : timed) {
+            if (times_.repeats(i) < least_repeats_of(*wanted_) && report_->stopped.empty())
+                report_->stopped = fmt::format("stopped after {} of {} timed runs", times_.repeats(i), wanted_->repeats);
+            times_.add_to(report_->rows[i], i, *report_);
+        }
+        for (std::size_t i = begin; i < end && wanted_->on_row; ++i) wanted_->on_row(report_->rows[i], i + 1, all_.size());
+        return {};
+    }
+    bool is_supported(std::size_t row) const { return report_->rows[row].accuracy.not_supported.empty(); }
+    void count_repeats() {
+        report_->repeats = 0;
+        report_->least_repeats = wanted_->repeats;
+        for (std::size_t i = 0; i < report_->rows.size(); ++i) {
+            const bool is_beside_others = i == unit_ && report_->rows.size() > 1;
+            if (times_.repeats(i) == 0 || is_beside_others) continue;
+            report_->repeats = std::max(report_->repeats, times_.repeats(i));
+            report_->least_repeats = std::min(report_->least_repeats, times_.repeats(i));
+        }
+    }
+
+    Session* session_;
+    const ReportRequest* wanted_;
+    std::span<const Variant> all_;
+    const Yardstick* yardstick_;
+    Report* report_;
+    RowTimes times_;
+    std::optional<std::size_t> unit_;
 };
 
 }  // namespace
@@ -273,8 +327,9 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         if (progress) progress(what, done);
     };
     if (techniques_of(wanted.stage).empty()) return fail(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
-    const auto all = variants(wanted);
+    auto all = variants(wanted);
     if (!all) return all.error();
+    put_unit_first(*all);
     const auto frame = session.frame(wanted.base.variant.frame);
     if (!frame) return frame.error();
     View view = frame->view;
@@ -311,39 +366,19 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
         yardstick->picture = *std::move(picture);
     }
     report.truth = yardstick->name;
-    for (std::size_t i = 0; i < all->size(); ++i) {
-        const Variant& variant = (*all)[i];
-        const Tolerance tolerance = tolerance_at(variant.technique->tolerance, variant.settings, {});
-        report.rows.push_back({.technique = std::string(variant.technique->name),
-                               .settings = variant.settings,
-                               .tolerance = tolerance.rmse,
-                               .tolerated_worst = tolerance.worst,
-                               .model_is = variant.technique->model_is});
-        tell(fmt::format("{} of {}, {}", i + 1, all->size(), label(variant.technique->name, variant.settings)),
-             shares.errors * double(i) / double(all->size()));
-        auto accuracy = measure_accuracy(session, variant, wanted.stage, *yardstick);
-        if (!accuracy && accuracy.error().fault == Fault::stopped && i > 0) {
-            report.rows.pop_back();
-            report.stopped = fmt::format("stopped after the errors of {} of {} rows; no time was measured", i, all->size());
-            report.is_timed = false;
-            break;
-        }
-        if (!accuracy) return accuracy.error();
-        report.rows.back().accuracy = *std::move(accuracy);
-        if (wanted.on_row) wanted.on_row(report.rows.back(), i + 1, all->size());
-    }
+    RowMaker maker(session, wanted, *all, *yardstick, report);
+    const auto made = maker.make_all([&](std::string_view what, double done) { tell(what, shares.rows * done); });
+    if (!made) return made.error();
     if (wanted.flicker && report.stopped.empty()) {
-        const auto told = [&](std::string_view what, double done) { tell(what, shares.errors + shares.flicker * done); };
+        const auto told = [&](std::string_view what, double done) { tell(what, shares.rows + shares.flicker * done); };
         const auto added = add_flicker(session, wanted, *all, report, told);
         if (!added && added.error().fault != Fault::stopped) return added.error();
-        if (!added) report.stopped = "stopped before flicker and times were measured", report.is_timed = false;
+        if (!added) report.stopped = "stopped before flicker was measured";
     }
     if (report.stopped.empty()) {
-        const auto told = [&](std::string_view what, double done) { tell(what, 1 - shares.times * (1 - done)); };
-        const auto timed = time_rows(session, *all, report, told);
-        if (!timed && timed.error().fault != Fault::stopped) return timed.error();
-        if (!timed) report.stopped = "stopped before a time was measured";
-        report.is_timed = bool(timed);
+        const auto again =
+            maker.time_again([&](std::string_view what, double done) { tell(what, 1 - shares.again * (1 - done)); });
+        if (!again) return again.error();
     }
     if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {

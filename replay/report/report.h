@@ -45,7 +45,7 @@ struct ReportRequest {
     /// (enough_repeats.h).
     std::size_t least_repeats = 0;
     std::optional<Walk> flicker;
-    /// Told of each row as soon as its errors are known: the row, its place from 1 on, and of how many.
+    /// Told of each row as soon as its errors and times are known: the row, its place from 1 on, and of how many.
     std::function<void(const Measurement&, std::size_t, std::size_t)> on_row = {};
 };
 
@@ -83,7 +83,7 @@ struct Report {
     Question question;
     std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
-    std::string stopped;            ///< what is missing because a stop was asked for: "stopped after 3 of 7 timed runs"
+    std::string stopped;            ///< what is missing because a stop was asked for: "stopped after 16 of 97 rows"
     bool is_timed = true;           ///< false: stopped before any time was measured
     std::size_t sorted_objects = 0, sorted_particles = 0;  ///< of the frame, by techniques with Abilities::sorts_objects
 };

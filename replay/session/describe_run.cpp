@@ -143,7 +143,9 @@ void add_costs(Run& run, const std::vector<std::vector<StepCost>>& repeats, cons
         add_sorts(stage, frame_sums);
         run.stage_sort_ms[stage] = spread_of(ms);
     }
+    run.stage_sort_ms_by_repeat = sorts;
     run.frame_ms = spread_of(frame_sums);
+    run.frame_ms_by_repeat = std::move(frame_sums);
     for (std::size_t i = 0; i < run.steps.size(); ++i) {
         run.steps[i].ms_by_repeat = sums_of([&](std::size_t step) { return step == i; });
         run.steps[i].ms = spread_of(run.steps[i].ms_by_repeat);

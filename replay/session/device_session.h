@@ -32,7 +32,6 @@ public:
     Result<Run> run(const Request&) override;
     Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) override;
     Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress&) override;
-    Result<std::vector<Run>> time_until(std::span<const Request>, const Repeats&, const Progress&) override;
     Result<PlannedFrame> plan(const Request&) override;
     Result<HostImage> peek(const Request&, std::size_t step, const std::string& image) override;
     Result<std::vector<StepImages>> step_images(const Request&, Stage) override;
@@ -60,9 +59,8 @@ public:
         std::map<std::string, double> sorts;
     };
     using Turn = std::vector<TurnTimes>;
-    /// Runs every request that is due once, what they share once; times of the others stay empty. The first turn, at which all
-    /// are due, makes the runs that the others add times to.
-    Result<Turn> time_in_turn(std::span<const Request>, const std::vector<bool>& due, std::vector<Run>&, const Progress&);
+    /// Runs every request once, what they share once. The first turn makes the runs that the others add times to.
+    Result<Turn> time_in_turn(std::span<const Request>, std::vector<Run>&, const Progress&);
     Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 
 private:

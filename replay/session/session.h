@@ -97,10 +97,11 @@ struct Run {
     std::map<std::string, std::string> choices;  ///< stage to "technique key=value ..."
     std::optional<Spread> frame_ms;              ///< with timing: sum of the steps
     std::map<std::string, Spread> stage_ms;      ///< with timing: sum of the steps of the stage's technique
-    std::map<std::string, std::vector<double>> stage_ms_by_repeat;  ///< what stage_ms is the spread of, in turn
-    std::vector<std::size_t> turns;                                 ///< with timing: in which turn each of these repeats was
     std::map<std::string, Spread>
         stage_sort_ms;  ///< of stage_ms: what the host sorts, of techniques with Abilities::sorts_objects
+    // What they are the spreads of, in turn.
+    std::vector<double> frame_ms_by_repeat;
+    std::map<std::string, std::vector<double>> stage_ms_by_repeat, stage_sort_ms_by_repeat;
     std::map<std::string, std::uint64_t> stage_invocations;  ///< with timing: how often its fragment and compute shaders ran
     std::uint32_t width = 0, height = 0, samples = 1;
     std::uint64_t image_bytes = 0, buffer_bytes = 0;
@@ -147,13 +148,6 @@ struct ReloadedShaders {
     std::size_t compiled = 0;           ///< the others of them were, by an earlier reload
 };
 
-/// How often requests are timed: all of them `least` times, and then those that `again` says true of (told of every request's
-/// times so far, in their order), until none is left or they have `most` repeats.
-struct Repeats {
-    std::size_t least = 3, most = 7;
-    std::function<std::vector<bool>(std::span<const Run>)> again;
-};
-
 /// What a result is compared with. The model of a frame of a million samples takes minutes, and who asks for the model alone
 /// waits for no truth.
 enum class Against { model_and_truth, model, truth };
@@ -178,14 +172,10 @@ public:
     /// Runs a request in which a stage's outputs are these images instead of what its own act gives; everything else is executed.
     /// Fails (usage) where later stages read more of that act: buffers, or images that are missing here or not of its shape.
     virtual Result<Run> run_from(const Request&, Stage, const ImageSet& outputs) = 0;
-    /// Warms every request up, then runs them in turn, `repeats` times each, without the memo: medians with their spread. Stopped
-    /// (stop_when), it gives the repeats that were complete for all, or fails where there is none.
+    /// Runs the requests in turn, `repeats` times each, without the memo: medians with their spread. A turn before them warms up;
+    /// it counts where it made no pipeline, as when every one of several requests was run before. Stopped (stop_when), it gives
+    /// the repeats that were complete for all, or fails where there is none.
     virtual Result<std::vector<Run>> time(std::span<const Request>, std::size_t repeats, const Progress& = {}) = 0;
-    /// The same with as many repeats as each request is worth. Turns stay whole: what is timed in one runs one after the other.
-    virtual Result<std::vector<Run>> time_until(std::span<const Request> requests, const Repeats& repeats,
-                                                const Progress& progress = {}) {
-        return time(requests, repeats.most, progress);
-    }
     /// The plan of a request, without running it.
     struct PlannedFrame {
         Plan plan;

@@ -107,14 +107,13 @@ Result<void> DeviceSession::time_sorts(const Request& request, const Run& run, s
     return {};
 }
 
-Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, const std::vector<bool>& due,
-                                                        std::vector<Run>& runs, const Progress& progress) {
+Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request> requests, std::vector<Run>& runs,
+                                                        const Progress& progress) {
     const bool is_first = runs.empty();
     memo_.clear();
     ExecutedActs acts;
     Turn times(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
-        if (!due[i]) continue;
         if (progress) progress("", double(i) / double(requests.size()));
         if (is_first) {
             auto planned = plan_run(requests[i]);
@@ -145,65 +144,29 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
     return times;
 }
 
-namespace {
-
-/// What was measured of one request.
-struct TimesSoFar {
-    std::vector<std::vector<StepCost>> steps;
-    SortTimes sorts;
-    std::vector<std::size_t> turns;
-
-    void add(DeviceSession::TurnTimes&& times, std::size_t turn) {
-        steps.push_back(std::move(times.steps));
-        for (const auto& [stage, ms] : times.sorts) sorts[stage].push_back(ms);
-        turns.push_back(turn);
-    }
-    void add_to(Run& run) const {
-        add_costs(run, steps, sorts);
-        run.turns = turns;
-    }
-};
-
-/// Which requests the next turn times; none when it is enough.
-std::vector<bool> due_next(const std::vector<Run>& runs, const std::vector<TimesSoFar>& times, const Repeats& repeats,
-                           std::size_t turns) {
-    if (turns < repeats.least) return std::vector<bool>(runs.size(), true);
-    if (turns >= repeats.most || !repeats.again) return std::vector<bool>(runs.size(), false);
-    std::vector<Run> measured;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        Run& run = measured.emplace_back(Run{.steps = runs[i].steps, .choices = runs[i].choices});
-        times[i].add_to(run);
-    }
-    return repeats.again(measured);
-}
-
-}  // namespace
-
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
-    return time_until(requests, {.least = repeats, .most = repeats, .again = {}}, progress);
-}
-
-Result<std::vector<Run>> DeviceSession::time_until(std::span<const Request> requests, const Repeats& repeats,
-                                                   const Progress& progress) {
     std::vector<Run> runs;
-    std::vector<TimesSoFar> so_far(requests.size());
-    const auto turn_of = [&](const std::vector<bool>& due, const std::string& what, std::size_t place) {
-        return time_in_turn(requests, due, runs, [&](std::string_view, double done) {
-            if (progress) progress(what, (double(place) + done) / double(repeats.most + 1));
-        });
+    if (requests.empty()) return runs;
+    std::vector<std::vector<std::vector<StepCost>>> steps(requests.size());
+    std::vector<SortTimes> sorts(requests.size());
+    const auto add = [&](Turn turn) {
+        for (std::size_t i = 0; i < turn.size(); ++i) {
+            steps[i].push_back(std::move(turn[i].steps));
+            for (const auto& [stage, ms] : turn[i].sorts) sorts[i][stage].push_back(ms);
+        }
     };
-    const auto warmed = turn_of(std::vector<bool>(requests.size(), true), "warming up", 0);
-    if (!warmed) return warmed.error();
-    for (std::size_t turn = 0;; ++turn) {
-        const std::vector<bool> due = due_next(runs, so_far, repeats, turn);
-        if (std::ranges::none_of(due, std::identity())) break;
-        auto times = turn_of(due, fmt::format("timing, {} of {}", turn + 1, repeats.most), turn + 1);
-        if (!times && times.error().fault == Fault::stopped && turn > 0) break;
-        if (!times) return times.error();
-        for (std::size_t i = 0; i < due.size(); ++i)
-            if (due[i]) so_far[i].add(std::move((*times)[i]), turn);
+    const std::size_t pipelines_before = executor_->pipelines_created();
+    for (std::size_t place = 0; steps.front().size() < repeats; ++place) {
+        const std::string what = place == 0 ? "warming up" : fmt::format("timing, {} of {}", steps.front().size() + 1, repeats);
+        auto turn = time_in_turn(requests, runs, [&](std::string_view, double done) {
+            if (progress) progress(what, (double(place) + done) / double(repeats + 1));
+        });
+        if (!turn && turn.error().fault == Fault::stopped && !steps.front().empty()) break;
+        if (!turn) return turn.error();
+        const bool is_warm = place > 0 || (requests.size() > 1 && executor_->pipelines_created() == pipelines_before);
+        if (is_warm) add(*std::move(turn));
     }
-    for (std::size_t i = 0; i < runs.size(); ++i) so_far[i].add_to(runs[i]);
+    for (std::size_t i = 0; i < runs.size(); ++i) add_costs(runs[i], steps[i], sorts[i]);
     return runs;
 }
 

@@ -75,15 +75,13 @@ TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
     write_file(folder() / "sound.strata", sound_capture());
     for (const int signal : {SIGINT, SIGTERM}) {
         const pid_t process =
-            start_strata("report sound.strata --repeats 1000 --methods sorted_lists,weighted -o report.txt", "progress.txt");
-        for (int waits = 0; waits < 600 && text_of("progress.txt").find("3 of 3") == std::string::npos; ++waits)
+            start_strata("report sound.strata --repeats 20 -o report.txt", "progress.txt");
+        for (int waits = 0; waits < 600 && text_of("progress.txt").find("8 of ") == std::string::npos; ++waits)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
         kill(process, signal);
         EXPECT_EQ(code_of(process), 130);
         const std::string report = text_of("report.txt");
-        EXPECT_THAT(report, testing::HasSubstr("\nstopped after "));
-        EXPECT_THAT(report, testing::HasSubstr(" of 1000 timed runs"));
+        EXPECT_THAT(report, testing::ContainsRegex("\nstopped after [0-9]+ of [0-9]+ (rows|timed runs)\n"));
         EXPECT_THAT(report, testing::HasSubstr("sorted_lists"));
         std::filesystem::remove(folder() / "report.txt");
         std::filesystem::remove(folder() / "progress.txt");

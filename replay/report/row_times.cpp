@@ -1,0 +1,54 @@
+#include "replay/report/row_times.h"
+
+#include <algorithm>
+
+namespace strata {
+namespace {
+
+void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+}  // namespace
+
+Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, const Progress& progress) {
+    if (rows.empty()) return {};
+    if (unit_ && std::ranges::count(rows, *unit_) == 0) rows.insert(rows.begin(), *unit_);
+    std::vector<Request> requests;
+    for (const std::size_t row : rows) requests.push_back(all_[row].variant->request);
+    const auto runs = session_->time(requests, repeats, progress);
+    if (!runs) return runs.error();
+    const std::string stage(name(stage_));
+    const auto unit = std::ranges::find(rows, unit_.value_or(all_.size()));
+    const std::vector<double> unit_ms =
+        unit == rows.end() ? std::vector<double>() : (*runs)[std::size_t(unit - rows.begin())].stage_ms_by_repeat.at(stage);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        Row& row = all_[rows[i]];
+        const Run& run = (*runs)[i];
+        append(row.stage_ms, run.stage_ms_by_repeat.at(stage));
+        append(row.frame_ms, run.frame_ms_by_repeat);
+        append(row.unit_ms, unit_ms);
+        if (const auto sorts = run.stage_sort_ms_by_repeat.find(stage); sorts != run.stage_sort_ms_by_repeat.end())
+            append(row.sort_ms, sorts->second);
+        if (const auto bytes = run.stage_bytes.find(stage); bytes != run.stage_bytes.end()) row.bytes = bytes->second;
+        if (const auto ran = run.stage_invocations.find(stage); ran != run.stage_invocations.end()) row.invocations = ran->second;
+        row.counters.clear();
+        std::ranges::copy_if(run.counters, std::back_inserter(row.counters),
+                             [&](const CounterRecord& counter) { return counter.technique == row.variant->technique->name; });
+    }
+    return {};
+}
+
+bool RowTimes::has_unit() const { return unit_ && repeats(*unit_) > 0 && std::ranges::min(all_[*unit_].stage_ms) > 0; }
+
+void RowTimes::add_to(Measurement& measured, std::size_t index, const Report& report) const {
+    const Row& row = all_[index];
+    measured.stage_ms = spread_of(row.stage_ms);
+    measured.frame_ms = spread_of(row.frame_ms);
+    if (!row.sort_ms.empty()) measured.sort_ms = spread_of(row.sort_ms);
+    if (has_unit()) measured.time = ratio_of(row.stage_ms, row.unit_ms);
+    measured.stage_bytes = row.bytes;
+    measured.bytes_per_pixel = double(row.bytes) / (double(report.width) * report.height);
+    measured.invocations = row.invocations;
+    measured.counters = row.counters;
+}
+
+}  // namespace strata
