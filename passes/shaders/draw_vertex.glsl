@@ -1,7 +1,7 @@
 // A vertex of the scene as draw.vert hands it on: for vertex shaders that say more than that one.
 #ifndef PASSES_SHADERS_DRAW_VERTEX_GLSL
 #define PASSES_SHADERS_DRAW_VERTEX_GLSL
-#include "passes/shaders/scene.glsl"
+#include "passes/shaders/vertex.glsl"
 
 layout(location = 0) out vec3 out_position;  // view space
 layout(location = 1) out vec3 out_normal;
@@ -24,7 +24,7 @@ layout(location = 13) flat out vec4 out_row1;          // w: distortion
 // The same bits in every pass: depth tests compare with what another shader wrote.
 invariant gl_Position;
 
-vec3 view_position(uint vertex, uint draw) { return (draws[draw].to_view * vec4(vertices[vertex].position, 1.0)).xyz; }
+vec3 view_position(uint vertex, uint draw) { return (draws[draw].to_view * vec4(position_of(vertex, draw), 1.0)).xyz; }
 
 void hand_on_material(DrawRecord d) {
     const MaterialRecord m = materials[d.material];
@@ -40,9 +40,9 @@ void hand_on_material(DrawRecord d) {
 }
 
 void hand_on(uint vertex, uint draw) {
-    const Vertex v = vertices[vertex];
+    const Vertex v = vertex_of(vertex, draw);
     const DrawRecord d = draws[draw];
-    out_position = view_position(vertex, draw);
+    out_position = (d.to_view * vec4(v.position, 1.0)).xyz;
     out_normal = d.normal_to_view * v.normal;
     out_tangent = vec4(mat3(d.to_view) * v.tangent.xyz, v.tangent.w);
     out_uv = vec4(v.uv0, v.uv1);

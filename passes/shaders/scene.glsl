@@ -8,7 +8,7 @@
 
 // A uniform block: llvmpipe reads it once for all lanes of a vector, and a storage buffer lane by lane.
 layout(set = 1, binding = 0, scalar) uniform View { ViewRecord view; };
-layout(set = 1, binding = 1, scalar) readonly buffer Vertices { Vertex vertices[]; };
+layout(set = 1, binding = 1, scalar) readonly buffer VertexPositions { vec3 vertex_positions[]; };
 layout(set = 1, binding = 2, scalar) readonly buffer Draws { DrawRecord draws[]; };
 layout(set = 1, binding = 3, scalar) readonly buffer Materials { MaterialRecord materials[]; };
 layout(set = 1, binding = 4, scalar) readonly buffer Textures { TextureRecord textures[]; };
@@ -21,5 +21,15 @@ layout(set = 1, binding = 10, scalar) readonly buffer BlockerPortals { BlockerPo
 layout(set = 1, binding = 11, scalar) readonly buffer ClipPlanes { ClipPlaneRecord clip_planes[]; };
 layout(set = 1, binding = 12, scalar) readonly buffer LtcTable { LtcRecord ltc_table[]; };
 layout(set = 1, binding = 13, scalar) readonly buffer Indices { uint indices[]; };
+layout(set = 1, binding = 14, scalar) readonly buffer VertexNormals { vec3 vertex_normals[]; };
+layout(set = 1, binding = 15, scalar) readonly buffer VertexTangents { vec4 vertex_tangents[]; };
+layout(set = 1, binding = 16, scalar) readonly buffer VertexUvs { vec2 vertex_uvs[]; };
+layout(set = 1, binding = 17, scalar) readonly buffer VertexColors { vec4 vertex_colors[]; };
+// Of particles, whose corners are in view space: xy of two corners each (passes/shaders/vertex.glsl), and the depth of all four.
+layout(set = 1, binding = 18, scalar) readonly buffer ParticleBottoms { vec4 particle_bottoms[]; };
+layout(set = 1, binding = 19, scalar) readonly buffer ParticleTops { vec4 particle_tops[]; };
+layout(set = 1, binding = 20, scalar) readonly buffer ParticleDepths { float particle_depths[]; };
+layout(set = 1, binding = 21, scalar) readonly buffer ParticleUvs { vec4 particle_uvs[]; };      // origin and size
+layout(set = 1, binding = 22, scalar) readonly buffer ParticleGlows { vec4 particle_glows[]; };  // w: metres towards the eye
 
 #endif

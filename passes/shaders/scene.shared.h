@@ -48,18 +48,6 @@ struct ViewRecord {
     float time;
 };
 
-// Particles are quads with color in `color`, their emission and depth offset here too.
-struct Vertex {
-    vec3 position;  // object space of its draw (view space for particles)
-    vec3 normal;
-    vec4 tangent;
-    vec2 uv0;
-    vec2 uv1;
-    vec4 color;
-    vec3 emissive;
-    float depth_offset;  // metres towards the eye
-};
-
 struct DrawRecord {
     mat4 to_view;  // object to view
     mat3 normal_to_view;
@@ -71,7 +59,14 @@ struct DrawRecord {
     float bound_radius;
     mat4 motion;         // of a point in view space: how far it has moved since the frame before, seen by a camera that did not
     uint first_index;    // where its triangles begin in the list of indices
-    uint vertex_offset;  // added to each of them
+    uint vertex_offset;  // added to each of them; of a mesh its first place in vertex_positions
+    // A mesh's first places in what its vertices have beside a position, no_index where they have none.
+    uint normals;
+    uint tangents;
+    uint uv0;  // in vertex_uvs
+    uint uv1;
+    uint colors;          // a mesh has a color per vertex, an emitter one per particle
+    uint first_particle;  // of an emitter, in what particles have
 };
 
 // Kinds of textures that a material has.

@@ -2,7 +2,7 @@
 // so that maps that share a layer stay apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/shaders/scene.glsl"
+#include "passes/shaders/vertex.glsl"
 #include "passes/shadows/shadows.shared.h"
 
 layout(push_constant, scalar) uniform Cast { CastPush push; };
@@ -13,7 +13,7 @@ layout(location = 1) out float out_alpha;
 layout(location = 2) flat out uint out_draw;
 
 void main() {
-    const Vertex v = vertices[gl_VertexIndex];
+    const Vertex v = vertex_of(gl_VertexIndex, gl_InstanceIndex);
     const vec4 position = draws[gl_InstanceIndex].to_view * vec4(v.position, 1.0);
     const ShadowRecord shadow = shadows[push.record];
     const vec4 map = shadow.view_to_map * vec4(position.xyz, 1.0);

@@ -27,7 +27,7 @@ std::span<const std::byte> ltc_bytes(const SceneRecords&) { return std::as_bytes
 
 constexpr BufferRow rows[] = {
     {"View", view_bytes},
-    {"Vertices", bytes_of<&SceneRecords::vertices>},
+    {"VertexPositions", bytes_of<&SceneRecords::positions>},
     {"Draws", bytes_of<&SceneRecords::draws>},
     {"Materials", bytes_of<&SceneRecords::materials>},
     {"Textures", bytes_of<&SceneRecords::textures>},
@@ -42,6 +42,15 @@ constexpr BufferRow rows[] = {
     // Not offered to shaders as such, but the source of every draw list.
     {"DrawCommands", bytes_of<&SceneRecords::commands>},
     {"Indices", bytes_of<&SceneRecords::indices>},
+    {"VertexNormals", bytes_of<&SceneRecords::normals>},
+    {"VertexTangents", bytes_of<&SceneRecords::tangents>},
+    {"VertexUvs", bytes_of<&SceneRecords::uvs>},
+    {"VertexColors", bytes_of<&SceneRecords::colors>},
+    {"ParticleBottoms", bytes_of<&SceneRecords::particle_bottoms>},
+    {"ParticleTops", bytes_of<&SceneRecords::particle_tops>},
+    {"ParticleDepths", bytes_of<&SceneRecords::particle_depths>},
+    {"ParticleUvs", bytes_of<&SceneRecords::particle_uvs>},
+    {"ParticleGlows", bytes_of<&SceneRecords::particle_glows>},
 };
 
 consteval std::size_t row_of(std::string_view name) {

@@ -26,7 +26,13 @@ struct CommandRange {
 
 struct SceneRecords : LightRecords {
     ViewRecord view{};
-    std::vector<Vertex> vertices;
+    // What vertices have, mesh by mesh (passes/shaders/vertex.glsl).
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec4> tangents, colors;  ///< colors of particles, too
+    std::vector<glm::vec2> uvs;
+    // What particles have, emitter by emitter.
+    std::vector<glm::vec4> particle_bottoms, particle_tops, particle_uvs, particle_glows;
+    std::vector<float> particle_depths;
     std::vector<std::uint32_t> indices;
     std::vector<DrawRecord> draws;          ///< Frame::draws, then one per emitter
     std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter

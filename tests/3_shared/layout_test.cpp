@@ -53,19 +53,8 @@ std::vector<Record> view_records() {
 }
 
 std::vector<Record> geometry_records() {
-    using V = Vertex;
     using D = DrawRecord;
-    return {{"Vertex",
-             sizeof(V),
-             {{"position", offsetof(V, position)},
-              {"normal", offsetof(V, normal)},
-              {"tangent", offsetof(V, tangent)},
-              {"uv0", offsetof(V, uv0)},
-              {"uv1", offsetof(V, uv1)},
-              {"color", offsetof(V, color)},
-              {"emissive", offsetof(V, emissive)},
-              {"depth_offset", offsetof(V, depth_offset)}}},
-            {"DrawRecord",
+    return {{"DrawRecord",
              sizeof(D),
              {{"to_view", offsetof(D, to_view)},
               {"normal_to_view", offsetof(D, normal_to_view)},
@@ -77,7 +66,13 @@ std::vector<Record> geometry_records() {
               {"bound_radius", offsetof(D, bound_radius)},
               {"motion", offsetof(D, motion)},
               {"first_index", offsetof(D, first_index)},
-              {"vertex_offset", offsetof(D, vertex_offset)}}}};
+              {"vertex_offset", offsetof(D, vertex_offset)},
+              {"normals", offsetof(D, normals)},
+              {"tangents", offsetof(D, tangents)},
+              {"uv0", offsetof(D, uv0)},
+              {"uv1", offsetof(D, uv1)},
+              {"colors", offsetof(D, colors)},
+              {"first_particle", offsetof(D, first_particle)}}}};
 }
 
 std::vector<Record> material_records() {
@@ -218,12 +213,21 @@ TEST(Layout, SceneRecordsLieWhereTheShadersReadThem) {
             EXPECT_EQ(member.offset_in_holder, field->offset) << shader->name << ": " << member.holder << "." << own_name(member);
         }
     }
-    EXPECT_TRUE(seen.contains("ViewRecord") && seen.contains("Vertex") && seen.contains("DrawRecord")) << "nothing was compared";
+    EXPECT_TRUE(seen.contains("ViewRecord") && seen.contains("DrawRecord")) << "nothing was compared";
 }
 
 TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
     const std::map<std::string_view, std::size_t> strides = {
-        {"vertices", sizeof(Vertex)},
+        {"vertex_positions", sizeof(glm::vec3)},
+        {"vertex_normals", sizeof(glm::vec3)},
+        {"vertex_tangents", sizeof(glm::vec4)},
+        {"vertex_uvs", sizeof(glm::vec2)},
+        {"vertex_colors", sizeof(glm::vec4)},
+        {"particle_bottoms", sizeof(glm::vec4)},
+        {"particle_tops", sizeof(glm::vec4)},
+        {"particle_depths", sizeof(float)},
+        {"particle_uvs", sizeof(glm::vec4)},
+        {"particle_glows", sizeof(glm::vec4)},
         {"draws", sizeof(DrawRecord)},
         {"materials", sizeof(MaterialRecord)},
         {"textures", sizeof(TextureRecord)},
@@ -235,8 +239,10 @@ TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
         {"clip_planes", sizeof(ClipPlaneRecord)},
         {"ltc_table", sizeof(LtcRecord)},
     };
-    const std::set<std::string> scene_blocks = {"Vertices", "Draws",         "Materials",      "Textures",   "Lights",  "Shadows",
-                                                "Blockers", "LightBlockers", "BlockerPortals", "ClipPlanes", "LtcTable"};
+    const std::set<std::string> scene_blocks = {
+        "VertexPositions", "VertexNormals", "VertexTangents", "VertexUvs",      "VertexColors", "ParticleBottoms", "ParticleTops",
+        "ParticleDepths",  "ParticleUvs",   "ParticleGlows",  "Draws",          "Materials",    "Textures",        "Lights",
+        "Shadows",         "Blockers",      "LightBlockers",  "BlockerPortals", "ClipPlanes",   "LtcTable"};
     for (const Shader* shader : built_in_shaders()) {
         for (const BlockMember& member : shader->members) {
             if (!scene_blocks.contains(member.block) || member.holder != member.block) continue;

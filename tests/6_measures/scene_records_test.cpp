@@ -38,8 +38,11 @@ TEST(SceneRecords, AreTheSameTenThousandKilometresFromTheOrigin) {
                 EXPECT_LT(apart(here.draws[i].to_view[column], there.draws[i].to_view[column]), no_farther_apart) << scenario;
             EXPECT_LT(apart(here.draws[i].bound_center, there.draws[i].bound_center), no_farther_apart) << scenario;
         }
-        for (std::size_t i = 0; i < here.vertices.size(); ++i)
-            EXPECT_LT(apart(here.vertices[i].position, there.vertices[i].position), no_farther_apart) << scenario;
+        for (std::size_t i = 0; i < here.particle_tops.size(); ++i)
+            EXPECT_LT(apart({glm::vec2(here.particle_tops[i]), here.particle_depths[i]},
+                            {glm::vec2(there.particle_tops[i]), there.particle_depths[i]}),
+                      no_farther_apart)
+                << scenario;
         for (std::size_t i = 0; i < here.lights.size(); ++i) {
             if (here.lights[i].type == static_cast<uint>(LightType::directional)) continue;  // it is nowhere
             EXPECT_LT(apart(here.lights[i].position, there.lights[i].position), no_farther_apart) << scenario;

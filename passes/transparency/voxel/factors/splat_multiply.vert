@@ -14,7 +14,7 @@ void main() {
     vec3 depths;
     for (uint i = 0u; i < 3u; ++i) {
         const uint vertex = base + indices[first + i];
-        depths[i] = view_position(vertex, gl_InstanceIndex).z - vertices[vertex].depth_offset;
+        depths[i] = view_position(vertex, gl_InstanceIndex).z - depth_offset_of(vertex, gl_InstanceIndex);
     }
     gl_Layer = slice_of_triangle(depths, draws[gl_InstanceIndex].layer);
     hand_on(base + indices[place], gl_InstanceIndex);

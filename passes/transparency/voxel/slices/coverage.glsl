@@ -4,7 +4,7 @@
 #ifndef PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_COVERAGE_GLSL
 #extension GL_GOOGLE_include_directive : require
-#include "passes/shaders/scene.glsl"
+#include "passes/shaders/vertex.glsl"
 #include "passes/transparency/voxel/slices/depth_curve.glsl"
 
 struct DrawCommand {
@@ -26,9 +26,9 @@ Triangle triangle_of(DrawCommand command, uint index) {
     triangle.nearest = 3.4e38;
     triangle.farthest = 0.0;
     for (uint i = 0u; i < 3u; ++i) {
-        const Vertex v = vertices[int(indices[command.first_index + 3u * index + i]) + command.vertex_offset];
-        triangle.corners[i] = (draws[command.first_instance].to_view * vec4(v.position, 1.0)).xyz;
-        triangle.depth_offset = v.depth_offset;
+        const uint vertex = int(indices[command.first_index + 3u * index + i]) + command.vertex_offset, draw = command.first_instance;
+        triangle.corners[i] = (draws[draw].to_view * vec4(position_of(vertex, draw), 1.0)).xyz;
+        triangle.depth_offset = depth_offset_of(vertex, draw);
         triangle.nearest = min(triangle.nearest, triangle.corners[i].z);
         triangle.farthest = max(triangle.farthest, triangle.corners[i].z);
     }
