@@ -2,6 +2,7 @@
 
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/scene/texture_uses.h"
 
 namespace strata::gbuffer {
@@ -42,6 +43,8 @@ void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     if (frame.opaque.count > 0) {
         DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
         fix_textures(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
+        // The shader discards backs draw by draw: the same pixels, shaded in vain.
+        if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
     }
     frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
     frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");

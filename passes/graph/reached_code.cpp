@@ -1,6 +1,7 @@
 #include "passes/graph/reached_code.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,7 +9,10 @@
 #include <unordered_set>
 
 #define SPV_ENABLE_UTILITY_CODE
+#include <GLSL.std.450.h>
 #include <spirv.hpp>
+
+#include "passes/graph/shader.h"
 
 namespace strata {
 namespace {
@@ -152,9 +156,60 @@ struct Function {
     std::span<const Instruction> body;  ///< OpFunction to OpFunctionEnd
     std::vector<std::uint32_t> calls;   ///< in blocks that run
     std::set<std::size_t> idle_calls;   ///< in the others, by place in the body
+    OperationCount own;                 ///< of blocks that run, without what is called
 };
 
-Function function_of(std::span<const Instruction> body, const KnownConstants& constants) {
+/// Numbers that values consist of.
+class Components {
+public:
+    /// To be called for a module's instructions in their order.
+    void add(const Instruction& i) {
+        const std::span<const std::uint32_t> words = i.words;
+        if (i.op == spv::OpTypeVector) of_type_[words[1]] = words[3];
+        if (i.op == spv::OpTypeMatrix) of_type_[words[1]] = words[3] * of_type(words[2]);
+        bool has_result = false, has_type = false;
+        spv::HasResultAndType(i.op, &has_result, &has_type);
+        if (has_result && has_type) of_value_[words[2]] = of_type(words[1]);
+    }
+    std::uint64_t of_type(std::uint32_t id) const { return found(of_type_, id); }
+    std::uint64_t of_value(std::uint32_t id) const { return found(of_value_, id); }
+
+private:
+    static std::uint64_t found(const std::unordered_map<std::uint32_t, std::uint64_t>& in, std::uint32_t id) {
+        const auto at = in.find(id);
+        return at == in.end() ? 1 : at->second;
+    }
+    std::unordered_map<std::uint32_t, std::uint64_t> of_type_, of_value_;
+};
+
+/// Of a square matrix of so many numbers.
+std::uint64_t side_of(std::uint64_t numbers) { return numbers == 4 ? 2 : numbers == 9 ? 3 : 4; }
+
+/// Products and sums of an instruction; 0 for what computes nothing.
+std::uint64_t operations_of(const Instruction& i, const Components& components) {
+    const auto between = [&](spv::Op first, spv::Op last) { return i.op >= first && i.op <= last; };
+    const std::span<const std::uint32_t> words = i.words;
+    switch (i.op) {
+        case spv::OpDot:
+            return 2 * components.of_value(words[3]) - 1;
+        case spv::OpMatrixTimesVector:
+            return 2 * components.of_value(words[3]) - components.of_type(words[1]);
+        case spv::OpVectorTimesMatrix:
+            return 2 * components.of_value(words[4]) - components.of_type(words[1]);
+        case spv::OpMatrixTimesMatrix:  // square ones, as all of ours: products are the third power of the side
+            return 2 * components.of_type(words[1]) * side_of(components.of_type(words[1])) - components.of_type(words[1]);
+        case spv::OpExtInst:
+            return components.of_type(words[1]) * (words[4] == GLSLstd450Fma ? 2 : 1);
+        default:
+            break;
+    }
+    const bool computes = between(spv::OpConvertFToU, spv::OpQuantizeToF16) || between(spv::OpSNegate, spv::OpDot) ||
+                          between(spv::OpAny, spv::OpFUnordGreaterThanEqual) ||
+                          between(spv::OpShiftRightLogical, spv::OpBitCount);
+    return computes ? components.of_type(words[1]) : 0;
+}
+
+Function function_of(std::span<const Instruction> body, const KnownConstants& constants, Components& components) {
     struct Block {
         std::size_t first = 0, last = 0;
     };
@@ -167,12 +222,16 @@ Function function_of(std::span<const Instruction> body, const KnownConstants& co
         if (label != 0) blocks[label].last = body[i].op == spv::OpFunctionEnd ? i - 1 : i;
     }
     std::set<std::uint32_t> reached(next.begin(), next.end());
-    Function function{body, {}, {}};
+    Function function{body, {}, {}, {}};
+    for (const Instruction& i : body) components.add(i);
     while (!next.empty()) {
         const Block block = blocks[next.back()];
         next.pop_back();
-        for (std::size_t i = block.first; i <= block.last; ++i)
+        for (std::size_t i = block.first; i <= block.last; ++i) {
             if (body[i].op == spv::OpFunctionCall) function.calls.push_back(body[i].words[3]);
+            function.own.operations += operations_of(body[i], components);
+            function.own.loops += body[i].op == spv::OpLoopMerge;
+        }
         for (const std::uint32_t to : successors(body[block.last], constants))
             if (reached.insert(to).second) next.push_back(to);
     }
@@ -189,25 +248,28 @@ struct Module {
     std::vector<std::uint32_t> order;  ///< of the functions
     std::set<std::uint32_t> called;    ///< functions that run
     std::set<std::uint32_t> void_types = {};
+    std::vector<std::uint32_t> entries = {};
 };
 
 Module module_of(std::span<const Instruction> all, std::span<const ConstantBits> given) {
     const auto first = std::ranges::find(all, spv::OpFunction, &Instruction::op);
     Module module{all.first(static_cast<std::size_t>(first - all.begin())), {}, {}, {}, {}};
     KnownConstants constants(given);
-    std::vector<std::uint32_t> next;
+    Components components;
     for (const Instruction& i : module.head) {
         constants.add(i);
-        if (i.op == spv::OpEntryPoint) next.push_back(i.words[2]);
+        components.add(i);
+        if (i.op == spv::OpEntryPoint) module.entries.push_back(i.words[2]);
         if (i.op == spv::OpTypeVoid) module.void_types.insert(i.words[1]);
     }
     for (auto begin = first; begin != all.end();) {
         const auto end = std::find_if(begin, all.end(), [](const Instruction& i) { return i.op == spv::OpFunctionEnd; });
         if (end == all.end()) break;
         module.order.push_back(begin->words[2]);
-        module.functions.emplace(begin->words[2], function_of({begin, end + 1}, constants));
+        module.functions.emplace(begin->words[2], function_of({begin, end + 1}, constants, components));
         begin = end + 1;
     }
+    std::vector<std::uint32_t> next = module.entries;
     module.called.insert(next.begin(), next.end());
     while (!next.empty()) {
         const std::vector<std::uint32_t> calls = module.functions.at(next.back()).calls;
@@ -216,6 +278,18 @@ Module module_of(std::span<const Instruction> all, std::span<const ConstantBits>
             if (module.called.insert(callee).second) next.push_back(callee);
     }
     return module;
+}
+
+/// Of a function with what it calls.
+OperationCount count_of(const Module& module, std::uint32_t id) {
+    const Function& function = module.functions.at(id);
+    OperationCount count = function.own;
+    for (const std::uint32_t callee : function.calls) {
+        const OperationCount called = count_of(module, callee);  // SPIR-V has no recursion
+        count.operations += called.operations;
+        count.loops += called.loops;
+    }
+    return count;
 }
 
 /// What the functions that are left out define: names and decorations of it go, too.
@@ -232,6 +306,23 @@ std::unordered_set<std::uint32_t> ids_left_out(const Module& module) {
 }
 
 }  // namespace
+
+std::vector<ConstantBits> fixed_constants(const Shader& shader, const Step& step) {
+    std::vector<ConstantBits> found;
+    for (const ShaderConstant& constant : shader.constants) {
+        const auto fixed = std::ranges::find(step.fixed, constant.name, &Fixed::name);
+        if (fixed == step.fixed.end()) continue;
+        found.push_back({.id = constant.id});
+        std::visit([&](auto number) { std::memcpy(&found.back().bits, &number, sizeof number); }, fixed->value);
+    }
+    return found;
+}
+
+OperationCount count_operations(std::span<const std::uint32_t> code, std::span<const ConstantBits> constants) {
+    const std::vector<Instruction> all = instructions_of(code);
+    const Module module = module_of(all, constants);
+    return module.entries.empty() ? OperationCount{} : count_of(module, module.entries.front());
+}
 
 std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std::span<const ConstantBits> given) {
     const std::vector<Instruction> all = instructions_of(code);

@@ -31,6 +31,12 @@ bool has_lit_surfaces(const Frame& frame, const DrawLists& lists) {
     });
 }
 
+bool shows_no_backs(const Frame& frame, std::span<const std::uint32_t> indices) {
+    return std::ranges::all_of(indices, [&](std::uint32_t index) {
+        return index < frame.draws.size() && !frame.materials[frame.draws[index].material].double_sided;
+    });
+}
+
 std::uint32_t triangles_drawn(const Frame& frame, std::uint32_t index) {
     const std::size_t draws = frame.draws.size();
     const std::size_t triangles = index < draws ? frame.meshes[frame.draws[index].mesh].indices.size() / 3

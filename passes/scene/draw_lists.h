@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -23,6 +24,9 @@ std::uint32_t highest_interface_layer(const Frame&, const DrawLists&);
 
 /// Whether lights change how some transparent draw looks. Particles are unlit.
 bool has_lit_surfaces(const Frame&, const DrawLists&);
+
+/// Whether the back of no triangle of these draws shows. Particles have no back.
+bool shows_no_backs(const Frame&, std::span<const std::uint32_t> indices);
 
 /// Triangles of a draw, or two per particle of an emitter.
 std::uint32_t triangles_drawn(const Frame&, std::uint32_t index);

@@ -28,11 +28,16 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
         .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features())
-        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists()) ? 1u : 0u);
+        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists()) ? 1u : 0u)
+        .culls(hidden_side(images));
     return fix_textures(pass, images, Surfaces::transparent);
 }
 
 }  // namespace
+
+Cull hidden_side(const FrameImages& images) {
+    return shows_no_backs(*images.recorded, images.facts->lists().transparent) ? Cull::back : Cull::none;
+}
 
 DrawPass draw_events(Graph& graph, std::string shader, const DrawList& list, const FrameImages& images) {
     const bool soft = images.features->has(Feature::soft_particles);

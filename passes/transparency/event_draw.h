@@ -15,6 +15,10 @@ DrawPass draw_events(Graph&, std::string shader, const DrawList& list, const Fra
 /// The same without the test, for a technique with a depth of its own: `depth_layers` is bound whether the frame needs it or not.
 DrawPass draw_events_untested(Graph&, std::string shader, const DrawList& list, const FrameImages&);
 
+/// The side of transparent triangles that no draw of the frame shows. The shader leaves backs out draw by draw; a pipeline that
+/// culls them spares their fragments.
+Cull hidden_side(const FrameImages&);
+
 /// The transparent draws of one resolution: stretches of images.transparent, most often all of it or nothing.
 std::vector<DrawList> drawn_at(const FrameImages&, Resolution);
 

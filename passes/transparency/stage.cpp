@@ -41,7 +41,8 @@ StageInfo stage() {
                 "one_pane",         "three_panes",         "interpenetrating_panes", "sixty_layers",     "two_hundred_layers",
                 "pane_at_the_lens", "red_and_green_glass", "additive_sparks",        "coincident_panes", "nan_particles",
                 "foggy_panes",      "three_cards",         "facade_at_150m",         "tail_light",       "explosion",
-                "thin_layers",      "particle_storm",      "interface_layers",       "smoke_grenade",    "glass_and_smoke"}};
+                "thin_layers",      "particle_storm",      "interface_layers",       "spheres_125",      "smoke_grenade",
+                "glass_and_smoke"}};
 }
 
 }  // namespace strata::transparency

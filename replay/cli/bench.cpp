@@ -1,4 +1,4 @@
-// strata bench: the ratios of times that a technique states, measured on this device.
+// strata bench: the ratios of times that a technique states, measured on this device; or the device itself.
 #include "replay/bench/bench.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "capture_format/nearest_name.h"
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "replay/bench/device_bench.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/session/choice_text.h"
@@ -19,7 +20,13 @@ namespace strata {
 namespace {
 
 // Of scenarios, where no extent is asked for: a CPU takes seconds per ratio, a GPU's clock has something to measure.
-constexpr std::pair<std::uint32_t, std::uint32_t> extent_on_a_cpu{320, 180}, extent_on_a_gpu{1920, 1080};
+using PixelExtent = std::pair<std::uint32_t, std::uint32_t>;
+constexpr PixelExtent extent_on_a_cpu{320, 180}, extent_on_a_gpu{1920, 1080};
+
+// In place of a technique.
+constexpr std::string_view the_device = "device";
+// What the device is held against where no capture is given.
+constexpr std::string_view device_scenario = "smoke_grenade";
 
 struct BenchArguments {
     std::string word, only, size;
@@ -33,7 +40,7 @@ struct BenchArguments {
 /// Ratios of the technique of that name, with or without its stage. `only` is in their names.
 Result<std::vector<Claim>> claims_of(const std::string& word, const std::string& only) {
     std::vector<Claim> claims;
-    std::vector<std::string_view> known, stating, names;
+    std::vector<std::string_view> known{the_device}, stating, names;
     bool found = false;
     for (const Technique& technique : techniques()) {
         known.insert(known.end(), {technique.name, short_name(technique)});
@@ -52,7 +59,7 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
 }
 
 /// A frame of every scenario that the ratios are measured on; the claims get their places.
-Result<std::vector<Frame>> frames_of(std::span<Claim> claims, std::pair<std::uint32_t, std::uint32_t> extent) {
+Result<std::vector<Frame>> frames_of(std::span<Claim> claims, PixelExtent extent) {
     std::vector<Frame> frames;
     std::vector<std::string_view> built;
     for (Claim& claim : claims) {
@@ -68,14 +75,16 @@ Result<std::vector<Frame>> frames_of(std::span<Claim> claims, std::pair<std::uin
     return frames;
 }
 
-Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, std::span<Claim> claims) {
+/// Frames of scenarios at the extent that was asked for, or at the one that suits the device.
+template <typename FramesOf>
+Result<std::unique_ptr<Session>> open_scenarios(const BenchArguments& options, const FramesOf& frames_of) {
     const auto asked = options.size.empty() ? Result(extent_on_a_cpu) : extent_of(options.size);
     if (!asked) return asked.error();
-    auto frames = frames_of(claims, *asked);
+    Result<std::vector<Frame>> frames = frames_of(*asked);
     if (!frames) return frames.error();
     auto session = Session::open(*std::move(frames), options.open.device);
     if (!session || !options.size.empty() || (*session)->device().software) return session;
-    frames = frames_of(claims, extent_on_a_gpu);
+    frames = frames_of(extent_on_a_gpu);
     return frames ? Session::open(*std::move(frames), options.open.device) : frames.error();
 }
 
@@ -87,27 +96,59 @@ Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std
     return open(options.open);
 }
 
+template <typename Bench>
+Result<void> print(const BenchArguments& options, const Bench& made) {
+    to_stdout("{}", options.json ? as_json(made) : as_text(made));
+    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(made));
+}
+
+Result<void> bench_the_device(const BenchArguments& options) {
+    if (!options.only.empty()) return fail(Fault::usage, "--only chooses among the ratios of a technique; a device has none");
+    auto request = request_of(options.choices);
+    if (!request) return request.error();
+    request->variant.frame = options.frame;
+    const auto frames_of = [](PixelExtent extent) {
+        return find_scenario(device_scenario).and_then([&](const Scenario* scenario) {
+            return Result(std::vector{scenario->build(0, {.width = extent.first, .height = extent.second})});
+        });
+    };
+    const bool is_scenario = options.open.capture.empty();
+    const auto session = is_scenario ? open_scenarios(options, frames_of) : open(options.open);
+    if (!session) return session.error();
+    const auto for_limits = Device::open(options.open.device);
+    if (!for_limits) return for_limits.error();
+    auto made = bench_device(**session, *request, **for_limits, options.repeats, progress_line());
+    if (!made) return made.error();
+    made->scene = is_scenario ? std::string(device_scenario) : options.open.capture.filename().string();
+    return print(options, *made);
+}
+
 Result<void> bench(const BenchArguments& options) {
+    if (options.word == the_device) return bench_the_device(options);
     auto claims = claims_of(options.word, options.only);
     if (!claims) return claims.error();
     const auto base = request_of(options.choices);
     if (!base) return base.error();
     for (Claim& claim : *claims) claim.base = *base;
-    const auto session = options.open.capture.empty() ? open_scenarios(options, *claims) : open_capture(options, *claims);
+    const auto frames = [&](PixelExtent extent) { return frames_of(*claims, extent); };
+    const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
     if (!session) return session.error();
     const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
     if (!measured) return measured.error();
-    to_stdout("{}", options.json ? as_json(*measured) : as_text(*measured));
-    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(*measured));
+    return print(options, *measured);
 }
 
 }  // namespace
 
 std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
-    app.add_option("technique", options->word, "technique, with or without its stage")->required();
+    app.add_option("technique", options->word,
+                   "technique, with or without its stage; or 'device': bytes and operations of the hottest steps against what "
+                   "the device can do")
+        ->required();
     CLI::Option* capture =
-        app.add_option("capture", options->open.capture, "capture to measure on; default: a scenario chosen for each ratio")
+        app.add_option("capture", options->open.capture,
+                       "capture to measure on; default: a scenario chosen for each ratio, smoke_grenade for the device")
             ->type_name(input_file);
     add_options(app, options->open.device);
     app.add_flag("--allow-partial", options->open.allow_partial, "read the complete frames of a truncated file")->needs(capture);

@@ -31,7 +31,7 @@ std::span<const Verb> verbs() {
         {"accept", "store this replay's results as the capture's expected results", declare_accept},
         {"graph", "show the frame graph: steps, barriers, memory, and why stages are skipped", declare_graph},
         {"report", "measure error and time of every technique of a stage", declare_report},
-        {"bench", "measure the speed-ups that a technique's source claims", declare_bench},
+        {"bench", "measure the speed-ups that a technique's source claims, or what the device can do", declare_bench},
         {"spectra", "find the cheapest set of shader variants for the tiles of these frames", declare_spectra},
         {"diff", "compare two captures, settings, devices or images", declare_diff},
         {"probe", "show the fragments of one pixel and each method's transmittance along its ray", declare_probe},

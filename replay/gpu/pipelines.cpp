@@ -25,12 +25,6 @@ constexpr vk::FrontFace front_face = vk::FrontFace::eCounterClockwise;
 // A report times rows in groups that use about 45.
 constexpr std::size_t most_kept = 64;
 
-std::uint32_t bits_of(const SpecValue& value) {
-    std::uint32_t bits = 0;
-    std::visit([&](auto number) { std::memcpy(&bits, &number, sizeof bits); }, value);
-    return bits;
-}
-
 /// Specialization constants of one shader, in the shader's order.
 struct Constants {
     std::vector<vk::SpecializationMapEntry> entries;
@@ -39,12 +33,10 @@ struct Constants {
 
 Constants constants_of(const Shader& shader, const Step& step) {
     Constants found;
-    for (const ShaderConstant& constant : shader.constants) {
-        const auto fixed = std::ranges::find(step.fixed, constant.name, &Fixed::name);
-        if (fixed == step.fixed.end()) continue;
+    for (const ConstantBits& constant : fixed_constants(shader, step)) {
         const auto offset = static_cast<std::uint32_t>(found.values.size() * sizeof(std::uint32_t));
         found.entries.push_back({constant.id, offset, sizeof(std::uint32_t)});
-        found.values.push_back(bits_of(fixed->value));
+        found.values.push_back(constant.bits);
     }
     return found;
 }
@@ -100,21 +92,13 @@ vk::raii::PipelineLayout pipeline_layout(const vk::raii::Device& device, const S
     return {device, info};
 }
 
-/// What of a shader runs with its constants.
-std::vector<std::uint32_t> reached_code(const Shader& shader, const Constants& constants) {
-    std::vector<ConstantBits> bits;
-    for (std::size_t i = 0; i < constants.values.size(); ++i)
-        bits.push_back({constants.entries[i].constantID, constants.values[i]});
-    return strata::reached_code(shader.code, bits);
-}
-
 /// A module with its constants; the stage info points into both.
 struct ShaderPart {
     ShaderPart(const vk::raii::Device& device, const Shader& shader, const Step& step)
-        : constants(constants_of(shader, step)), module(make_module(device, shader)), stage(shader.stage) {}
+        : constants(constants_of(shader, step)), module(make_module(device, shader, step)), stage(shader.stage) {}
 
-    vk::raii::ShaderModule make_module(const vk::raii::Device& device, const Shader& shader) const {
-        const std::vector<std::uint32_t> code = reached_code(shader, constants);
+    static vk::raii::ShaderModule make_module(const vk::raii::Device& device, const Shader& shader, const Step& step) {
+        const std::vector<std::uint32_t> code = reached_code(shader.code, fixed_constants(shader, step));
         return {device, vk::ShaderModuleCreateInfo({}, code.size() * sizeof code[0], code.data())};
     }
 

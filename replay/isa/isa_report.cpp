@@ -86,31 +86,25 @@ std::uint64_t pixels_of(const Plan& plan, const PlannedStep& planned) {
     return std::uint64_t{extent.width} * extent.height * planned.layers;
 }
 
-/// Invocations, and who counted them.
-void count(IsaPass& pass, const Counting& counting, std::size_t index) {
+}  // namespace
+
+StepInvocations invocations_of(const Counting& counting, std::size_t index) {
     const PlannedStep& planned = counting.plan.steps[index];
-    const auto set = [&](std::optional<std::uint64_t> invocations, const char* by) {
-        pass.invocations = invocations;
-        pass.counted_by = by;
-    };
     const bool was_run = index < counting.counts.invocations.size();
     const auto by_device = was_run ? counting.counts.invocations[index] : std::optional<std::uint64_t>();
-    pass.counted_by = "unknown";
     if (const auto* compute = std::get_if<ComputeWork>(&planned.step.work)) {
         const Extent group = group_size(planned), groups = planned.groups;
         const std::uint64_t threads = std::uint64_t{group.width} * group.height * group.depth;
-        if (!compute->arguments) set(threads * groups.width * groups.height * groups.depth, "dispatch");
-        else if (by_device) set(by_device, "device");
+        if (!compute->arguments) return {threads * groups.width * groups.height * groups.depth, "dispatch"};
+        if (by_device) return {by_device, "device"};
     } else if (std::holds_alternative<FullscreenWork>(planned.step.work)) {
-        set(pixels_of(counting.plan, planned), "pixels");
-    } else if (by_device && counting.device_counts_fragments) {
-        set(by_device, "device");
-    } else if (const auto fragments = counted_fragments(counting, planned)) {
-        set(fragments, "counter");
+        return {pixels_of(counting.plan, planned), "pixels"};
+    } else if (std::holds_alternative<DrawWork>(planned.step.work)) {
+        if (by_device && counting.device_counts_fragments) return {by_device, "device"};
+        if (const auto fragments = counted_fragments(counting, planned)) return {fragments, "counter"};
     }
+    return {};
 }
-
-}  // namespace
 
 double modelled_ms(const GpuModel& model, std::uint64_t invocations, double inverse_throughput) {
     const double cycles = static_cast<double>(invocations) / invocations_per_throughput * inverse_throughput;
@@ -124,7 +118,9 @@ std::vector<IsaPass> passes_of(const Counting& counting, const PipelineRequests&
         const Step& step = counting.plan.steps[i].step;
         passes.push_back(
             {counting.plan.scopes[step.scope], step.name, requests.pipelines[requests.of_step[i]].label, requests.of_step[i]});
-        count(passes.back(), counting, i);
+        const StepInvocations ran = invocations_of(counting, i);
+        passes.back().invocations = ran.count;
+        passes.back().counted_by = ran.counted_by;
     }
     return passes;
 }

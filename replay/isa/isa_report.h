@@ -62,6 +62,11 @@ struct Counting {
     const StepCounts& counts;
     bool device_counts_fragments = false;  ///< not on a CPU driver: its count is wrong
 };
+struct StepInvocations {
+    std::optional<std::uint64_t> count;
+    std::string counted_by = "unknown";  ///< as in IsaPass
+};
+StepInvocations invocations_of(const Counting&, std::size_t step);
 std::vector<IsaPass> passes_of(const Counting&, const PipelineRequests&);
 
 IsaOfGpu isa_of_gpu(const GpuModel*, const Compilation&, const PipelineRequests&, std::vector<IsaPass>);

@@ -55,6 +55,18 @@ TEST(Scene, ListsDrawsInTheOrderOfSubmission) {
     EXPECT_EQ(transparent_draws(frame), lists.transparent);
 }
 
+/// Pipelines leave backs out only where every draw does: two-sided materials and particles show all of their triangles.
+TEST(Scene, ShowsNoBacksWhereEveryMaterialIsOneSided) {
+    Frame frame = every_kind();
+    EXPECT_TRUE(shows_no_backs(frame, draw_lists(frame).opaque));
+    EXPECT_FALSE(shows_no_backs(frame, draw_lists(frame).transparent)) << "particles";
+    frame.emitters.clear();
+    EXPECT_TRUE(shows_no_backs(frame, draw_lists(frame).transparent));
+    frame.materials[2].double_sided = true;
+    EXPECT_FALSE(shows_no_backs(frame, draw_lists(frame).transparent));
+    EXPECT_TRUE(shows_no_backs(frame, draw_lists(frame).opaque)) << "no draw of it uses that material";
+}
+
 TEST(Scene, ListsTheSunFirstAndNoLightThatIsDark) {
     Frame frame = tiny::frame(4, 4);
     frame.sun.irradiance = {1, 1, 1};

@@ -50,6 +50,17 @@ TEST(TransparentScenarios, AParticleStormIsEightLayersDeepAtAnyExtent) {
     }
 }
 
+/// Through the middle of the view five spheres of a row, by their front faces .3 m before their middles.
+TEST(TransparentScenarios, FiveFrontFacesOfSpheresLieOverTheMiddle) {
+    const Frame frame = build("spheres_125", 65, 37);
+    ASSERT_EQ(frame.draws.size(), 127u);
+    std::vector<double> depths;
+    for (const Fragment& fragment : all_fragments(frame).at(32, 18)) depths.push_back(fragment.depth);
+    std::ranges::sort(depths);
+    ASSERT_EQ(depths.size(), 5u);
+    for (std::size_t i = 0; i < depths.size(); ++i) EXPECT_NEAR(depths[i], 3.7 + double(i), .003) << i;
+}
+
 TEST(TransparentScenarios, TheFacadeHasThreeSkinsThenSmokeThenCars) {
     const Frame frame = build("facade_at_150m");
     EXPECT_NEAR(glm::length(frame.view.origin - glm::dvec3(0, 3, 0)), 150, .1);

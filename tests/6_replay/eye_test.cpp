@@ -78,7 +78,7 @@ Frame cards_around() {
     return std::move(builder.frame);
 }
 
-glm::dvec4 middle(Session& session, const EyeMove& eye) {
+glm::dvec4 middle_texel(Session& session, const EyeMove& eye) {
     const auto run = must(session.run({.variant = {.eye = eye}, .outputs = {"color"}}));
     return glm::round(1e3 * texel(run.images.at("color"), 32, 18)) / 1e3;  // half floats may round towards 0
 }
@@ -86,13 +86,13 @@ glm::dvec4 middle(Session& session, const EyeMove& eye) {
 TEST(Eye, SeesWhatIsWhereItLooks) {
     const auto session = must(Session::open({cards_around()}, {.validation = true}));
     const glm::dvec4 red(1, 0, 0, 1), green(0, 1, 0, 1), blue(0, 0, 1, 1), white(1);
-    EXPECT_EQ(middle(*session, {}), red);
-    EXPECT_EQ(middle(*session, {.pan = pi / 2}), green);
-    EXPECT_EQ(middle(*session, {.tilt = pi / 2}), blue);
-    EXPECT_EQ(middle(*session, {.pan = pi}), white);
-    EXPECT_EQ(middle(*session, {.pan = -pi / 2, .tilt = pi / 2, .roll = .3}), blue);
-    EXPECT_EQ(middle(*session, {.dolly = -2, .truck = 2}), green);              // back and to the right
-    EXPECT_EQ(middle(*session, {.dolly = 4, .pedestal = .1, .pan = pi}), red);  // from behind
+    EXPECT_EQ(middle_texel(*session, {}), red);
+    EXPECT_EQ(middle_texel(*session, {.pan = pi / 2}), green);
+    EXPECT_EQ(middle_texel(*session, {.tilt = pi / 2}), blue);
+    EXPECT_EQ(middle_texel(*session, {.pan = pi}), white);
+    EXPECT_EQ(middle_texel(*session, {.pan = -pi / 2, .tilt = pi / 2, .roll = .3}), blue);
+    EXPECT_EQ(middle_texel(*session, {.dolly = -2, .truck = 2}), green);              // back and to the right
+    EXPECT_EQ(middle_texel(*session, {.dolly = 4, .pedestal = .1, .pan = pi}), red);  // from behind
 }
 
 TEST(Eye, LeftWhereItWasKeepsEverythingThatIsKnown) {
@@ -130,7 +130,7 @@ TEST(Eye, OrbitsAroundAPointThatStaysInTheMiddleAndComesBack) {
         view = orbited(view, {.distance = 2, .right = pi / 4});
         const glm::dvec3 target = view.to_view * (glm::dvec3(0, 0, -2) - view.origin);
         EXPECT_NEAR(glm::distance(target, glm::dvec3(0, 0, 2)), 0, 1e-12);
-        EXPECT_EQ(middle(*session, move_between(frame.view, view)), glm::dvec4(1, 0, 0, 1)) << i;
+        EXPECT_EQ(middle_texel(*session, move_between(frame.view, view)), glm::dvec4(1, 0, 0, 1)) << i;
         if (i != 1) continue;
         EXPECT_NEAR(glm::distance(view.origin, glm::dvec3(2, 0, -2)), 0, 1e-12) << "to the right";
     }

@@ -1,5 +1,6 @@
 // strata bench: what it measures, what it says of it, and what it refuses.
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/bench/bench.h"
+#include "replay/bench/device_bench.h"
 #include "replay/report/variants.h"
 #include "tests/7_tool/process.h"
 
@@ -109,6 +111,8 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
         {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name: "},
         {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
         {stating + " --repeats 0", 2, "--repeats"},
+        {"device --only wrap", 2, "--only chooses among the ratios of a technique"},
+        {"devise", 2, "did you mean device"},
         {stating + " --frame 1", 2, "capture"},
         {stating + " --size 48x27 --set colour=1", 2, "has a parameter"},
         {stating + " nowhere.strata", 3, "nowhere.strata"},
@@ -116,6 +120,53 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
         {stating + " opaque.strata", 2, "the frame does not need transparency: "},
     };
     expect_refusals("bench", wrongs);
+}
+
+TEST(BenchVerb, HoldsTheHottestStepsAgainstWhatTheDeviceCanDo) {
+    ASSERT_EQ(strata("record three_panes -o panes.strata").code, 0);
+    const Finished made = strata("bench device panes.strata --repeats 2 --json --validation -o device.json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json bench = json::parse(made.out);
+    EXPECT_EQ(bench["schema"], "strata.bench_device");
+    EXPECT_EQ(bench["scene"], "panes.strata");
+    EXPECT_EQ(bench["repeats"], 2);
+    for (const char* limit : {"bytes_per_second", "operations_per_second"}) EXPECT_GT(bench["limits"][limit]["low"], 0) << limit;
+    ASSERT_FALSE(bench["steps"].empty());
+    EXPECT_LE(bench["steps"].size(), 10u);
+    double last = std::numeric_limits<double>::infinity();
+    for (const json& step : bench["steps"]) {
+        const double ms = step["ms"]["median"].get<double>(), limit = bench["limits"]["bytes_per_second"]["median"].get<double>();
+        EXPECT_LE(ms, last) << "the hottest first";
+        last = ms;
+        EXPECT_NEAR(step["share_of_bytes"].get<double>(), step["declared_bytes"].get<double>() / (ms * 1e-3) / limit, 1e-9)
+            << step;
+        EXPECT_EQ(step.contains("operations"), step["counted_by"] != "unknown") << step;
+    }
+    std::ifstream file(folder() / "device.json");
+    EXPECT_EQ(json::parse(file)["schema"], "strata.bench_device");
+}
+
+TEST(BenchText, OfADeviceFitsATerminalAndSaysWhatIsCounted) {
+    DeviceBench bench{.device = {.name = "a device", .driver = "its driver", .software = true},
+                      .limits = {.bytes = {.median = 40e9}, .operations = {.median = 30e9}, .copied_bytes = 2000000},
+                      .scene = "a capture.strata",
+                      .repeats = 7,
+                      .frame_ms = 300};
+    const std::string name = "transparency/a_technique_of_a_long_name/and_its_step.comp";
+    bench.steps.push_back({.name = name,
+                           .ms = {.median = 100, .mad = 1},
+                           .bytes = 1000000000,
+                           .invocations = 1000000,
+                           .counted_by = "dispatch",
+                           .per_invocation = {.operations = 300, .loops = 2}});
+    bench.steps.push_back({.name = name, .ms = {.median = 10}, .bytes = 1000, .counted_by = "unknown"});
+    const std::string text = as_text(bench);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
+    EXPECT_DOUBLE_EQ(bench.share_of_bytes(bench.steps[0]), .25) << "10 of 40 GB/s";
+    EXPECT_DOUBLE_EQ(*bench.share_of_operations(bench.steps[0]), .1) << "3 of 30 billion";
+    EXPECT_THAT(text, AllOf(HasSubstr("a buffer of 1 MB"), HasSubstr("not counted"), HasSubstr("every loop turned once"),
+                            HasSubstr("whole and once")));
 }
 
 TEST(BenchText, FitsATerminalOf120ColumnsAndSaysWhatWasNotMeasured) {

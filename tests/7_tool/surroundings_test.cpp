@@ -27,6 +27,7 @@ constexpr Writing writings[] = {
     {"replay sound.strata --outputs color -o", "out"},
     {"report sound.strata --repeats 1 --methods weighted -o", "report.txt"},
     {"bench voxel sound.strata --repeats 1 --only wrap -o", "bench.json"},
+    {"bench device sound.strata --repeats 1 -o", "device.json"},
     {"diff sound.strata --use transparency/weighted --limit 1000 --junit", "junit.xml"},
     {"probe sound.strata --at 8,4 --methods sorted_lists --depths 512 -o", "probed"},
     {"export sound.strata --deep --transmittance mean -o", "deep.exr"},

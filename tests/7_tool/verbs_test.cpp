@@ -40,7 +40,8 @@ TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
     for (const char* command :
          {"list", "list --scenarios", "--list-gpus", "isa", "info sound.strata", "validate sound.strata", "replay sound.strata",
           "accept sound.strata --dry-run", "graph sound.strata", "report sound.strata --repeats 1 --sweep pool=2",
-          "bench voxel sound.strata --repeats 1 --only wrap", "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
+          "bench voxel sound.strata --repeats 1 --only wrap", "bench device sound.strata --repeats 1",
+          "spectra sound.strata --modes 3", "diff sound.strata sound.strata",
           "probe sound.strata --at 8,4 --methods sorted_lists -o probed"}) {
         const Finished printed = strata(fmt::format("{} --json", command));
         ASSERT_EQ(printed.code, 0) << command << printed.err;

@@ -34,6 +34,7 @@ void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, 
     graph.clear(lists.counts, 0);
     graph.draw("transparency/lists/count", images.transparent)
         .tests_depth(images.depth)
+        .culls(hidden_side(images))
         .in_rows(rows_of(band))
         .updates("Counts", lists.counts)
         .push(band);

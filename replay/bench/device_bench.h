@@ -1,0 +1,67 @@
+// What a device can do, measured through its driver, and which share of it the steps of a frame reach.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/graph/reached_code.h"
+#include "replay/gpu/device.h"
+#include "replay/isa/isa_report.h"
+#include "replay/session/session.h"
+
+namespace strata {
+
+/// How much the measuring itself does: small for tests.
+struct LimitWork {
+    std::uint64_t copied_bytes = 64 << 20;            ///< of one buffer to another
+    std::uint32_t threads = 64 * 1024, turns = 1024;  ///< of the loop of multiply-adds
+};
+
+/// In units per second.
+struct DeviceLimits {
+    Spread bytes;                                         ///< read and written by a copy of a buffer
+    Spread operations;                                    ///< a multiply-add is two
+    std::uint64_t copied_bytes = 0, operations_done = 0;  ///< by one repeat: counted, the operations by the threads themselves
+};
+Result<DeviceLimits> measure_limits(Device&, std::size_t repeats, const LimitWork& = {});
+
+/// Bytes that a step reads and writes of what it declares: every image and buffer once, whole, and once more where it is read
+/// and written. Of a buffer that it only writes at most one element per invocation, in code without loops.
+std::uint64_t declared_bytes(const Plan&, const PlannedStep&, std::optional<std::uint64_t> invocations);
+/// Of its fragment or compute shader, by its constants.
+OperationCount operations_per_invocation(const PlannedStep&);
+
+struct StepShare {
+    Scope scope;
+    std::string name;
+    Spread ms;
+    std::uint64_t bytes = 0;
+    std::optional<std::uint64_t> invocations;  ///< of the fragment or compute shader
+    std::string counted_by;                    ///< IsaPass::counted_by
+    OperationCount per_invocation;
+
+    std::optional<double> operations() const;
+};
+
+struct DeviceBench {
+    DeviceInfo device;
+    DeviceLimits limits;
+    std::string scene;
+    std::size_t frame = 0, repeats = 0;
+    std::uint32_t width = 0, height = 0, samples = 1;
+    double frame_ms = 0;
+    std::vector<StepShare> steps;  ///< the hottest, most time first
+
+    /// Shares of the limits; the larger of the two says what the step is bound by, if anything.
+    double share_of_bytes(const StepShare&) const;
+    std::optional<double> share_of_operations(const StepShare&) const;
+};
+
+/// The hottest steps of a frame. Limits are measured on a device of their own.
+Result<DeviceBench> bench_device(Session&, const Request&, Device& for_limits, std::size_t repeats, const Progress& = {});
+
+std::string as_text(const DeviceBench&);
+std::string as_json(const DeviceBench&);
+
+}  // namespace strata
