@@ -18,7 +18,7 @@ void write_pending(ContainerWriter& writer, BlobCollector& blobs) {
     const auto packed = blobs.pack();
     ASSERT_TRUE(packed);
     for (const PackedBlobs& part : *packed) {
-        ASSERT_TRUE(writer.add({SectionType::blobs, blobs_version, part.stored, part.raw_bytes}));
+        ASSERT_TRUE(writer.add({SectionType::blobs, part.version, part.stored, part.raw_bytes}));
     }
 }
 
@@ -44,7 +44,7 @@ struct TwoSections {
 std::string sentence_for(const PackedBlobs& blobs, const BlobName& blob) {
     const TemporaryFile file;
     auto writer = ContainerWriter::create(file.path());
-    EXPECT_TRUE(writer->add({SectionType::blobs, blobs_version, blobs.stored, blobs.raw_bytes}) && writer->finish());
+    EXPECT_TRUE(writer->add({SectionType::blobs, blobs.version, blobs.stored, blobs.raw_bytes}) && writer->finish());
     const auto container = Container::open(file.path());
     MemoryBudget budget;
     auto store = BlobStore::open(*container, budget);
