@@ -17,68 +17,101 @@ namespace {
 constexpr std::size_t smallest_filtered = 4096;
 /// Of a blob, to compare filters by.
 constexpr std::size_t trial_bytes = 32768;
-/// A filter that saves less costs more time when reading than it is worth.
-constexpr double least_saving = 0.1;
+/// A filter that saves less costs more time when reading than it saves in bytes.
+constexpr double least_saving = 0.25;
 constexpr std::size_t corners = 3;  // of a triangle
+constexpr std::size_t largest_element = 4096;
 constexpr BlobFilter table_filter{.stride = sizeof(double)};
 
-// Groups at a time, so that what is read and what is written stay in the processor's first cache.
+// Groups at a time, so that what is read and what is written stay in the processor's first cache. A constant, and words instead
+// of bytes, so that the loops below become vector code.
 constexpr std::size_t groups_at_once = 256;
+constexpr std::size_t word_bytes = 4;
+using Words = std::array<std::uint32_t, groups_at_once>;
+using Planes = std::array<std::array<std::uint8_t, groups_at_once>, word_bytes>;
+
+void split(const Words& words, Planes& planes) {
+    for (std::size_t n = 0; n < word_bytes; ++n)
+        for (std::size_t i = 0; i < groups_at_once; ++i) planes[n][i] = static_cast<std::uint8_t>(words[i] >> (8 * n));
+}
+
+void join(const Planes& planes, Words& words) {
+    for (std::size_t i = 0; i < groups_at_once; ++i)
+        words[i] = std::uint32_t{planes[0][i]} | std::uint32_t{planes[1][i]} << 8 | std::uint32_t{planes[2][i]} << 16 |
+                   std::uint32_t{planes[3][i]} << 24;
+}
+
+/// Four or eight bytes at once, each modulo 256.
+template <typename Word>
+Word add_bytes(Word a, Word b) {
+    constexpr Word high = static_cast<Word>(0x8080808080808080);
+    return ((a & ~high) + (b & ~high)) ^ ((a ^ b) & high);
+}
+std::uint32_t subtract_bytes(std::uint32_t a, std::uint32_t b) {
+    constexpr std::uint32_t high = 0x80808080;
+    return ((a | high) - (b & ~high)) ^ ((a ^ ~b) & high);
+}
+
+template <typename Word>
+Word word_at(std::span<const std::byte> bytes, std::size_t i) {
+    Word word;
+    std::memcpy(&word, bytes.data() + i, sizeof word);
+    return word;
+}
 
 void rearrange(std::span<const std::byte> from, const BlobFilter& filter, std::span<std::byte> to) {
-    const std::size_t stride = filter.stride, groups = from.size() / stride;
-    std::vector<std::byte> differences;
+    const std::size_t stride = filter.stride, groups = stride == 0 ? 0 : from.size() / stride;
+    Words words{};
+    Planes planes{};
     for (std::size_t first = 0; first < groups; first += groups_at_once) {
-        const std::size_t count = std::min(groups_at_once, groups - first), begin = first * stride;
-        std::span<const std::byte> chunk = from.subspan(begin, count * stride);
-        if (filter.step > 0) {
-            differences.resize(chunk.size());
-            std::size_t i = 0;
-            for (; i < chunk.size() && begin + i < filter.step; ++i) differences[i] = chunk[i];
-            for (; i < chunk.size(); ++i)
-                differences[i] = static_cast<std::byte>(std::to_integer<unsigned>(chunk[i]) -
-                                                        std::to_integer<unsigned>(from[begin + i - filter.step]));
-            chunk = differences;
-        }
-        for (std::size_t n = 0; n < stride; ++n) {
-            std::byte* plane = to.data() + n * groups + first;
-            for (std::size_t i = 0; i < count; ++i) plane[i] = chunk[i * stride + n];
+        const std::size_t count = std::min(groups_at_once, groups - first);
+        for (std::size_t n = 0; n < stride; n += word_bytes) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t place = (first + i) * stride + n;
+                words[i] = word_at<std::uint32_t>(from, place);
+                if (filter.step > 0 && place >= filter.step)
+                    words[i] = subtract_bytes(words[i], word_at<std::uint32_t>(from, place - filter.step));
+            }
+            split(words, planes);
+            for (std::size_t k = 0; k < word_bytes; ++k) std::memcpy(&to[(n + k) * groups + first], planes[k].data(), count);
         }
     }
     std::ranges::copy(from.subspan(groups * stride), to.subspan(groups * stride).begin());
 }
 
-/// Adds eight bytes to eight others, each modulo 256.
-std::uint64_t add_bytes(std::uint64_t a, std::uint64_t b) {
-    constexpr std::uint64_t high = 0x8080808080808080;
-    return ((a & ~high) + (b & ~high)) ^ ((a ^ b) & high);
-}
-
-/// Adds to every byte from `begin` on the one `step` before it.
+/// Adds to every word from `begin` on the bytes `step` before it.
+template <typename Word>
 void add_up(std::span<std::byte> bytes, std::size_t begin, std::size_t step) {
     std::size_t i = std::max(begin, step);
-    for (; step >= sizeof(std::uint64_t) && i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
-        std::uint64_t now = 0, before = 0;
-        std::memcpy(&now, &bytes[i], sizeof now);
-        std::memcpy(&before, &bytes[i - step], sizeof before);
-        now = add_bytes(now, before);
-        std::memcpy(&bytes[i], &now, sizeof now);
+    for (; i + sizeof(Word) <= bytes.size(); i += sizeof(Word)) {
+        const Word sum = add_bytes(word_at<Word>(bytes, i), word_at<Word>(bytes, i - step));
+        std::memcpy(&bytes[i], &sum, sizeof sum);
     }
-    for (; i < bytes.size(); ++i)
-        bytes[i] = static_cast<std::byte>(std::to_integer<unsigned>(bytes[i]) + std::to_integer<unsigned>(bytes[i - step]));
+    if constexpr (sizeof(Word) > word_bytes)
+        if (i < bytes.size()) add_up<std::uint32_t>(bytes, i, step);
 }
 
 void undo_rearrange(std::span<const std::byte> from, const BlobFilter& filter, std::span<std::byte> to) {
-    const std::size_t stride = filter.stride, groups = from.size() / stride;
+    const std::size_t stride = filter.stride, groups = stride == 0 ? 0 : from.size() / stride;
+    Words words{};
+    Planes planes{};
     for (std::size_t first = 0; first < groups; first += groups_at_once) {
         const std::size_t count = std::min(groups_at_once, groups - first), begin = first * stride;
-        for (std::size_t n = 0; n < stride; ++n) {
-            const std::byte* plane = from.data() + n * groups + first;
-            for (std::size_t i = 0; i < count; ++i) to[begin + i * stride + n] = plane[i];
+        for (std::size_t n = 0; n < stride; n += word_bytes) {
+            for (std::size_t k = 0; k < word_bytes; ++k) std::memcpy(planes[k].data(), &from[(n + k) * groups + first], count);
+            join(planes, words);
+            for (std::size_t i = 0; i < count; ++i) std::memcpy(&to[begin + i * stride + n], &words[i], word_bytes);
         }
-        if (filter.step > 0) add_up(to.first(begin + count * stride), begin, filter.step);
+        const std::span<std::byte> done = to.first(begin + count * stride);
+        if (filter.step >= sizeof(std::uint64_t)) add_up<std::uint64_t>(done, begin, filter.step);
+        else if (filter.step > 0) add_up<std::uint32_t>(done, begin, filter.step);
     }
     std::ranges::copy(from.subspan(groups * stride), to.subspan(groups * stride).begin());
+}
+
+bool is_known(const BlobFilter& filter) {
+    return filter.reserved == 0 && filter.step % word_bytes == 0 && filter.stride % word_bytes == 0 &&
+           (filter.stride > 0 || filter.step == 0);
 }
 
 /// Compares filters by what a part of the bytes takes after them.
@@ -164,7 +197,8 @@ bool undo_stored(std::span<const std::byte> bytes, const BlobFilter& filter, std
 }  // namespace
 
 FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
-    if (element_bytes <= 1 || element_bytes > 4096 || blob.size() < smallest_filtered) return {{}, std::move(blob)};
+    if (element_bytes % word_bytes != 0 || element_bytes > largest_element || blob.size() < smallest_filtered)
+        return {{}, std::move(blob)};
     Trial of_own(blob);
     Best best{{}, of_own.packed_bytes({}) * (1 - least_saving)};
     best.try_all(of_own, BlobShape::own, element_bytes);
@@ -181,11 +215,10 @@ FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
 }
 
 bool undo_filter(std::span<const std::byte> filtered, const BlobFilter& filter, std::span<std::byte> blob) {
-    if (filter.stride == 0 || filter.reserved != 0) return false;
+    if (!is_known(filter)) return false;
     if (filter.shape == BlobShape::ray_records) return undo_stored(filtered, filter, blob);
     if (filter.shape != BlobShape::own || filtered.size() != blob.size()) return false;
-    if (filter == BlobFilter{}) std::ranges::copy(filtered, blob.begin());
-    else undo_rearrange(filtered, filter, blob);
+    undo_rearrange(filtered, filter, blob);
     return true;
 }
 

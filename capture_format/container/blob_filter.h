@@ -15,11 +15,12 @@ enum class BlobShape : std::uint16_t {
     ray_records,  ///< ray_records.h
 };
 
-/// Bytes become differences (modulo 256) to the byte `step` before them (0: stay), then the n-th bytes of all groups of `stride`
-/// follow each other, for each n. What remains of the last group follows as it is.
+/// Bytes become differences (modulo 256) to the byte `step` before them, then the n-th bytes of all groups of `stride` follow
+/// each other, for each n. What remains of the last group follows as it is. Both are multiples of 4; a step of 0 makes no
+/// differences, a stride of 0 leaves the bytes in their order and has no step.
 struct BlobFilter {
     BlobShape shape = BlobShape::own;
-    std::uint16_t step = 0, stride = 1;
+    std::uint16_t step = 0, stride = 0;
     std::uint16_t reserved = 0;  ///< 0
     friend bool operator==(const BlobFilter&, const BlobFilter&) = default;
 };
@@ -29,8 +30,8 @@ struct FilteredBlob {
     std::vector<std::byte> bytes;
 };
 
-/// By the filter after which a part of the blob compresses best; by none where none saves a tenth, and where elements have one
-/// byte. `element_bytes`: of a vertex attribute, an index, a texel, a particle.
+/// By the filter after which a part of the blob compresses best; by none where none saves enough, and where elements are not
+/// made of words of 4 bytes. `element_bytes`: of a vertex attribute, an index, a texel, a particle.
 FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes);
 
 /// Fills the blob. False where it could not have been filtered to these bytes, or where the filter is not known.

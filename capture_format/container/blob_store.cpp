@@ -179,12 +179,12 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
     if (const auto room = budget_->has_room(needed, 1, container_->whereabouts(blobs.number)); !room) return room;
     auto unpacked = unpack(blobs);
     if (!unpacked) return unpacked.error();
-    std::vector<std::byte> raw = plain ? *std::move(unpacked) : std::vector<std::byte>(blobs.raw_bytes);
+    auto raw = plain ? *std::move(unpacked) : std::make_unique_for_overwrite<std::byte[]>(blobs.raw_bytes);
     std::uint64_t offset = 0, filtered_offset = 0;
     for (std::size_t i = 0; i < blobs.blobs.size(); ++i) {
         const Blob& blob = blobs.blobs[i];
-        const std::span<std::byte> bytes = std::span(raw).subspan(offset, blob.bytes);
-        if (!plain && !undo_filter(std::span(*unpacked).subspan(filtered_offset, blob.filtered_bytes), blob.filter, bytes)) {
+        const std::span<std::byte> bytes(raw.get() + offset, blob.bytes);
+        if (!plain && !undo_filter({unpacked->get() + filtered_offset, blob.filtered_bytes}, blob.filter, bytes)) {
             return fail(Fault::bad_input, "{}: blob {} is not rearranged in a way this program knows; open it with a newer strata",
                         container_->whereabouts(blobs.number), i);
         }
@@ -200,7 +200,7 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
 }
 
 /// The content of its zstd frame.
-Result<std::vector<std::byte>> BlobStore::unpack(const BlobsSection& blobs) const {
+Result<std::unique_ptr<std::byte[]>> BlobStore::unpack(const BlobsSection& blobs) const {
     const auto stored = container_->stored(blobs.number);
     if (!stored) return stored.error();
     const std::span<const std::byte> frame = std::span(*stored).subspan(blobs.index_bytes);
@@ -209,9 +209,9 @@ Result<std::vector<std::byte>> BlobStore::unpack(const BlobsSection& blobs) cons
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
         return fail(Fault::bad_input, "{} is not a zstd frame of {} bytes", container_->whereabouts(blobs.number), raw_bytes);
     }
-    std::vector<std::byte> raw(raw_bytes);
-    const std::size_t written = ZSTD_decompress(raw.data(), raw.size(), frame.data(), frame.size());
-    if (written != raw.size()) {
+    auto raw = std::make_unique_for_overwrite<std::byte[]>(raw_bytes);  // clearing it takes as long as undoing a filter
+    const std::size_t written = ZSTD_decompress(raw.get(), raw_bytes, frame.data(), frame.size());
+    if (written != raw_bytes) {
         return fail(Fault::bad_input, "{} does not decompress: {}", container_->whereabouts(blobs.number),
                     ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early");
     }
@@ -229,7 +229,7 @@ Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
     if (!section.held) {
         if (const Result<void> read = decompress(section); !read) return read.error();
     }
-    return std::span<const std::byte>(section.bytes).subspan(place->second.offset, blob.bytes);
+    return std::span<const std::byte>(section.bytes.get() + place->second.offset, blob.bytes);
 }
 
 Result<void> BlobStore::check_all() {
@@ -242,7 +242,7 @@ Result<void> BlobStore::check_all() {
 
 void BlobStore::free(BlobsSection& blobs) {
     if (!blobs.held) return;
-    budget_->give_back(blobs.bytes.size());
+    budget_->give_back(blobs.raw_bytes);
     blobs.bytes = {};
     blobs.held = false;
 }

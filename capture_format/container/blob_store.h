@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -107,13 +108,13 @@ private:
         std::size_t index_bytes = 0;
         std::uint64_t raw_bytes = 0;  ///< of all blobs
         std::vector<Blob> blobs = {};
-        std::vector<std::byte> bytes = {};
+        std::unique_ptr<std::byte[]> bytes = {};
         bool held = false, used = false;
     };
     BlobStore(const Container& container, MemoryBudget& budget) : container_(&container), budget_(&budget) {}
     Result<void> read_index(std::size_t section);
     Result<void> decompress(BlobsSection&);
-    Result<std::vector<std::byte>> unpack(const BlobsSection&) const;
+    Result<std::unique_ptr<std::byte[]>> unpack(const BlobsSection&) const;
     void free(BlobsSection&);
     void free_unused();
 
