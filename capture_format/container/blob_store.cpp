@@ -34,7 +34,9 @@ struct IndexEntry {
 static_assert(sizeof(IndexEntry) == 40);
 
 /// Of an entry in the file: version 1 has the front of it.
-std::size_t entry_bytes(std::uint32_t version) { return version == 1 ? offsetof(IndexEntry, filtered_bytes) : sizeof(IndexEntry); }
+std::size_t entry_bytes(std::uint32_t version) {
+    return version == 1 ? offsetof(IndexEntry, filtered_bytes) : sizeof(IndexEntry);
+}
 
 // zstd's default: 3 shrank a peer's captures 50 times at 400 MB/s; 19 gains a tenth and is a hundred times slower.
 constexpr int compression_level = 3;
@@ -132,8 +134,9 @@ Result<void> BlobStore::read_index(std::size_t number) {
     const Section& section = container_->sections()[number];
     const std::uint32_t version = section.type == SectionType::blobs ? section.version : 1;
     if (version < 1 || version > blobs_version) {
-        return fail(Fault::bad_input, "{} has version {}; this program reads 1 to {}: {}", container_->whereabouts(number), version,
-                    blobs_version, version > blobs_version ? "open it with a newer strata" : "it was not written by strata");
+        return fail(Fault::bad_input, "{} has version {}; this program reads 1 to {}: {}", container_->whereabouts(number),
+                    version, blobs_version,
+                    version > blobs_version ? "open it with a newer strata" : "it was not written by strata");
     }
     const std::size_t each = entry_bytes(version);
     if (section.raw_bytes > largest_blobs_section) {
@@ -185,7 +188,8 @@ Result<void> BlobStore::decompress(BlobsSection& blobs) {
         const Blob& blob = blobs.blobs[i];
         const std::span<std::byte> bytes(raw.get() + offset, blob.bytes);
         if (!plain && !undo_filter({unpacked->get() + filtered_offset, blob.filtered_bytes}, blob.filter, bytes)) {
-            return fail(Fault::bad_input, "{}: blob {} is not rearranged in a way this program knows; open it with a newer strata",
+            return fail(Fault::bad_input,
+                        "{}: blob {} is rearranged in a way that this program does not know; open it with a newer strata",
                         container_->whereabouts(blobs.number), i);
         }
         if (blob_hash(bytes) != blob.hash) {

@@ -21,8 +21,7 @@ constexpr std::uint32_t thumbnail_width = 160;  // at the most
 
 ThumbnailExtent thumbnail_extent(std::uint32_t frame_width, std::uint32_t frame_height) {
     const auto parts = [](std::uint32_t whole, std::uint32_t most) { return (whole + most - 1) / most; };
-    const std::uint32_t pixels =
-        std::max({1u, parts(frame_width, thumbnail_width), parts(frame_height, largest_picture_edge)});
+    const std::uint32_t pixels = std::max({1u, parts(frame_width, thumbnail_width), parts(frame_height, largest_picture_edge)});
     return {std::max(1u, frame_width / pixels), std::max(1u, frame_height / pixels), pixels};
 }
 

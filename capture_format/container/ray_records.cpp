@@ -26,6 +26,17 @@ Position position_at(std::span<const std::byte> positions, std::size_t i) {
     return position;
 }
 
+/// Whether the first triangles face the eye, each at one depth. Other positions are not worth looking for rays.
+bool may_have_rays(std::span<const std::byte> positions) {
+    constexpr std::size_t corners = 3, looked_at = 64;
+    const std::size_t count = std::min(positions.size() / position_bytes, corners * looked_at);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = position_at(positions, i)[2];
+        if (!(z > 0) || z != position_at(positions, i - i % corners)[2]) return false;
+    }
+    return true;
+}
+
 struct Interval {
     double low = 0, high = 0;
 };
@@ -58,7 +69,8 @@ public:
     /// The ray of a coordinate, or `nobody` where there are too many rays, or two too close to each other.
     std::uint32_t find(float x, double inverse_z) {
         const Interval numbers = numbers_for(x, inverse_z);
-        const auto bin = static_cast<std::size_t>(std::clamp((double(x) * inverse_z - first_) * per_number_, 0.0, double(bins - 1)));
+        const auto bin =
+            static_cast<std::size_t>(std::clamp((double(x) * inverse_z - first_) * per_number_, 0.0, double(bins - 1)));
         for (const std::size_t near : {bin, bin - std::min<std::size_t>(bin, 1), std::min(bin + 1, bins - 1)})
             if (by_bin_[near] != nobody && narrow(rays_[by_bin_[near]], numbers)) return by_bin_[near];
         if (by_bin_[bin] != nobody || rays_.size() == most_rays) return nobody;
@@ -117,7 +129,7 @@ Position position_of(const RayRecords& rays, const RayRecord& record) {
 }  // namespace
 
 std::optional<RayRecords> ray_records(std::span<const std::byte> positions) {
-    if (positions.empty() || positions.size() % position_bytes != 0) return std::nullopt;
+    if (positions.empty() || positions.size() % position_bytes != 0 || !may_have_rays(positions)) return std::nullopt;
     const auto range = range_of(positions);
     if (!range) return std::nullopt;
     RayRecords result;

@@ -29,7 +29,7 @@ struct RayRecords {
     std::vector<RayRecord> records;
 };
 
-/// Nothing where the blob is not made of such positions, to the bit.
+/// Nothing where the blob is not made of such positions, to the bit, or not of triangles that each lie at one depth.
 std::optional<RayRecords> ray_records(std::span<const std::byte> positions);
 /// False where a record names a column or a row that there is not. There are as many records as positions.
 bool undo_ray_records(const RayRecords&, std::span<std::byte> positions);

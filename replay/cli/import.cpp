@@ -240,7 +240,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
            "--budget,--memory-budget", options->memory_budget,
            "largest memory for the scene, like 4GiB; default: half of the machine's memory; exit code 4 if more is needed")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
-    app.add_option("--gpu", options->device.gpu, "device that renders the thumbnail of a glTF scene, by index or part of its name");
+    app.add_option("--gpu", options->device.gpu,
+                   "device that renders the thumbnail of a glTF scene, by index or part of its name");
     return [options, &app] { return import(*options, app); };
 }
 

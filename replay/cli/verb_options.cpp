@@ -27,10 +27,13 @@ void say_what_is_left_out(const Capture& capture) {
     for (const std::string& sentence : capture.summary().left_out) to_stderr("strata: {}\n", sentence);
 }
 
+/// The frame at the extent of a thumbnail.
 Frame small(Frame frame) {
     const ThumbnailExtent extent = thumbnail_extent(frame.view.width, frame.view.height);
     frame.view.width = extent.width;
     frame.view.height = extent.height;
+    // Each cascade draws the scene once more, and one has more texels than a thumbnail has pixels.
+    frame.sun.cascades = 1;
     return frame;
 }
 

@@ -69,8 +69,7 @@ private:
         deltas_.resize(raw_.size());
         const std::size_t even = (raw_.size() + 1) / 2;
         for (std::size_t i = 0; i < raw_.size(); ++i) deltas_[i % 2 * even + i / 2] = std::to_integer<std::uint8_t>(raw_[i]);
-        for (std::size_t i = deltas_.size(); i-- > 1;)
-            deltas_[i] = static_cast<std::uint8_t>(deltas_[i] - deltas_[i - 1] + 128);
+        for (std::size_t i = deltas_.size(); i-- > 1;) deltas_[i] = static_cast<std::uint8_t>(deltas_[i] - deltas_[i - 1] + 128);
         std::string packed(raw_.size(), '\0');
         packed.resize(libdeflate_zlib_compress(compressor_.get(), deltas_.data(), deltas_.size(), packed.data(), packed.size()));
         // 0 where it does not fit; as many bytes as there are would be read as not packed.

@@ -48,7 +48,8 @@ Result<DeepImage> deep_image(const FragmentLists& lists, std::uint32_t sample, T
         if (const auto done = refuse_chromatic(lists, sample, frame); !done) return done.error();
     DeepImage image{.width = lists.width(), .height = lists.height(), .begin = {0}};
     for (std::uint32_t y = 0; y < lists.height(); ++y)
-        for (std::uint32_t x = 0; x < lists.width(); ++x) image.begin.push_back(image.begin.back() + lists.at(x, y, sample).size());
+        for (std::uint32_t x = 0; x < lists.width(); ++x)
+            image.begin.push_back(image.begin.back() + lists.at(x, y, sample).size());
     for (const std::string_view name : {"R", "G", "B", "A", "Z"}) image.channels.push_back({name, {}});
     if (transmittance == Transmittance::channels)
         for (const std::string_view name : {"AR", "AG", "AB"}) image.channels.push_back({name, {}});
