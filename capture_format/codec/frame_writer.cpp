@@ -70,7 +70,7 @@ Result<void> FrameWriter::write_blobs() {
     const Result<std::vector<PackedBlobs>> packed = blobs_.pack();
     if (!packed) return give_up(packed.error());
     for (const PackedBlobs& part : *packed) {
-        const Payload payload = {SectionType::blobs, blobs_version, part.stored, part.raw_bytes};
+        const Payload payload = {SectionType::blobs, part.version, part.stored, part.raw_bytes};
         if (const Result<void> added = add(payload); !added) return added;
     }
     return {};

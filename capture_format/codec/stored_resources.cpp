@@ -1,6 +1,8 @@
 // Names the bulk of resources and gives it to the blobs.
 #include "capture_format/codec/stored_resources.h"
 
+#include "capture_format/codec/texture_bytes.h"
+
 namespace strata {
 
 StoredTexture store(const Texture& texture, BlobCollector& blobs) {
@@ -11,7 +13,7 @@ StoredTexture store(const Texture& texture, BlobCollector& blobs) {
                         .mips = texture.mips,
                         .address = texture.address,
                         .texels = {}},
-            .texels = store(texture.texels, blobs)};
+            .texels = blobs.put(texture.texels, texel_bytes(texture.format))};
 }
 
 StoredMesh store(const Mesh& mesh, BlobCollector& blobs) {

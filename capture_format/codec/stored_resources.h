@@ -28,7 +28,7 @@ struct StoredResources {
 
 template <typename T>
 BlobName store(const std::vector<T>& values, BlobCollector& blobs) {
-    return blobs.put(std::as_bytes(std::span(values)));
+    return blobs.put(std::as_bytes(std::span(values)), sizeof(T));
 }
 StoredTexture store(const Texture&, BlobCollector&);
 StoredMesh store(const Mesh&, BlobCollector&);

@@ -1,15 +1,19 @@
 // Packs and finds blobs. The grammar of a blobs section's payload:
 //
 //   blobs = count:u64  entry{count}  zstd frame
-//   entry = hash_low:u64  hash_high:u64  bytes:u64
+//   entry = hash_low:u64  hash_high:u64  bytes:u64                                                    in version 1
+//   entry = hash_low:u64  hash_high:u64  bytes:u64  filtered_bytes:u64  filter                        in version 2
+//   filter = shape:u16  step:u16  stride:u16  0:u16                                                   blob_filter.h
 //
-// The zstd frame holds the blobs one after the other and states its decompressed size, which is the section's raw_bytes and
-// the sum of the entries' bytes. The index is not compressed: a reader knows where every blob is without decompressing any.
+// The zstd frame holds the blobs one after the other, as their filters leave them, and states its decompressed size, which is
+// the section's raw_bytes and the sum of the entries' (filtered) bytes. The index is not compressed: a reader knows where every
+// blob is without decompressing any. A section without a filtered blob has version 1, so that older programs read it.
 #include "capture_format/container/blob_store.h"
 
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -24,9 +28,15 @@ namespace {
 
 struct IndexEntry {
     BlobHash hash;
-    std::uint64_t bytes;
+    std::uint64_t bytes = 0, filtered_bytes = 0;
+    BlobFilter filter;
 };
-static_assert(sizeof(IndexEntry) == 24);
+static_assert(sizeof(IndexEntry) == 40);
+
+/// Of an entry in the file: version 1 has the front of it.
+std::size_t entry_bytes(std::uint32_t version) {
+    return version == 1 ? offsetof(IndexEntry, filtered_bytes) : sizeof(IndexEntry);
+}
 
 // zstd's default: 3 shrank a peer's captures 50 times at 400 MB/s; 19 gains a tenth and is a hundred times slower.
 constexpr int compression_level = 3;
@@ -53,46 +63,51 @@ std::optional<BlobHash> parse_blob_hash(std::string_view digits) {
     return hash;
 }
 
-BlobName BlobCollector::put(std::span<const std::byte> bytes) {
+BlobName BlobCollector::put(std::span<const std::byte> bytes, std::size_t element_bytes) {
     const BlobName blob = {blob_hash(bytes), bytes.size()};
     if (bytes.empty() || !known_.insert(blob.hash).second) return blob;
-    pending_.push_back({blob.hash, {bytes.begin(), bytes.end()}});
+    pending_.push_back({blob, element_bytes, {bytes.begin(), bytes.end()}});
     pending_bytes_ += bytes.size();
     return blob;
 }
 
 Result<std::vector<PackedBlobs>> BlobCollector::pack() {
     std::vector<PackedBlobs> packed;
-    const std::vector<Pending> pending = std::exchange(pending_, {});
+    std::vector<Pending> pending = std::exchange(pending_, {});
     pending_bytes_ = 0;
     for (auto first = pending.begin(); first != pending.end();) {
-        std::uint64_t raw_bytes = 0;
+        std::uint64_t bytes = 0;
         auto last = first;
-        for (; last != pending.end() && last->bytes.size() <= largest_blobs_section - raw_bytes; ++last)
-            raw_bytes += last->bytes.size();
+        for (; last != pending.end() && last->blob.bytes <= largest_blobs_section - bytes; ++last) bytes += last->blob.bytes;
         if (last == first) {
             return fail(Fault::usage, "a resource of {} bytes is too large for a capture, which takes up to {} at once",
-                        first->bytes.size(), largest_blobs_section);
+                        first->blob.bytes, largest_blobs_section);
         }
-        packed.push_back(pack({first, last}, raw_bytes));
+        packed.push_back(pack({first, last}));
         first = last;
     }
     return packed;
 }
 
 /// One section. The blobs are compressed from where they are: a copy of them all would double what packing takes.
-PackedBlobs BlobCollector::pack(std::span<const Pending> blobs, std::uint64_t raw_bytes) {
+PackedBlobs BlobCollector::pack(std::span<Pending> blobs) {
     const std::uint64_t count = blobs.size();
-    const std::size_t index_bytes = sizeof(count) + count * sizeof(IndexEntry);
-    PackedBlobs section{.stored = std::vector<std::byte>(index_bytes + ZSTD_compressBound(raw_bytes)), .raw_bytes = raw_bytes};
-    std::memcpy(section.stored.data(), &count, sizeof(count));
-    for (std::size_t i = 0; i < blobs.size(); ++i) {
-        const IndexEntry entry = {blobs[i].hash, blobs[i].bytes.size()};
-        std::memcpy(section.stored.data() + sizeof(count) + i * sizeof(IndexEntry), &entry, sizeof(IndexEntry));
+    std::vector<IndexEntry> index;
+    PackedBlobs section{.version = 1};
+    for (Pending& blob : blobs) {
+        FilteredBlob better = filtered(std::move(blob.bytes), blob.element_bytes);
+        index.push_back({blob.blob.hash, blob.blob.bytes, better.bytes.size(), better.filter});
+        if (better.filter != BlobFilter{}) section.version = blobs_version;
+        section.raw_bytes += better.bytes.size();
+        blob.bytes = std::move(better.bytes);
     }
+    const std::size_t each = entry_bytes(section.version), index_bytes = sizeof(count) + count * each;
+    section.stored.resize(index_bytes + ZSTD_compressBound(section.raw_bytes));
+    std::memcpy(section.stored.data(), &count, sizeof(count));
+    for (std::size_t i = 0; i < index.size(); ++i) std::memcpy(&section.stored[sizeof(count) + i * each], &index[i], each);
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression_level);
-    ZSTD_CCtx_setPledgedSrcSize(context.get(), raw_bytes);
+    ZSTD_CCtx_setPledgedSrcSize(context.get(), section.raw_bytes);
     ZSTD_outBuffer out = {section.stored.data() + index_bytes, section.stored.size() - index_bytes, 0};
     for (const Pending& blob : blobs) {
         ZSTD_inBuffer in = {blob.bytes.data(), blob.bytes.size(), 0};
@@ -117,10 +132,13 @@ Result<BlobStore> BlobStore::open(const Container& container, MemoryBudget& budg
 
 Result<void> BlobStore::read_index(std::size_t number) {
     const Section& section = container_->sections()[number];
-    if (section.type == SectionType::blobs && section.version != blobs_version) {
-        return fail(Fault::bad_input, "{} has version {}; this program reads {}", container_->whereabouts(number),
-                    section.version, blobs_version);
+    const std::uint32_t version = section.type == SectionType::blobs ? section.version : 1;
+    if (version < 1 || version > blobs_version) {
+        return fail(Fault::bad_input, "{} has version {}; this program reads 1 to {}: {}", container_->whereabouts(number),
+                    version, blobs_version,
+                    version > blobs_version ? "open it with a newer strata" : "it was not written by strata");
     }
+    const std::size_t each = entry_bytes(version);
     if (section.raw_bytes > largest_blobs_section) {
         return fail(Fault::bad_input, "{} claims {} bytes; a capture's sections have up to {}", container_->whereabouts(number),
                     section.raw_bytes, largest_blobs_section);
@@ -129,24 +147,26 @@ Result<void> BlobStore::read_index(std::size_t number) {
     if (!stored) return stored.error();
     std::uint64_t count = 0;
     if (stored->size() >= sizeof(count)) std::memcpy(&count, stored->data(), sizeof(count));
-    if (stored->size() < sizeof(count) || count > (stored->size() - sizeof(count)) / sizeof(IndexEntry)) {
+    if (stored->size() < sizeof(count) || count > (stored->size() - sizeof(count)) / each) {
         return fail(Fault::bad_input, "{} is too short for its index of {} blobs", container_->whereabouts(number), count);
     }
-    BlobsSection blobs{.number = number, .hashes = {}, .sizes = {}, .bytes = {}};
-    std::uint64_t offset = 0;
+    BlobsSection blobs{.number = number, .index_bytes = sizeof(count) + count * each};
+    std::uint64_t filtered_bytes = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
         IndexEntry entry;
-        std::memcpy(&entry, stored->data() + sizeof(count) + i * sizeof(IndexEntry), sizeof(IndexEntry));
-        if (entry.bytes > section.raw_bytes - offset) break;
-        places_.try_emplace(entry.hash, BlobLocation{sections_.size(), offset, entry.bytes});
-        blobs.hashes.push_back(entry.hash);
-        blobs.sizes.push_back(entry.bytes);
-        offset += entry.bytes;
+        std::memcpy(&entry, stored->data() + sizeof(count) + i * each, each);
+        if (version == 1) entry.filtered_bytes = entry.bytes;
+        if (entry.filtered_bytes > section.raw_bytes - filtered_bytes || entry.bytes > largest_blobs_section - blobs.raw_bytes)
+            break;
+        places_.try_emplace(entry.hash, BlobLocation{sections_.size(), blobs.raw_bytes, entry.bytes});
+        blobs.blobs.push_back({entry.hash, entry.bytes, entry.filtered_bytes, entry.filter});
+        blobs.raw_bytes += entry.bytes;
+        filtered_bytes += entry.filtered_bytes;
     }
-    if (blobs.hashes.size() != count || offset != section.raw_bytes) {
+    if (blobs.blobs.size() != count || filtered_bytes != section.raw_bytes) {
         return fail(Fault::bad_input, "{} does not hold the bytes its index lists", container_->whereabouts(number));
     }
-    raw_bytes_ += section.raw_bytes;
+    raw_bytes_ += blobs.raw_bytes;
     stored_bytes_ += section.stored_bytes;
     sections_.push_back(std::move(blobs));
     return {};
@@ -155,34 +175,51 @@ Result<void> BlobStore::read_index(std::size_t number) {
 Result<void> BlobStore::decompress(BlobsSection& blobs) {
     free(blobs);
     const Section& section = container_->sections()[blobs.number];
-    const std::uint64_t needed = section.stored_bytes + section.raw_bytes;
+    const bool plain = std::ranges::all_of(blobs.blobs, [](const Blob& blob) { return blob.filter == BlobFilter{}; });
+    // Besides its own bytes a filtered blob takes what it is made of, twice at the most.
+    const std::uint64_t needed = section.stored_bytes + blobs.raw_bytes + (plain ? 0 : 2 * section.raw_bytes);
     if (needed > budget_->left()) free_unused();
     if (const auto room = budget_->has_room(needed, 1, container_->whereabouts(blobs.number)); !room) return room;
+    auto unpacked = unpack(blobs);
+    if (!unpacked) return unpacked.error();
+    auto raw = plain ? *std::move(unpacked) : std::make_unique_for_overwrite<std::byte[]>(blobs.raw_bytes);
+    std::uint64_t offset = 0, filtered_offset = 0;
+    for (std::size_t i = 0; i < blobs.blobs.size(); ++i) {
+        const Blob& blob = blobs.blobs[i];
+        const std::span<std::byte> bytes(raw.get() + offset, blob.bytes);
+        if (!plain && !undo_filter({unpacked->get() + filtered_offset, blob.filtered_bytes}, blob.filter, bytes)) {
+            return fail(Fault::bad_input,
+                        "{}: blob {} is rearranged in a way that this program does not know; open it with a newer strata",
+                        container_->whereabouts(blobs.number), i);
+        }
+        if (blob_hash(bytes) != blob.hash) {
+            return fail(Fault::bad_input, "{}: blob {} is not what its hash says", container_->whereabouts(blobs.number), i);
+        }
+        offset += blob.bytes;
+        filtered_offset += blob.filtered_bytes;
+    }
+    blobs.bytes = std::move(raw);
+    blobs.held = true;
+    return budget_->take(blobs.raw_bytes, 1, container_->whereabouts(blobs.number));
+}
+
+/// The content of its zstd frame.
+Result<std::unique_ptr<std::byte[]>> BlobStore::unpack(const BlobsSection& blobs) const {
     const auto stored = container_->stored(blobs.number);
     if (!stored) return stored.error();
-    const std::span<const std::byte> frame =
-        std::span(*stored).subspan(sizeof(std::uint64_t) + blobs.hashes.size() * sizeof(IndexEntry));
-    const std::uint64_t raw_bytes = section.raw_bytes;
+    const std::span<const std::byte> frame = std::span(*stored).subspan(blobs.index_bytes);
+    const std::uint64_t raw_bytes = container_->sections()[blobs.number].raw_bytes;
     // Only a frame that states the size the section states is worth allocating for.
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != raw_bytes) {
         return fail(Fault::bad_input, "{} is not a zstd frame of {} bytes", container_->whereabouts(blobs.number), raw_bytes);
     }
-    std::vector<std::byte> raw(raw_bytes);
-    const std::size_t written = ZSTD_decompress(raw.data(), raw.size(), frame.data(), frame.size());
-    if (written != raw.size()) {
+    auto raw = std::make_unique_for_overwrite<std::byte[]>(raw_bytes);  // clearing it takes as long as undoing a filter
+    const std::size_t written = ZSTD_decompress(raw.get(), raw_bytes, frame.data(), frame.size());
+    if (written != raw_bytes) {
         return fail(Fault::bad_input, "{} does not decompress: {}", container_->whereabouts(blobs.number),
                     ZSTD_isError(written) ? ZSTD_getErrorName(written) : "it ends early");
     }
-    std::uint64_t offset = 0;
-    for (std::size_t i = 0; i < blobs.hashes.size(); ++i) {
-        if (blob_hash(std::span(raw).subspan(offset, blobs.sizes[i])) != blobs.hashes[i]) {
-            return fail(Fault::bad_input, "{}: blob {} is not what its hash says", container_->whereabouts(blobs.number), i);
-        }
-        offset += blobs.sizes[i];
-    }
-    blobs.bytes = std::move(raw);
-    blobs.held = true;
-    return budget_->take(raw_bytes, 1, container_->whereabouts(blobs.number));
+    return raw;
 }
 
 Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
@@ -196,7 +233,7 @@ Result<std::span<const std::byte>> BlobStore::find(const BlobName& blob) {
     if (!section.held) {
         if (const Result<void> read = decompress(section); !read) return read.error();
     }
-    return std::span<const std::byte>(section.bytes).subspan(place->second.offset, blob.bytes);
+    return std::span<const std::byte>(section.bytes.get() + place->second.offset, blob.bytes);
 }
 
 Result<void> BlobStore::check_all() {
@@ -209,7 +246,7 @@ Result<void> BlobStore::check_all() {
 
 void BlobStore::free(BlobsSection& blobs) {
     if (!blobs.held) return;
-    budget_->give_back(blobs.bytes.size());
+    budget_->give_back(blobs.raw_bytes);
     blobs.bytes = {};
     blobs.held = false;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -13,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "capture_format/container/blob_filter.h"
 #include "capture_format/container/container.h"
 #include "capture_format/memory_budget.h"
 #include "capture_format/result.h"
@@ -35,22 +37,24 @@ struct BlobName {
     std::uint64_t bytes = 0;
 };
 
-/// Grammar of a blobs section's payload.
-inline constexpr std::uint32_t blobs_version = 1;
+/// Newest grammar of a blobs section's payload.
+inline constexpr std::uint32_t blobs_version = 2;
 /// What one blobs section may hold decompressed, and so a blob: bounds what a hostile file can make a reader allocate.
 inline constexpr std::uint64_t largest_blobs_section = std::uint64_t{1} << 30;
 
-/// A blobs section ready to be written: Payload::stored and Payload::raw_bytes.
+/// A blobs section ready to be written: Payload::version, Payload::stored and Payload::raw_bytes.
 struct PackedBlobs {
-    std::vector<std::byte> stored;
+    std::uint32_t version = blobs_version;
+    std::vector<std::byte> stored = {};
     std::uint64_t raw_bytes = 0;
 };
 
 /// Writing: collects blobs until they are packed, and remembers for ever which ones there were.
 class BlobCollector {
 public:
-    /// Keeps a copy of the bytes unless equal ones were put before.
-    BlobName put(std::span<const std::byte>);
+    /// Keeps a copy of the bytes unless equal ones were put before. Lists of elements of more than one byte compress better
+    /// when their size is known.
+    BlobName put(std::span<const std::byte>, std::size_t element_bytes = 1);
     /// The blobs put since the last call as sections, none when there are no new ones. Fails for a blob above the limit.
     Result<std::vector<PackedBlobs>> pack();
     /// What pack() would compress now.
@@ -58,10 +62,11 @@ public:
 
 private:
     struct Pending {
-        BlobHash hash;
+        BlobName blob;
+        std::size_t element_bytes = 1;
         std::vector<std::byte> bytes;
     };
-    static PackedBlobs pack(std::span<const Pending>, std::uint64_t raw_bytes);
+    static PackedBlobs pack(std::span<Pending>);
 
     std::set<BlobHash> known_;
     std::vector<Pending> pending_;
@@ -93,16 +98,23 @@ private:
         std::size_t section = 0;  ///< in sections_
         std::uint64_t offset = 0, bytes = 0;
     };
+    struct Blob {
+        BlobHash hash;
+        std::uint64_t bytes = 0, filtered_bytes = 0;
+        BlobFilter filter;
+    };
     struct BlobsSection {
         std::size_t number = 0;  ///< in the container
-        std::vector<BlobHash> hashes;
-        std::vector<std::uint64_t> sizes;
-        std::vector<std::byte> bytes;
+        std::size_t index_bytes = 0;
+        std::uint64_t raw_bytes = 0;  ///< of all blobs
+        std::vector<Blob> blobs = {};
+        std::unique_ptr<std::byte[]> bytes = {};
         bool held = false, used = false;
     };
     BlobStore(const Container& container, MemoryBudget& budget) : container_(&container), budget_(&budget) {}
     Result<void> read_index(std::size_t section);
     Result<void> decompress(BlobsSection&);
+    Result<std::unique_ptr<std::byte[]>> unpack(const BlobsSection&) const;
     void free(BlobsSection&);
     void free_unused();
 

@@ -4,6 +4,7 @@
 //   texel   = r:u8  g:u8  b:u8  a:u8                          sRGB, rows top to bottom
 #include "capture_format/container/picture.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace strata {
@@ -14,7 +15,15 @@ bool fits(std::uint32_t width, std::uint32_t height, std::size_t texel_bytes) {
            texel_bytes == std::size_t{4} * width * height;
 }
 
+constexpr std::uint32_t thumbnail_width = 160;  // at the most
+
 }  // namespace
+
+ThumbnailExtent thumbnail_extent(std::uint32_t frame_width, std::uint32_t frame_height) {
+    const auto parts = [](std::uint32_t whole, std::uint32_t most) { return (whole + most - 1) / most; };
+    const std::uint32_t pixels = std::max({1u, parts(frame_width, thumbnail_width), parts(frame_height, largest_picture_edge)});
+    return {std::max(1u, frame_width / pixels), std::max(1u, frame_height / pixels), pixels};
+}
 
 Result<std::vector<std::byte>> encode_picture(const Texture& picture) {
     const bool rgba8 = picture.format == TextureFormat::rgba8_unorm || picture.format == TextureFormat::rgba8_srgb;

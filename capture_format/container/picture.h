@@ -21,6 +21,13 @@ inline constexpr std::size_t longest_notes = std::size_t{1} << 20, longest_expec
 /// Texels of a picture, each way.
 inline constexpr std::uint32_t largest_picture_edge = 1024;
 
+/// A thumbnail's extent, at most 160 texels wide. A texel stands for `pixels` x `pixels` of the frame; what is left over at the
+/// right and at the bottom is not shown.
+struct ThumbnailExtent {
+    std::uint32_t width = 0, height = 0, pixels = 1;
+};
+ThumbnailExtent thumbnail_extent(std::uint32_t frame_width, std::uint32_t frame_height);
+
 /// Fails unless the picture is RGBA8 with one mip and up to largest_picture_edge texels each way.
 Result<std::vector<std::byte>> encode_picture(const Texture&);
 Result<Texture> decode_picture(std::span<const std::byte>);

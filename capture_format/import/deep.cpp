@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "capture_format/container/file.h"
+#include "capture_format/container/picture.h"
 #include "capture_format/import/deep_pixel.h"
 #include "capture_format/inspection.h"
 #include "capture_format/memory_budget.h"
@@ -46,6 +47,7 @@ public:
           options_(options),
           window_(options.window.value_or(file.display_window())),
           read_(options.window.value_or(file.data_window())),
+          small_(thumbnail_extent(window_.width, window_.height)),
           layers_(is_chromatic() ? std::span<const Layer>(chromatic) : grey) {}
 
     Result<ImportedDeep> run() {
@@ -59,6 +61,12 @@ public:
             return room.error();
         set_view();
         meshes_.resize(layers_.size());
+        for (Mesh& mesh : meshes_) {
+            mesh.positions.reserve(3 * *count);
+            mesh.colors.reserve(3 * *count);
+            mesh.indices.reserve(3 * *count);
+        }
+        result_.preview.resize(std::size_t{small_.width} * small_.height);
         DeepBlock block;
         for (std::size_t i = 0; i < file_.blocks(); ++i) {
             if (!overlap(file_.window(i), read_)) continue;
@@ -102,15 +110,18 @@ private:
             }
             const auto samples = pixel_samples(block, i, result_.census);
             if (!samples) return samples.error();
-            add_pixel(glm::dvec2(x, y), *samples);
+            add_pixel(glm::uvec2(x, y), *samples);
         }
         return {};
     }
 
-    void add_pixel(const glm::dvec2& pixel, const std::vector<DeepSample>& nearest_first) {
+    void add_pixel(const glm::uvec2& pixel, const std::vector<DeepSample>& nearest_first) {
         DeepCensus& census = result_.census;
         if (nearest_first.empty()) return;
         ++census.pixels;
+        if (const glm::uvec2 texel = pixel / small_.pixels; texel.x < small_.width && texel.y < small_.height)
+            result_.preview[texel.y * small_.width + texel.x] +=
+                glm::dvec3(composite(nearest_first)) / (double(small_.pixels) * small_.pixels);
         census.deepest = std::max<std::uint64_t>(census.deepest, nearest_first.size());
         for (auto sample = nearest_first.rbegin(); sample != nearest_first.rend(); ++sample) {
             const glm::dvec3 &color = sample->color, &alpha = sample->alpha;
@@ -219,6 +230,7 @@ private:
     const DeepOptions& options_;
     const DeepWindow window_;  ///< of the image that is the frame
     const DeepWindow read_;    ///< whose blocks are read: all, unless a window was asked for
+    const ThumbnailExtent small_;
     std::span<const Layer> layers_;
     ImportedDeep result_;
     std::vector<Mesh> meshes_;                                  ///< one per layer

@@ -51,6 +51,8 @@ struct DeepCensus {
 struct ImportedDeep {
     Frame frame;  ///< one view of the window with one sample, no opaque surface, no light, black background
     DeepCensus census;
+    /// Radiance of the samples over black, at thumbnail_extent(): each value is the mean of its pixels.
+    std::vector<glm::dvec3> preview;
     std::vector<std::string> warnings;  ///< what was missing, ignored or changed, as sentences with counts
 };
 

@@ -1,6 +1,7 @@
 // Transparent events per sample, and the nearest surfaces. Rows are independent, so bits do not depend on threads.
 #include "passes/reference/fragments.h"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -131,14 +132,16 @@ DepthTest depth_test(const RasterPoint& point, double opaque_depth) {
 struct FoundRow {
     std::vector<Fragment> fragments;
     std::vector<std::uint32_t> slots;
+    std::vector<const Fragment*> sorted;  ///< for order_is_undecided
 };
 
 // Whether the result depends on the order of two fragments whose depths a float cannot tell apart. Exact ties are decided by
 // submission; events that cover nothing commute.
-bool order_is_undecided(std::span<const Fragment> list) {
-    std::vector<const Fragment*> sorted(list.size());
+// `sorted` is memory to reuse.
+bool order_is_undecided(std::span<const Fragment> list, std::vector<const Fragment*>& sorted) {
+    sorted.resize(list.size());
     std::transform(list.begin(), list.end(), sorted.begin(), [](const Fragment& f) { return &f; });
-    std::stable_sort(sorted.begin(), sorted.end(), [](const Fragment* a, const Fragment* b) { return a->depth < b->depth; });
+    std::ranges::sort(sorted, {}, [](const Fragment* f) { return std::pair(f->depth, f); });
     for (std::size_t i = 1; i < sorted.size(); ++i) {
         const double gap = sorted[i]->depth - sorted[i - 1]->depth;
         const bool commute = sorted[i]->transmittance == glm::dvec3(1) && sorted[i - 1]->transmittance == glm::dvec3(1);
@@ -232,9 +235,12 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
     const LitFrame scene(frame);
     const bool has_interfaces = frame_features(frame).has(Feature::interface_layers);
     const std::uint32_t end = std::min(rows.end, view.height);
+    oneapi::tbb::enumerable_thread_specific<FoundRow> reused;  // fresh pages for every row take longer than the fragments
     oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {
         FragmentLists::Row& row = lists.rows_[y];
-        FoundRow found;
+        FoundRow& found = reused.local();
+        found.fragments.clear();
+        found.slots.clear();
         raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
             const double opaque_depth = depth.at(point.x, point.y, point.sample).x;
             const DepthTest test = depth_test(point, opaque_depth);
@@ -257,7 +263,7 @@ FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& de
         std::vector<std::size_t> next(row.begin.begin(), row.begin.end() - 1);
         for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[next[found.slots[i]]++] = found.fragments[i];
         for (std::uint32_t slot = 0; slot < row.undecided.size(); ++slot) {
-            if (order_is_undecided(lists.at(slot / view.samples, y, slot % view.samples))) row.undecided[slot] = 1;
+            if (order_is_undecided(lists.at(slot / view.samples, y, slot % view.samples), found.sorted)) row.undecided[slot] = 1;
         }
     });
     return lists;

@@ -47,13 +47,14 @@ double bounded(double texels) { return std::isfinite(texels) ? std::clamp(texels
 
 double srgb_to_linear(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
-glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std::uint32_t y) {
+namespace {
+
+glm::dvec4 texel_at(const Texture& texture, std::size_t index) {
     static const std::array<double, 256> srgb = [] {
         std::array<double, 256> table{};
         for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgb_to_linear(double(i) / 255);
         return table;
     }();
-    const std::size_t index = mip_offset(texture, mip) + std::size_t(y) * mip_size(texture.width, mip) + x;
     const std::byte* bytes = texture.texels.data() + index * texel_bytes(texture.format);
     if (texture.format == TextureFormat::rgba32f) {
         std::array<float, 4> v;
@@ -71,6 +72,12 @@ glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std
     return {double(byte(0)) / 255, double(byte(1)) / 255, double(byte(2)) / 255, alpha};
 }
 
+}  // namespace
+
+glm::dvec4 texel(const Texture& texture, std::uint32_t mip, std::uint32_t x, std::uint32_t y) {
+    return texel_at(texture, mip_offset(texture, mip) + std::size_t(y) * mip_size(texture.width, mip) + x);
+}
+
 glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2& uv) {
     const std::uint32_t width = mip_size(texture.width, mip), height = mip_size(texture.height, mip);
     const double u = bounded(uv.x * width - 0.5), v = bounded(uv.y * height - 0.5);
@@ -78,9 +85,11 @@ glm::dvec4 bilinear(const Texture& texture, std::uint32_t mip, const glm::dvec2&
     const AddressMode across = address_u(texture.address), down = address_v(texture.address);
     const auto column = [&](int step) { return wrapped(static_cast<std::int64_t>(left) + step, width, across); };
     const auto row = [&](int step) { return wrapped(static_cast<std::int64_t>(top) + step, height, down); };
-    const std::uint32_t x0 = column(0), x1 = column(1), y0 = row(0), y1 = row(1);
-    const glm::dvec4 upper = glm::mix(texel(texture, mip, x0, y0), texel(texture, mip, x1, y0), right_share);
-    const glm::dvec4 lower = glm::mix(texel(texture, mip, x0, y1), texel(texture, mip, x1, y1), right_share);
+    const std::uint32_t x0 = column(0), x1 = column(1);
+    const std::size_t first = mip_offset(texture, mip);
+    const std::size_t y0 = first + std::size_t(row(0)) * width, y1 = first + std::size_t(row(1)) * width;
+    const glm::dvec4 upper = glm::mix(texel_at(texture, y0 + x0), texel_at(texture, y0 + x1), right_share);
+    const glm::dvec4 lower = glm::mix(texel_at(texture, y1 + x0), texel_at(texture, y1 + x1), right_share);
     return glm::mix(upper, lower, bottom_share);
 }
 

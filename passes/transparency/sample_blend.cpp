@@ -75,9 +75,22 @@ glm::dvec3 transmittance_before(std::span<const Fragment> fragments, double dept
     return through;
 }
 
+std::vector<std::size_t> nearest_first_order(std::span<const Fragment> fragments) {
+    // Pairs are sorted faster than what they stand for, and no two are equal.
+    std::vector<std::pair<double, std::size_t>> keys;
+    keys.reserve(fragments.size());
+    for (std::size_t i = 0; i < fragments.size(); ++i) keys.emplace_back(fragments[i].depth, fragments.size() - 1 - i);
+    std::ranges::sort(keys);
+    std::vector<std::size_t> order;
+    order.reserve(keys.size());
+    for (const auto& [depth, from_last] : keys) order.push_back(fragments.size() - 1 - from_last);
+    return order;
+}
+
 std::vector<Fragment> nearest_first(std::span<const Fragment> in_submission_order) {
-    std::vector<Fragment> sorted(in_submission_order.rbegin(), in_submission_order.rend());
-    std::ranges::stable_sort(sorted, std::ranges::less{}, &Fragment::depth);
+    std::vector<Fragment> sorted;
+    sorted.reserve(in_submission_order.size());
+    for (const std::size_t i : nearest_first_order(in_submission_order)) sorted.push_back(in_submission_order[i]);
     return sorted;
 }
 

@@ -6,7 +6,8 @@ namespace strata {
 
 glm::dvec3 exact_blend(std::span<const Fragment> fragments, glm::dvec3 behind) {
     glm::dvec3 color(0), through(1);
-    for (const Fragment& fragment : transparency::nearest_first(fragments)) {
+    for (const std::size_t i : transparency::nearest_first_order(fragments)) {
+        const Fragment& fragment = fragments[i];
         color += through * (fragment.color + fragment.emission);
         through *= fragment.transmittance;
     }
@@ -16,7 +17,8 @@ glm::dvec3 exact_blend(std::span<const Fragment> fragments, glm::dvec3 behind) {
 glm::dvec2 exact_distortion(std::span<const Fragment> fragments) {
     glm::dvec2 offset(0);
     glm::dvec3 through(1);
-    for (const Fragment& fragment : transparency::nearest_first(fragments)) {
+    for (const std::size_t i : transparency::nearest_first_order(fragments)) {
+        const Fragment& fragment = fragments[i];
         offset += transparency::luminance(through) * fragment.distortion;
         through *= fragment.transmittance;
     }

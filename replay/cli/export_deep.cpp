@@ -1,4 +1,6 @@
 // strata export --deep: rasterized in double, tested against the depth that the replay gave.
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "capture_format/container/whole_file.h"
@@ -37,14 +39,15 @@ Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samp
 Result<double> worst_difference(std::string_view exr, const FragmentLists& lists, std::uint32_t sample) {
     const auto flat = flatten_deep(std::as_bytes(std::span(exr)), "the exported image");
     if (!flat) return flat.error();
-    double worst = 0;
-    for (std::uint32_t y = 0; y < lists.height(); ++y)
+    std::vector<double> rows(lists.height());
+    oneapi::tbb::parallel_for(std::uint32_t{0}, lists.height(), [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < lists.width(); ++x) {
             const glm::dvec3 wanted = exact_blend(lists.at(x, y, sample), glm::dvec3(0)), got(texel(flat->image, x, y));
             for (int c = 0; c < 3; ++c)
-                worst = std::max(worst, std::abs(got[c] - wanted[c]) / std::max(1.0, std::abs(wanted[c])));
+                rows[y] = std::max(rows[y], std::abs(got[c] - wanted[c]) / std::max(1.0, std::abs(wanted[c])));
         }
-    return worst;
+    });
+    return rows.empty() ? 0 : std::ranges::max(rows);
 }
 
 }  // namespace
@@ -54,6 +57,7 @@ Result<void> export_deep(const ExportOptions& options) {
     if (!request) return request.error();
     request->variant.frame = options.frame;
     request->outputs = {"depth_layers"};
+    request->once = true;  // to fill the memo, the frame would be executed whole
     auto session = open(options.open);
     if (!session) return session.error();
     auto recorded = (*session)->frame(options.frame);

@@ -6,11 +6,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture_format/container/picture.h"
 #include "capture_format/container/whole_file.h"
 #include "capture_format/import/deep.h"
 #include "capture_format/import/gltf.h"
 #include "capture_format/import/seen.h"
 #include "capture_format/recorder.h"
+#include "passes/combine/formulas.h"
 #include "replay/cli/given_options.h"
 #include "replay/cli/verb_options.h"
 #include "replay/plural.h"
@@ -67,19 +69,18 @@ void warn_of_darkness(const Texture& picture) {
 
 /// Frame after frame, so that an animation of a large scene never lies in memory as a whole. Returns what the last one holds.
 Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count,
-                             const std::function<Result<Frame>(std::uint32_t)>& frame_at) {
+                             const std::function<Result<Frame>(std::uint32_t)>& frame_at,
+                             const std::function<Result<std::optional<Texture>>(const Frame&)>& thumbnail_of_first) {
     auto frame = frame_at(0);
     if (!frame) return frame.error();
     auto file = WholeFile::begin(output_of(options));
     if (!file) return file.error();
     auto recorder = Recorder::create(file->temporary(), "imported from " + options.scene.filename().string(), room_for(*frame));
     if (!recorder) return recorder.error();
-    const auto thumbnail = make_thumbnail(*frame, options.device);
+    const auto thumbnail = thumbnail_of_first(*frame);
     if (!thumbnail) return thumbnail.error();
-    if (*thumbnail) {
+    if (*thumbnail)
         if (const auto done = recorder->thumbnail(**thumbnail); !done) return done.error();
-        if (!options.deep) warn_of_darkness(**thumbnail);  // a deep image's view is its own
-    }
     const Progress progress = progress_line();
     Counts counts;
     for (std::uint32_t index = 0; index < count; ++index) {
@@ -92,6 +93,22 @@ Result<Counts> record_frames(const ImportArguments& options, std::uint32_t count
     if (const auto done = recorder->finish(); !done) return done.error();
     if (const auto done = file->commit(); !done) return done.error();
     return counts;
+}
+
+/// The thumbnail of a deep image, by the exposure and the tone curve of its frame, without a device.
+std::optional<Texture> developed(const Frame& frame, std::span<const glm::dvec3> preview) {
+    const ThumbnailExtent extent = thumbnail_extent(frame.view.width, frame.view.height);
+    HostImage display{.shape = {.extent = {extent.width, extent.height, 1}, .format = Format::rgba32f}, .texels = {}};
+    std::vector<glm::vec4> texels;
+    for (const glm::dvec3& radiance : preview) {
+        glm::dvec4 texel(1);
+        for (int c = 0; c < 3; ++c)
+            texel[c] = combine::tone_mapped(radiance[c] * double(frame.view.exposure), double(frame.film.white));
+        texels.emplace_back(texel);
+    }
+    const auto bytes = std::as_bytes(std::span(texels));
+    display.texels.assign(bytes.begin(), bytes.end());
+    return thumbnail_of(display);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -110,7 +127,9 @@ Result<void> import_deep_image(const ImportArguments& options) {
     auto image = import_deep(options.scene, of_deep);
     if (!image) return image.error();
     print_warnings(image->warnings);
-    const auto recorded = record_frames(options, 1, [&](std::uint32_t) { return std::move(image->frame); });
+    const auto recorded = record_frames(
+        options, 1, [&](std::uint32_t) { return std::move(image->frame); },
+        [&](const Frame& frame) { return developed(frame, image->preview); });
     if (!recorded) return recorded.error();
     const DeepCensus& census = image->census;
     to_stderr("imported {} of {} as {} in {}, {} in the deepest, into {}\n", plural(census.samples, "sample"),
@@ -140,7 +159,9 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
                                           {"--size", "--samples", "--camera", "--eye", "--target", "--inside", "--fov",
                                            "--azimuth", "--elevation", "--frames", "--fps", "--animation"},
                                           "a deep image is one frame with a view of its own");
-        return fits ? import_deep_image(options) : fits;
+        if (!fits) return fits;
+        const auto no_device = check_not_given(app, {"--gpu"}, "a deep image is imported without a device");
+        return no_device ? import_deep_image(options) : no_device;
     }
     if (options.frames == 1)
         if (const auto fits =
@@ -159,11 +180,17 @@ Result<void> import(const ImportArguments& options, const CLI::App& app) {
     auto scene = GltfScene::open(options.scene, gltf);
     if (!scene) return scene.error();
     std::vector<std::string> notes;
-    const auto last = record_frames(options, options.frames, [&](std::uint32_t index) {
+    const auto frame_at = [&](std::uint32_t index) {
         auto frame = scene->frame(index);
         if (index == 0 && frame) notes = notes_on_view(*frame);
         return frame;
-    });
+    };
+    const auto replayed = [&](const Frame& frame) {
+        auto thumbnail = make_thumbnail(frame, options.device);
+        if (thumbnail && *thumbnail) warn_of_darkness(**thumbnail);
+        return thumbnail;
+    };
+    const auto last = record_frames(options, options.frames, frame_at, replayed);
     print_warnings(scene->warnings());
     print_warnings(notes);
     if (!last) return last.error();
@@ -213,7 +240,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
            "--budget,--memory-budget", options->memory_budget,
            "largest memory for the scene, like 4GiB; default: half of the machine's memory; exit code 4 if more is needed")
         ->transform(CLI::AsSizeValue(/*kb_is_1000=*/false));
-    app.add_option("--gpu", options->device.gpu, "device that renders the thumbnail, by index or part of its name");
+    app.add_option("--gpu", options->device.gpu,
+                   "device that renders the thumbnail of a glTF scene, by index or part of its name");
     return [options, &app] { return import(*options, app); };
 }
 

@@ -17,38 +17,23 @@
 namespace strata {
 namespace {
 
-constexpr std::uint32_t thumbnail_width = 160;  // at the most
-
 template <typename Number>
 bool parse(std::string_view text, Number& number) {
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
     return problem == std::errc() && end == text.data() + text.size();
 }
 
-Texture thumbnail_of(const HostImage& display) {
-    Texture texture{.name = "thumbnail", .format = TextureFormat::rgba8_srgb};
-    texture.width = display.shape.extent.width;
-    texture.height = display.shape.extent.height;
-    for (std::uint32_t y = 0; y < texture.height; ++y)
-        for (std::uint32_t x = 0; x < texture.width; ++x) {
-            const glm::dvec4 color = texel(display, x, y);
-            for (int c = 0; c < 3; ++c) texture.texels.push_back(display_byte(color[c]));
-            texture.texels.push_back(std::byte{255});
-        }
-    return texture;
-}
-
 void say_what_is_left_out(const Capture& capture) {
     for (const std::string& sentence : capture.summary().left_out) to_stderr("strata: {}\n", sentence);
 }
 
-/// The frame at an extent that fits a thumbnail; an edge shorter than the divisor stays one pixel.
+/// The frame at the extent of a thumbnail.
 Frame small(Frame frame) {
-    View& view = frame.view;
-    const std::uint32_t divisor = std::max({1u, (view.width + thumbnail_width - 1) / thumbnail_width,
-                                            (view.height + largest_picture_edge - 1) / largest_picture_edge});
-    view.width = std::max(1u, view.width / divisor);
-    view.height = std::max(1u, view.height / divisor);
+    const ThumbnailExtent extent = thumbnail_extent(frame.view.width, frame.view.height);
+    frame.view.width = extent.width;
+    frame.view.height = extent.height;
+    // Each cascade draws the scene once more, and one has more texels than a thumbnail has pixels.
+    frame.sun.cascades = 1;
     return frame;
 }
 
@@ -171,6 +156,19 @@ Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& tex
         extent.first > 16384 || extent.second > 16384)
         return fail(Fault::usage, "--size takes WIDTHxHEIGHT, each 1 to 16384, not '{}'", text);
     return extent;
+}
+
+Texture thumbnail_of(const HostImage& display) {
+    Texture texture{.name = "thumbnail", .format = TextureFormat::rgba8_srgb};
+    texture.width = display.shape.extent.width;
+    texture.height = display.shape.extent.height;
+    for (std::uint32_t y = 0; y < texture.height; ++y)
+        for (std::uint32_t x = 0; x < texture.width; ++x) {
+            const glm::dvec4 color = texel(display, x, y);
+            for (int c = 0; c < 3; ++c) texture.texels.push_back(display_byte(color[c]));
+            texture.texels.push_back(std::byte{255});
+        }
+    return texture;
 }
 
 Result<std::optional<Texture>> make_thumbnail(const Frame& frame, const DeviceChoice& device) {

@@ -46,6 +46,8 @@ std::string command_line(const CLI::App& verb);
 /// "320x180".
 Result<std::pair<std::uint32_t, std::uint32_t>> extent_of(const std::string& text);
 
+/// Display light as a thumbnail.
+Texture thumbnail_of(const HostImage& display);
 /// A capture's thumbnail: its first frame, replayed at about that size. Without a usable device there is none; a line says so.
 Result<std::optional<Texture>> make_thumbnail(const Frame&, const DeviceChoice&);
 

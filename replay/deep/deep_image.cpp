@@ -1,19 +1,9 @@
 #include "replay/deep/deep_image.h"
 
-#include <algorithm>
-#include <exception>
-#include <map>
-#include <sstream>
+#include <oneapi/tbb/parallel_for.h>
 
-#include <ImfChannelList.h>
-#include <ImfDeepFrameBuffer.h>
-#include <ImfDeepImageStateAttribute.h>
-#include <ImfDeepScanLineOutputFile.h>
-#include <ImfHeader.h>
-#include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStdIO.h>
-#include <ImfStringAttribute.h>
+#include <algorithm>
+#include <map>
 
 #include "passes/transparency/sample_blend.h"
 #include "replay/plural.h"
@@ -44,42 +34,11 @@ Result<void> refuse_chromatic(const FragmentLists& lists, std::uint32_t sample, 
                 plural(count, "fragment"), most->second, most->first);
 }
 
-void add_sample(DeepImage& image, const Fragment& fragment) {
+void set_sample(DeepImage& image, std::size_t i, const Fragment& fragment) {
     const glm::dvec3 color = fragment.color + fragment.emission, alpha = 1.0 - fragment.transmittance;
     const double values[] = {color.x,        color.y, color.z, (alpha.x + alpha.y + alpha.z) / 3,
                              fragment.depth, alpha.x, alpha.y, alpha.z};
-    for (std::size_t c = 0; c < image.channels.size(); ++c) image.channels[c].values.push_back(static_cast<float>(values[c]));
-}
-
-Imf::Header header_of(const DeepImage& image, const Metadata& metadata) {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
-    header.setType(Imf::DEEPSCANLINE);
-    header.compression() = Imf::ZIPS_COMPRESSION;
-    for (const DeepImage::Channel& channel : image.channels)
-        header.channels().insert(std::string(channel.name), Imf::Channel(Imf::FLOAT));
-    Imf::addDeepImageState(header, Imf::DIS_SORTED);
-    for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
-    return header;
-}
-
-/// Line by line: the frame buffer's pointers are of one row, and its row stride is 0.
-void write_lines(const DeepImage& image, Imf::DeepScanLineOutputFile& file) {
-    std::vector<std::uint32_t> counts(image.width);
-    std::vector<std::vector<const float*>> pointers(image.channels.size(), std::vector<const float*>(image.width));
-    Imf::DeepFrameBuffer buffer;
-    buffer.insertSampleCountSlice(Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), sizeof(std::uint32_t), 0));
-    for (std::size_t c = 0; c < image.channels.size(); ++c)
-        buffer.insert(std::string(image.channels[c].name),
-                      Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(pointers[c].data()), sizeof(float*), 0, sizeof(float)));
-    file.setFrameBuffer(buffer);
-    for (std::size_t y = 0; y < image.height; ++y) {
-        for (std::size_t x = 0; x < image.width; ++x) {
-            const std::size_t pixel = y * image.width + x, begin = image.begin[pixel];
-            counts[x] = static_cast<std::uint32_t>(image.begin[pixel + 1] - begin);
-            for (std::size_t c = 0; c < pointers.size(); ++c) pointers[c][x] = image.channels[c].values.data() + begin;
-        }
-        file.writePixels(1);
-    }
+    for (std::size_t c = 0; c < image.channels.size(); ++c) image.channels[c].values[i] = static_cast<float>(values[c]);
 }
 
 }  // namespace
@@ -88,26 +47,21 @@ Result<DeepImage> deep_image(const FragmentLists& lists, std::uint32_t sample, T
     if (transmittance == Transmittance::refused)
         if (const auto done = refuse_chromatic(lists, sample, frame); !done) return done.error();
     DeepImage image{.width = lists.width(), .height = lists.height(), .begin = {0}};
+    for (std::uint32_t y = 0; y < lists.height(); ++y)
+        for (std::uint32_t x = 0; x < lists.width(); ++x)
+            image.begin.push_back(image.begin.back() + lists.at(x, y, sample).size());
     for (const std::string_view name : {"R", "G", "B", "A", "Z"}) image.channels.push_back({name, {}});
     if (transmittance == Transmittance::channels)
         for (const std::string_view name : {"AR", "AG", "AB"}) image.channels.push_back({name, {}});
-    for (std::uint32_t y = 0; y < lists.height(); ++y)
+    for (DeepImage::Channel& channel : image.channels) channel.values.resize(image.begin.back());
+    oneapi::tbb::parallel_for(std::uint32_t{0}, lists.height(), [&](std::uint32_t y) {
+        std::size_t next = image.begin[std::size_t{y} * image.width];
         for (std::uint32_t x = 0; x < lists.width(); ++x) {
-            for (const Fragment& fragment : transparency::nearest_first(lists.at(x, y, sample))) add_sample(image, fragment);
-            image.begin.push_back(image.channels[0].values.size());
+            const std::span<const Fragment> fragments = lists.at(x, y, sample);
+            for (const std::size_t i : transparency::nearest_first_order(fragments)) set_sample(image, next++, fragments[i]);
         }
+    });
     return image;
-}
-
-Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
-    Imf::StdOSStream stream;
-    try {
-        Imf::DeepScanLineOutputFile file(stream, header_of(image, metadata));
-        write_lines(image, file);
-    } catch (const std::exception& problem) {
-        return fail(Fault::usage, "a deep image of {} x {} pixels cannot be made: {}", image.width, image.height, problem.what());
-    }
-    return stream.str();
 }
 
 }  // namespace strata

@@ -18,7 +18,7 @@ void write_pending(ContainerWriter& writer, BlobCollector& blobs) {
     const auto packed = blobs.pack();
     ASSERT_TRUE(packed);
     for (const PackedBlobs& part : *packed) {
-        ASSERT_TRUE(writer.add({SectionType::blobs, blobs_version, part.stored, part.raw_bytes}));
+        ASSERT_TRUE(writer.add({SectionType::blobs, part.version, part.stored, part.raw_bytes}));
     }
 }
 
@@ -44,7 +44,7 @@ struct TwoSections {
 std::string sentence_for(const PackedBlobs& blobs, const BlobName& blob) {
     const TemporaryFile file;
     auto writer = ContainerWriter::create(file.path());
-    EXPECT_TRUE(writer->add({SectionType::blobs, blobs_version, blobs.stored, blobs.raw_bytes}) && writer->finish());
+    EXPECT_TRUE(writer->add({SectionType::blobs, blobs.version, blobs.stored, blobs.raw_bytes}) && writer->finish());
     const auto container = Container::open(file.path());
     MemoryBudget budget;
     auto store = BlobStore::open(*container, budget);
@@ -94,6 +94,65 @@ TEST(BlobStore, ASectionIsDecompressedWhenFirstAskedForAndFreedWhenNoLongerUsed)
     EXPECT_EQ(store->sections_held(), 2u);
     store->keep_only_used();
     EXPECT_EQ(store->sections_held(), 1u);
+}
+
+/// 40,000 bytes that a filter makes smaller.
+std::vector<std::byte> indices() {
+    std::vector<std::uint32_t> values(10000);
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = i;
+    const auto bytes = std::as_bytes(std::span(values));
+    return {bytes.begin(), bytes.end()};
+}
+
+TEST(BlobStore, ASectionHasTheOlderVersionUnlessABlobIsRearranged) {
+    BlobCollector blobs;
+    blobs.put(indices());
+    EXPECT_EQ(blobs.pack()->front().version, 1u);
+    BlobCollector of_words;
+    of_words.put(indices(), 4);
+    const PackedBlobs packed = of_words.pack()->front();
+    EXPECT_EQ(packed.version, 2u);
+    EXPECT_LT(packed.stored.size(), 500u) << "of 40000 bytes";
+}
+
+TEST(BlobStore, RearrangedBlobsAreFoundBesideOthers) {
+    const TemporaryFile file;
+    BlobCollector blobs;
+    const BlobName first = blobs.put(bytes_of("first")), rearranged = blobs.put(indices(), 4), last = blobs.put(bytes_of("last"));
+    auto writer = ContainerWriter::create(file.path());
+    write_pending(*writer, blobs);
+    ASSERT_TRUE(writer->finish());
+    const auto container = Container::open(file.path());
+    MemoryBudget budget;
+    auto store = BlobStore::open(*container, budget);
+    ASSERT_TRUE(store) << store.error().sentence;
+    EXPECT_EQ(store->raw_bytes(), 5u + 40000u + 4u);
+    EXPECT_TRUE(std::ranges::equal(*store->find(first), bytes_of("first")));
+    EXPECT_TRUE(std::ranges::equal(*store->find(rearranged), indices()));
+    EXPECT_TRUE(std::ranges::equal(*store->find(last), bytes_of("last")));
+}
+
+TEST(BlobStore, WhatANewerProgramWroteIsRefusedWithWhatToDo) {
+    BlobCollector blobs;
+    const BlobName blob = blobs.put(indices(), 4);
+    PackedBlobs packed = blobs.pack()->front();
+    constexpr std::size_t filter = 8 + 32;  // after the count and the entry's hash and sizes
+    packed.stored[filter] = std::byte{9};
+    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("blob 0 is rearranged in a way that this program does not know"));
+    packed.version = 3;
+    EXPECT_THAT(sentence_for(packed, blob), HasSubstr("has version 3; this program reads 1 to 2: open it with a newer strata"));
+}
+
+TEST(BlobStore, ARearrangedBlobOfAWrongSizeIsRefused) {
+    BlobCollector blobs;
+    const BlobName blob = blobs.put(indices(), 4);
+    PackedBlobs packed = blobs.pack()->front();
+    const std::uint64_t claimed = 39996;
+    std::memcpy(packed.stored.data() + 24, &claimed, 8);
+    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("blob 0 is rearranged"));
+    const std::uint64_t large = largest_blobs_section + 1;
+    std::memcpy(packed.stored.data() + 24, &large, 8);
+    EXPECT_THAT(sentence_for(packed, {blob.hash, large}), HasSubstr("does not hold the bytes its index lists"));
 }
 
 TEST(BlobStore, AnUnknownHashIsAnErrorThatNamesIt) {

@@ -155,7 +155,7 @@ TEST(CheckCapture, RefusesABlobOfNoFrameThatIsNotWhatItsHashSays) {
     PackedBlobs packed = blobs.pack()->front();
     packed.stored[8] ^= std::byte{1};
     auto writer = ContainerWriter::extend(file.path());
-    ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, packed.stored, packed.raw_bytes}) && writer->finish());
+    ASSERT_TRUE(writer->add({SectionType::blobs, packed.version, packed.stored, packed.raw_bytes}) && writer->finish());
     const auto sound = check_capture(file.path());
     ASSERT_FALSE(sound);
     EXPECT_THAT(sound.error().sentence, HasSubstr("blob 0 is not what its hash says"));

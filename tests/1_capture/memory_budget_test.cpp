@@ -111,7 +111,7 @@ TEST(BlobBudget, IsSharedByTheSectionsThatAreHeld) {
         names.push_back(blobs.put(std::vector<std::byte>(4 * mib, static_cast<std::byte>(i + 1))));
         const auto packed = blobs.pack();
         for (const PackedBlobs& part : *packed)
-            ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, part.stored, part.raw_bytes}));
+            ASSERT_TRUE(writer->add({SectionType::blobs, part.version, part.stored, part.raw_bytes}));
     }
     ASSERT_TRUE(writer->finish());
     const auto container = Container::open(file.path());

@@ -73,7 +73,7 @@ TEST(Recorder, EveryFieldSurvivesEncodingWhateverItsBits) {
         const std::vector<std::byte> section = encode_frame(frame, blobs);
         auto writer = ContainerWriter::create(file.path());
         const PackedBlobs packed = blobs.pack()->front();
-        ASSERT_TRUE(writer->add({SectionType::blobs, blobs_version, packed.stored, packed.raw_bytes}) && writer->finish());
+        ASSERT_TRUE(writer->add({SectionType::blobs, packed.version, packed.stored, packed.raw_bytes}) && writer->finish());
         const auto container = Container::open(file.path());
         MemoryBudget budget;
         auto store = BlobStore::open(*container, budget);

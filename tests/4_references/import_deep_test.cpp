@@ -278,5 +278,26 @@ TEST(DeepImport, KeepsProductsInDoubleBehindTwoHundredLayers) {
     EXPECT_LT(float_result / exact, .97) << "OpenEXR's own compositing keeps alpha in float: 4.1 % low measured with 3.1.5";
 }
 
+TEST(DeepPreview, IsTheCompositeOfEachPixelWhereTheImageIsSmall) {
+    DeepSource source = pixel_of({{.5f, .5f, 2}, {.25f, 1, 1}, {.125f, .75f, .5f}});
+    source.width = 2;
+    source.pixels.emplace_back();  // nothing: black
+    const ImportedDeep image = frame_of(source);
+    ASSERT_EQ(image.preview.size(), 2u);
+    EXPECT_EQ(image.preview[0], glm::dvec3(.125 + .25 * .25, 0, 0)) << "what lies behind the opaque sample is hidden";
+    EXPECT_EQ(image.preview[1], glm::dvec3(0));
+}
+
+TEST(DeepPreview, TakesTheMeanOfPixelsWhereTheImageIsLarge) {
+    // 321 pixels wide: a thumbnail of 160 would need parts of pixels, so that 3 x 3 become one.
+    DeepSource source{.channels = {"R", "A", "Z"}, .width = 321, .height = 7};
+    for (std::uint32_t i = 0; i < source.width * source.height; ++i) source.pixels.push_back({{float(i % 3), 1, 1}});
+    source.pixels[0][0][0] = 9;
+    const ImportedDeep image = frame_of(source);
+    ASSERT_EQ(image.preview.size(), 107u * 2) << "the seventh line is left over";
+    EXPECT_DOUBLE_EQ(image.preview[0].x, 1 + 9. / 9) << "0, 1 and 2 thrice, and 9 in place of a 0";
+    for (std::size_t i = 1; i < image.preview.size(); ++i) EXPECT_DOUBLE_EQ(image.preview[i].x, 1);
+}
+
 }  // namespace
 }  // namespace strata

@@ -40,7 +40,7 @@ Bytes with_frame(
     const auto packed = *blobs.pack();
     const Bytes payload = FrameChain().pack(section, 0);
     Sections sections;
-    for (const PackedBlobs& part : packed) sections.push_back({SectionType::blobs, blobs_version, part.stored, part.raw_bytes});
+    for (const PackedBlobs& part : packed) sections.push_back({SectionType::blobs, part.version, part.stored, part.raw_bytes});
     sections.push_back({SectionType::frame, 2, payload, section.size()});
     return file_of(sections);
 }

@@ -131,6 +131,7 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
         {"import x.exr --deep --fps 3", "--fps"},
         {"import x.gltf --window 0,0,4,4", "--window"},
         {"import x.exr --deep --window 0,0,-4,4", "--window"},
+        {"import x.exr --deep --gpu 0", "--gpu does not apply: a deep image is imported without a device"},
         {images + " --frames 0", "--frames does not apply"},
         {images + " --use-a weighted", "--use-a does not apply"},
         {images + " --gpu nosuch", "--gpu does not apply"},

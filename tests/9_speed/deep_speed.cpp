@@ -1,7 +1,9 @@
 // Flattening a deep image of 10 million fragments: ours beside OpenEXR's CompositeDeepScanLine, in turn, each with every core.
+// Importing and exporting a million samples: the program beside `oiiotool --flatten` of the same image, where it is installed.
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <thread>
@@ -94,6 +96,65 @@ void flatten_ten_million_fragments(benchmark::State& state) {
     state.counters["ratio"] = ratio.median;
     state.counters["ratio_mad"] = ratio.mad;
 }
+/// Runs a command of the shell in a folder; false when it fails.
+bool succeeds(const std::filesystem::path& folder, const std::string& command) {
+    return std::system(fmt::format("cd '{}' && {} > out.txt 2>&1", folder.string(), command).c_str()) == 0;
+}
+
+/// What a command takes beside `oiiotool --flatten` of smoke.exr, in turn.
+void time_beside_oiiotool(benchmark::State& state, const std::filesystem::path& folder, const std::string& command) {
+    const std::string flatten = "oiiotool smoke.exr --flatten -d float -o flat.exr";
+    std::vector<double> ours, ratios;
+    for (auto _ : state) {
+        bool done = true;
+        ours.push_back(milliseconds([&] { done = succeeds(folder, command); }));
+        ratios.push_back(ours.back() / milliseconds([&] { done = succeeds(folder, flatten) && done; }));
+        if (!done) return state.SkipWithError(("failed: " + command).c_str());
+    }
+    const Spread our_ms = spread_of(ours), ratio = spread_of(ratios);
+    state.counters["ours_ms"] = our_ms.median;
+    state.counters["ours_mad"] = our_ms.mad;
+    state.counters["to_oiiotool"] = ratio.median;
+    state.counters["to_oiiotool_mad"] = ratio.mad;
+}
+
+/// The scenario smoke_grenade at 320 x 180 as a capture and as a deep image of 974,367 samples, in a folder of its own.
+class DeepScratch {
+public:
+    DeepScratch() {
+        std::filesystem::create_directories(folder);
+        ready = succeeds(folder, "oiiotool --version") && succeeds(folder, strata("record smoke_grenade -o smoke.strata")) &&
+                succeeds(folder, strata(std::string(exporting)));
+    }
+    ~DeepScratch() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    }
+    static std::string strata(const std::string& arguments) {
+        return fmt::format("'{}/strata' {}", STRATA_BINARY_DIR, arguments);
+    }
+
+    static constexpr std::string_view exporting = "export smoke.strata --deep -o smoke.exr";
+    std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("deep_speed.{}", getpid());
+    bool ready = false;  ///< false also where oiiotool is not installed
+};
+
+void export_beside_oiiotool(benchmark::State& state) {
+    const DeepScratch scratch;
+    if (!scratch.ready) return state.SkipWithError("oiiotool is not installed, or the image was not made");
+    time_beside_oiiotool(state, scratch.folder, DeepScratch::strata(std::string(DeepScratch::exporting)));
+}
+BENCHMARK(export_beside_oiiotool)->Iterations(9)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void import_beside_oiiotool(benchmark::State& state) {
+    const DeepScratch scratch;
+    if (!scratch.ready) return state.SkipWithError("oiiotool is not installed, or the image was not made");
+    time_beside_oiiotool(state, scratch.folder, DeepScratch::strata("import --deep smoke.exr -o imported.strata"));
+    const auto bytes = [&](const char* name) { return double(std::filesystem::file_size(scratch.folder / name)); };
+    state.counters["bytes_to_exr"] = bytes("imported.strata") / bytes("smoke.exr");
+}
+BENCHMARK(import_beside_oiiotool)->Iterations(9)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 BENCHMARK(flatten_ten_million_fragments)->Iterations(9)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -64,7 +64,7 @@ private:
     bool add_blobs() {
         const auto packed = blobs_.pack();
         return packed && std::ranges::all_of(*packed, [&](const PackedBlobs& part) {
-                   return write({SectionType::blobs, blobs_version, part.stored, part.raw_bytes});
+                   return write({SectionType::blobs, part.version, part.stored, part.raw_bytes});
                });
     }
 

@@ -73,7 +73,7 @@ void expect_survives_writing(const Frame& frame, const std::filesystem::path& pa
     const auto packed = blobs.pack();
     if (!file || !packed) std::abort();
     for (const PackedBlobs& part : *packed)
-        if (!file->add({SectionType::blobs, blobs_version, part.stored, part.raw_bytes})) std::abort();
+        if (!file->add({SectionType::blobs, part.version, part.stored, part.raw_bytes})) std::abort();
     if (!file->add({SectionType::frame, 1, section, section.size()}) || !file->finish()) std::abort();
     const auto capture = Capture::open(path);
     const auto read = capture ? capture->frame(0) : Result<Frame>(capture.error());
