@@ -8,6 +8,7 @@
 
 #include "passes/frame_images.h"
 #include "passes/graph/shader.h"
+#include "passes/shaders/scene.shared.h"
 #include "tests/2_graph/small_graphs.h"
 
 namespace strata {

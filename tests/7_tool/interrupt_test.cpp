@@ -74,8 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Verbs, Interrupted,
 TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
     write_file(folder() / "sound.strata", sound_capture());
     for (const int signal : {SIGINT, SIGTERM}) {
-        const pid_t process =
-            start_strata("report sound.strata --repeats 20 -o report.txt", "progress.txt");
+        const pid_t process = start_strata("report sound.strata --repeats 20 -o report.txt", "progress.txt");
         for (int waits = 0; waits < 600 && text_of("progress.txt").find("8 of ") == std::string::npos; ++waits)
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         kill(process, signal);
