@@ -84,12 +84,19 @@ TEST(RoundTrip, ADrawArrivesWithItsMatrices) {
         for (int i = 0; i < 4; ++i) draw.motion[column][i] = static_cast<float>(4 * column + i + 34);
     draw.first_index = 50;
     draw.vertex_offset = 51;
+    draw.normals = 52;
+    draw.tangents = 53;
+    draw.uv0 = 54;
+    draw.uv1 = 55;
+    draw.colors = 56;
+    draw.first_particle = 57;
     const auto seen =
         members_seen_by_a_shader(draw, "DrawRecord",
                                  "see(r.to_view); see(r.normal_to_view); see(r.material); see(r.submission);"
                                  "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius); see(r.motion);"
-                                 "see(r.first_index); see(r.vertex_offset);");
-    ASSERT_EQ(seen.size(), 51u);
+                                 "see(r.first_index); see(r.vertex_offset); see(r.normals); see(r.tangents); see(r.uv0);"
+                                 "see(r.uv1); see(r.colors); see(r.first_particle);");
+    ASSERT_EQ(seen.size(), 57u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 
