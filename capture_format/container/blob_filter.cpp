@@ -111,14 +111,14 @@ void undo_rearrange(std::span<const std::byte> from, const BlobFilter& filter, s
 
 bool is_known(const BlobFilter& filter) {
     return filter.reserved == 0 && filter.step % word_bytes == 0 && filter.stride % word_bytes == 0 &&
-           (filter.stride > 0 || filter.step == 0);
+           filter.stride <= corners * largest_element && (filter.stride > 0 || filter.step == 0);
 }
 
 /// Compares filters by what a part of the bytes takes after them.
 class Trial {
 public:
     explicit Trial(std::span<const std::byte> bytes) : whole_(bytes.size()) {
-        // From the middle: the first elements of a list are often unlike the others. Whole groups of any stride that is tried.
+        // From the middle: the first elements of a list are often unlike the others.
         const std::size_t count = std::min(bytes.size(), trial_bytes);
         part_ = bytes.subspan((bytes.size() - count) / 2, count);
     }
@@ -206,7 +206,10 @@ FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
     if (rays) {
         Trial of_rays(bytes_of(rays->records));
         best.try_all(of_rays, BlobShape::ray_records, sizeof(RayRecord));
-        if (best.filter.shape == BlobShape::ray_records) return {best.filter, stored(*rays, best.filter)};
+        if (best.filter.shape == BlobShape::ray_records)
+            if (std::vector<std::byte> bytes = stored(*rays, best.filter); bytes.size() < blob.size())
+                return {best.filter, std::move(bytes)};
+        if (best.filter.shape == BlobShape::ray_records) return {{}, std::move(blob)};
     }
     if (best.filter == BlobFilter{}) return {{}, std::move(blob)};
     std::vector<std::byte> rearranged(blob.size());

@@ -158,6 +158,7 @@ Result<void> BlobStore::read_index(std::size_t number) {
         if (version == 1) entry.filtered_bytes = entry.bytes;
         if (entry.filtered_bytes > section.raw_bytes - filtered_bytes || entry.bytes > largest_blobs_section - blobs.raw_bytes)
             break;
+        if (entry.filter == BlobFilter{} && entry.bytes != entry.filtered_bytes) break;
         places_.try_emplace(entry.hash, BlobLocation{sections_.size(), blobs.raw_bytes, entry.bytes});
         blobs.blobs.push_back({entry.hash, entry.bytes, entry.filtered_bytes, entry.filter});
         blobs.raw_bytes += entry.bytes;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_rays = std::size_t{1} << 16;  // what a record can tell apart
 // Four per pixel at 16384 pixels, twice as many as a deep image has rays.
 constexpr std::size_t bins = std::size_t{1} << 18;
-constexpr std::uint32_t nobody = ~0u;
+constexpr std::uint32_t no_ray = ~0u;
 
 using Position = std::array<float, 3>;
 static_assert(sizeof(Position) == position_bytes);
@@ -66,14 +66,14 @@ public:
     explicit Rays(const Interval& range)
         : first_(range.low), per_number_(range.high > range.low ? double(bins - 1) / (range.high - range.low) : 0) {}
 
-    /// The ray of a coordinate, or `nobody` where there are too many rays, or two too close to each other.
+    /// The ray of a coordinate, or `no_ray` where there are too many rays, or two too close to each other.
     std::uint32_t find(float x, double inverse_z) {
         const Interval numbers = numbers_for(x, inverse_z);
         const auto bin =
             static_cast<std::size_t>(std::clamp((double(x) * inverse_z - first_) * per_number_, 0.0, double(bins - 1)));
         for (const std::size_t near : {bin, bin - std::min<std::size_t>(bin, 1), std::min(bin + 1, bins - 1)})
-            if (by_bin_[near] != nobody && narrow(rays_[by_bin_[near]], numbers)) return by_bin_[near];
-        if (by_bin_[bin] != nobody || rays_.size() == most_rays) return nobody;
+            if (by_bin_[near] != no_ray && narrow(rays_[by_bin_[near]], numbers)) return by_bin_[near];
+        if (by_bin_[bin] != no_ray || rays_.size() == most_rays) return no_ray;
         by_bin_[bin] = static_cast<std::uint32_t>(rays_.size());
         rays_.push_back(numbers);
         return by_bin_[bin];
@@ -102,7 +102,7 @@ private:
 
     double first_, per_number_;
     std::vector<Interval> rays_;
-    std::vector<std::uint32_t> by_bin_ = std::vector<std::uint32_t>(bins, nobody);
+    std::vector<std::uint32_t> by_bin_ = std::vector<std::uint32_t>(bins, no_ray);
 };
 
 /// The least and the greatest x / z and y / z, or nothing where a position is not in front of the origin.
@@ -139,7 +139,7 @@ std::optional<RayRecords> ray_records(std::span<const std::byte> positions) {
         const Position at = position_at(positions, i);
         const double inverse = 1 / double(at[2]);
         const std::uint32_t column = rays[0].find(at[0], inverse), row = rays[1].find(at[1], inverse);
-        if (column == nobody || row == nobody) return std::nullopt;
+        if (column == no_ray || row == no_ray) return std::nullopt;
         result.records.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), at[2]});
     }
     const std::vector<std::uint16_t> columns = rays[0].sort(result.x_per_z), rows = rays[1].sort(result.y_per_z);

@@ -22,8 +22,8 @@ namespace {
 /// that no rounding of a vertex or of the rasterizer decides what is covered.
 constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
 
-/// Three vertices of position and color with their indices. They are there four times while the frame is recorded: vectors that
-/// grow have twice their room, then come the recorder's blobs and what is compressed of them.
+/// Three vertices of position and color with their indices. They are there four times while the frame is recorded: in its meshes,
+/// in the recorder's blobs, rearranged, and compressed.
 constexpr std::uint64_t bytes_per_fragment = 4 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
 
 /// Events below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
@@ -119,9 +119,11 @@ private:
         DeepCensus& census = result_.census;
         if (nearest_first.empty()) return;
         ++census.pixels;
-        if (const glm::uvec2 texel = pixel / small_.pixels; texel.x < small_.width && texel.y < small_.height)
-            result_.preview[texel.y * small_.width + texel.x] +=
-                glm::dvec3(composite(nearest_first)) / (double(small_.pixels) * small_.pixels);
+        if (const glm::uvec2 texel = pixel / small_.pixels; texel.x < small_.width && texel.y < small_.height) {
+            const glm::uvec2 left = glm::uvec2(window_.width, window_.height) - texel * small_.pixels;
+            const glm::dvec2 covered(glm::min(left, glm::uvec2(small_.pixels)));
+            result_.preview[texel.y * small_.width + texel.x] += glm::dvec3(composite(nearest_first)) / (covered.x * covered.y);
+        }
         census.deepest = std::max<std::uint64_t>(census.deepest, nearest_first.size());
         for (auto sample = nearest_first.rbegin(); sample != nearest_first.rend(); ++sample) {
             const glm::dvec3 &color = sample->color, &alpha = sample->alpha;

@@ -13,7 +13,7 @@ namespace {
 // Both demonstrations divide a sphere 32 times around.
 constexpr std::uint32_t segments = 32;
 
-/// 1024 spheres by chance in a cube of 8 m, as vk_order_independent_transparency of nvpro-samples has them: radii of .045 to .45
+/// 1024 spheres at random in a cube of 8 m, as vk_order_independent_transparency of nvpro-samples has them: radii of .045 to .45
 /// m, colors squared, alphas of .2 to .5. The hemisphere stands for its Gooch light, which mixes the same two colors by the
 /// normal.
 Frame thousand_spheres(std::uint32_t frame, const ScenarioOptions& options, AlphaMode mode) {

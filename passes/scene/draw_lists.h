@@ -25,7 +25,7 @@ std::uint32_t highest_interface_layer(const Frame&, const DrawLists&);
 /// Whether lights change how some transparent draw looks. Particles are unlit.
 bool has_lit_surfaces(const Frame&, const DrawLists&);
 
-/// Whether the back of no triangle of these draws shows. Particles have no back.
+/// Whether these are draws of meshes whose backs do not show. False where an emitter is among them.
 bool shows_no_backs(const Frame&, std::span<const std::uint32_t> indices);
 
 /// Triangles of a draw, or two per particle of an emitter.

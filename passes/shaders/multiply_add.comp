@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/shaders/multiply_add.shared.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = multiply_add_threads) in;
 layout(push_constant, scalar) uniform Push { MultiplyAdd loop; };
 layout(set = 0, binding = 0, scalar) writeonly buffer Done { uint done[]; };
 

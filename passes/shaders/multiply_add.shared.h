@@ -6,6 +6,8 @@
 namespace strata {
 #endif
 
+const uint multiply_add_threads = 64u;  // of a group
+
 // Both are 1, so that a chain counts what was done; a compiler must not know it.
 struct MultiplyAdd {
     float factor, summand;

@@ -44,7 +44,7 @@ glm::dvec3 transmittance_before(std::span<const Fragment>, double depth);
 
 /// The fragments near to far; of equal depths the later submission is nearer.
 std::vector<Fragment> nearest_first(std::span<const Fragment> in_submission_order);
-/// The same as places in the list: fragments are large, and many who ask need no copy.
+/// The same as places in the list: fragments are large, and most callers need no copy.
 std::vector<std::size_t> nearest_first_order(std::span<const Fragment> in_submission_order);
 
 }  // namespace strata::transparency

@@ -50,7 +50,7 @@ std::string as_text(const DeviceBench& bench) {
                     "Operations: invocations of the fragment or compute shader times the operations in its code, of which every "
                     "branch is taken and every loop turned once: above 100 % branches are not taken, with loops the number is "
                     "too small. Vertex shaders, loads, "
-                    "stores and texture reads are not counted. Not counted at all where nobody counts the invocations.");
+                    "stores and texture reads are not counted. Nothing is counted where invocations are not.");
     return text;
 }
 

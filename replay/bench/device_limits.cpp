@@ -8,8 +8,6 @@
 namespace strata {
 namespace {
 
-constexpr std::uint32_t group_threads = 64;  // multiply_add.comp
-
 /// Steps: a clear, the copy, the loop.
 Graph work_of(const LimitWork& work, Buffer& done) {
     Graph graph;
@@ -21,7 +19,7 @@ Graph work_of(const LimitWork& work, Buffer& done) {
     graph.compute("shaders/multiply_add.comp")
         .stores("Done", done)
         .push(MultiplyAdd{.factor = 1, .summand = 1, .turns = work.turns})
-        .groups({work.threads / group_threads, 1, 1});
+        .groups({work.threads / multiply_add_threads, 1, 1});
     graph.keep(done);
     return graph;
 }

@@ -227,7 +227,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
         ->allow_extra_args(false);
     app.add_option("--frame", options->frame, "index of the frame, default 0");
     app.add_option("--repeats", options->repeats,
-                   "timed repeats of each row; default: 3, and 7 where that leaves a row's rank uncertain")
+                   "timed repeats of each row; default: 3, 1 where a row is far behind another, 7 where its rank is uncertain")
         ->check(CLI::Range(1, 1000));
     app.add_option("--minutes", options->minutes, "stop after this many minutes and report what is measured by then")
         ->check(CLI::Range(1e-3, 1e6));

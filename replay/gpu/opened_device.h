@@ -1,5 +1,5 @@
-// What stands behind Device: the handles everything in this folder works with. The one queue, its command pool, and the
-// store of pipelines live as long as the device.
+// What stands behind Device: the handles everything in this folder works with. The one queue and its command pool live as long as
+// the device.
 #pragma once
 
 #include <functional>

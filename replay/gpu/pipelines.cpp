@@ -280,7 +280,10 @@ void PipelineStore::drop_old() {
 const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {
     const RasterState state = state_of(planned, images, device_->info().software);
     std::string key = key_of(planned, state);
-    if (const auto found = pipelines_.find(key); found != pipelines_.end()) return found->second.pipeline;
+    if (const auto found = pipelines_.find(key); found != pipelines_.end()) {
+        found->second.used = plans_;
+        return found->second.pipeline;
+    }
     HostTimer timer;
     const Pipeline& made_now = keep(std::move(key), made(planned, state));
     milliseconds_ += timer();

@@ -1,6 +1,6 @@
 // Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once and
-// kept while they are among the latest used: a CPU driver compiles at the first use of each, for up to seconds, and holds a
-// megabyte for it.
+// kept while they are among the latest used: a CPU driver compiles at the first use of each, for up to seconds, and holds
+// 2.5 MB for it.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 // No device.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,5 +15,9 @@ namespace strata {
 /// row with an error that is no larger and a time that is shorter by more than both spreads settles the place of another: that
 /// one is never uncertain because of rows. A row without an error is not ranked.
 std::vector<bool> uncertain_rows(std::span<const Standing>, const Question&);
+
+/// For each row whether another one, the baseline aside (it is no answer), has no larger error in less than half the time: a
+/// single run tells times apart that differ so much.
+std::vector<bool> rows_far_behind(std::span<const Standing>, std::optional<std::size_t> baseline);
 
 }  // namespace strata

@@ -205,13 +205,14 @@ public:
                 tell(fmt::format("{} of {} once more, {}", plural(rows.size(), "row"), all_.size(), what),
                      (double(begin) + done * double(group.size())) / double(rows.size()));
             };
+            const std::size_t before = times_.repeats(group.front());
             const auto timed = times_.time({group.begin(), group.end()}, most - least, told);
             if (!timed && timed.error().fault != Fault::stopped) return timed;
-            for (const std::size_t i : group) {
-                times_.add_to(report_->rows[i], i, *report_);
-                if (times_.repeats(i) < most)
-                    report_->stopped = fmt::format("stopped after {} of {} timed runs", times_.repeats(i), most);
-            }
+            const std::size_t done = times_.repeats(group.front()) - before;
+            if (done < most - least)
+                report_->stopped =
+                    fmt::format("stopped after {} of {} timed runs of rows whose rank is open", done, most - least);
+            for (const std::size_t i : group) times_.add_to(report_->rows[i], i, *report_);
         }
         if (unit_) times_.add_to(report_->rows[*unit_], *unit_, *report_);
         count_repeats();
@@ -242,11 +243,18 @@ private:
         const auto told = [&](std::string_view what, double) {
             tell(fmt::format("{} to {} of {}, {}", begin + 1, end, all_.size(), what), double(end) / double(all_.size()));
         };
-        if (const auto done = times_.time(timed, least_repeats_of(*wanted_), told); !done) return done;
+        const std::size_t least = least_repeats_of(*wanted_), first = least < wanted_->repeats ? 1 : least;
+        if (const auto done = times_.time(timed, first, told); !done) return done;
         if (times_.has_unit()) report_->time_unit = all_[*unit_].technique->name;
+        for (const std::size_t i : timed) times_.add_to(report_->rows[i], i, *report_);
+        const std::vector<bool> are_far_behind = rows_far_behind(standings(report_->rows), unit_);
+        std::erase_if(timed, [&](std::size_t i) { return are_far_behind[i]; });
+        const auto done = times_.time(timed, least - first, told);
+        if (!done && done.error().fault != Fault::stopped) return done;
         for (const std::size_t i : timed) {
-            if (times_.repeats(i) < least_repeats_of(*wanted_) && report_->stopped.empty())
-                report_->stopped = fmt::format("stopped after {} of {} timed runs", times_.repeats(i), wanted_->repeats);
+            if (times_.repeats(i) < least)
+                report_->stopped = end < all_.size() ? fmt::format("stopped after {} of {} rows", end, all_.size())
+                                                     : fmt::format("stopped after {} of {} timed runs", times_.repeats(i), least);
             times_.add_to(report_->rows[i], i, *report_);
         }
         for (std::size_t i = begin; i < end && wanted_->on_row; ++i) wanted_->on_row(report_->rows[i], i + 1, all_.size());
@@ -256,9 +264,11 @@ private:
     void count_repeats() {
         report_->repeats = 0;
         report_->least_repeats = wanted_->repeats;
+        bool are_others_timed = false;
+        for (std::size_t i = 0; i < report_->rows.size(); ++i)
+            are_others_timed = are_others_timed || (i != unit_ && times_.repeats(i) > 0);
         for (std::size_t i = 0; i < report_->rows.size(); ++i) {
-            const bool is_beside_others = i == unit_ && report_->rows.size() > 1;
-            if (times_.repeats(i) == 0 || is_beside_others) continue;
+            if (times_.repeats(i) == 0 || (i == unit_ && are_others_timed)) continue;
             report_->repeats = std::max(report_->repeats, times_.repeats(i));
             report_->least_repeats = std::min(report_->least_repeats, times_.repeats(i));
         }

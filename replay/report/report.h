@@ -41,8 +41,8 @@ struct ReportRequest {
     std::vector<Sweep> sweeps;         ///< instead of their own points
     Question question;
     std::size_t repeats = 7;
-    /// Above 0 and below `repeats`: rows are timed so often, and then again only while their place is uncertain
-    /// (enough_repeats.h).
+    /// Above 0 and below `repeats`: rows are timed so often, once where another is twice as good, and `repeats` times where their
+    /// place is uncertain (enough_repeats.h).
     std::size_t least_repeats = 0;
     std::optional<Walk> flicker;
     /// Told of each row as soon as its errors and times are known: the row, its place from 1 on, and of how many.

@@ -10,16 +10,18 @@ void append(std::vector<double>& to, const std::vector<double>& from) { to.inser
 }  // namespace
 
 Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, const Progress& progress) {
-    if (rows.empty()) return {};
+    if (rows.empty() || repeats == 0) return {};
     if (unit_ && std::ranges::count(rows, *unit_) == 0) rows.insert(rows.begin(), *unit_);
     std::vector<Request> requests;
     for (const std::size_t row : rows) requests.push_back(all_[row].variant->request);
     const auto runs = session_->time(requests, repeats, progress);
     if (!runs) return runs.error();
     const std::string stage(name(stage_));
+    const std::size_t repeats_of_unit = unit_ ? this->repeats(*unit_) : 0;
     const auto unit = std::ranges::find(rows, unit_.value_or(all_.size()));
     const std::vector<double> unit_ms =
         unit == rows.end() ? std::vector<double>() : (*runs)[std::size_t(unit - rows.begin())].stage_ms_by_repeat.at(stage);
+    if (unit_ && repeats_of_unit == 0) has_unit_ = !unit_ms.empty() && std::ranges::min(unit_ms) > 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         Row& row = all_[rows[i]];
         const Run& run = (*runs)[i];
@@ -36,8 +38,6 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
     }
     return {};
 }
-
-bool RowTimes::has_unit() const { return unit_ && repeats(*unit_) > 0 && std::ranges::min(all_[*unit_].stage_ms) > 0; }
 
 void RowTimes::add_to(Measurement& measured, std::size_t index, const Report& report) const {
     const Row& row = all_[index];

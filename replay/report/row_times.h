@@ -26,7 +26,7 @@ public:
     /// Times, bytes and counters of a row that was timed.
     void add_to(Measurement&, std::size_t row, const Report&) const;
     /// Whether a row can be told in the unit: none on a clock that is too coarse for the frame.
-    bool has_unit() const;
+    bool has_unit() const { return has_unit_; }
 
 private:
     struct Row {
@@ -41,6 +41,7 @@ private:
     Stage stage_;
     std::vector<Row> all_;
     std::optional<std::size_t> unit_;
+    bool has_unit_ = false;
 };
 
 }  // namespace strata

@@ -24,23 +24,29 @@ struct MeshRange {
     std::uint32_t normals = no_index, tangents = no_index, uv0 = no_index, uv1 = no_index, colors = no_index;
 };
 
-/// Appends a mesh's attribute: its first place, or no_index where the mesh does not have it.
+/// Appends what a mesh has: its first place.
 template <typename T>
 std::uint32_t append(const std::vector<T>& of_mesh, std::vector<T>& all) {
     const auto first = static_cast<std::uint32_t>(all.size());
     all.insert(all.end(), of_mesh.begin(), of_mesh.end());
-    return of_mesh.empty() ? no_index : first;
+    return first;
+}
+
+/// The same of an attribute; no_index where the mesh does not have it.
+template <typename T>
+std::uint32_t append_attribute(const std::vector<T>& of_mesh, std::vector<T>& all) {
+    return of_mesh.empty() ? no_index : append(of_mesh, all);
 }
 
 MeshRange add_mesh(const Mesh& mesh, SceneRecords& scene) {
     return {.first_index = append(mesh.indices, scene.indices),
             .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
             .vertex_offset = static_cast<std::int32_t>(append(mesh.positions, scene.positions)),
-            .normals = append(mesh.normals, scene.normals),
-            .tangents = append(mesh.tangents, scene.tangents),
-            .uv0 = append(mesh.uv0, scene.uvs),
-            .uv1 = append(mesh.uv1, scene.uvs),
-            .colors = append(mesh.colors, scene.colors)};
+            .normals = append_attribute(mesh.normals, scene.normals),
+            .tangents = append_attribute(mesh.tangents, scene.tangents),
+            .uv0 = append_attribute(mesh.uv0, scene.uvs),
+            .uv1 = append_attribute(mesh.uv1, scene.uvs),
+            .colors = append_attribute(mesh.colors, scene.colors)};
 }
 
 /// The same triangles turned around. View space is left-handed, so a transform into it that mirrors keeps a right-handed

@@ -155,6 +155,18 @@ TEST(BlobStore, ARearrangedBlobOfAWrongSizeIsRefused) {
     EXPECT_THAT(sentence_for(packed, {blob.hash, large}), HasSubstr("does not hold the bytes its index lists"));
 }
 
+/// Nothing undoes a filter that is none, so nothing else would compare the two sizes.
+TEST(BlobStore, ABlobThatIsNotRearrangedHasOneSize) {
+    BlobCollector blobs;
+    const BlobName blob = blobs.put(indices(), 4);
+    PackedBlobs packed = blobs.pack()->front();
+    const std::uint64_t filtered = 40000, claimed = 1 << 29;
+    std::memcpy(packed.stored.data() + 24, &claimed, 8);
+    std::memcpy(packed.stored.data() + 32, &filtered, 8);
+    std::memset(packed.stored.data() + 40, 0, 8);  // the filter
+    EXPECT_THAT(sentence_for(packed, {blob.hash, claimed}), HasSubstr("does not hold the bytes its index lists"));
+}
+
 TEST(BlobStore, AnUnknownHashIsAnErrorThatNamesIt) {
     TwoSections written;
     MemoryBudget budget;

@@ -299,5 +299,11 @@ TEST(DeepPreview, TakesTheMeanOfPixelsWhereTheImageIsLarge) {
     for (std::size_t i = 1; i < image.preview.size(); ++i) EXPECT_DOUBLE_EQ(image.preview[i].x, 1);
 }
 
+TEST(DeepPreview, IsAsBrightWhereTheImageIsThinnerThanATexel) {
+    DeepSource source{.channels = {"R", "A", "Z"}, .width = 2000, .height = 1};
+    source.pixels.assign(source.width, {{.5f, 1, 1}});
+    for (const glm::dvec3& texel : frame_of(source).preview) EXPECT_NEAR(texel.x, .5, 1e-12);
+}
+
 }  // namespace
 }  // namespace strata

@@ -52,6 +52,7 @@ constexpr std::array divergences = {
                "every sample has the depth of the pixel's center, see below: another slice or rank (voxel: .0012 and .027)"},
     Divergence{"pane_at_the_lens", 4, .0045, .09, "the same (moments: .0022 and .044)"},
     Divergence{"particle_storm", 4, .005, .25, "the same (voxel: .0025 and .12)"},
+    Divergence{"spheres_125", 4, .002, .055, "the same (wavelet and voxel: .027)"},
 };
 /// SwiftShader gives all four samples of a pixel one gl_FragCoord.z and one value of a varying that is `sample`, so that every
 /// sample of a tilted or textured surface is shaded as the pixel's center is. At 4 samples these scenarios are not compared.

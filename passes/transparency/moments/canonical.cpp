@@ -39,28 +39,46 @@ double value_at(std::span<const double> polynomial, double x) {
     return value;
 }
 
-double bisected(std::span<const double> polynomial, double low, double high) {
+/// The root in an interval where the polynomial is monotonous: Newton's steps, and halves where these would leave what is left of
+/// the interval or do not get shorter by half.
+double root_within(std::span<const double> polynomial, std::span<const double> slope, double low, double high) {
     const bool rises = value_at(polynomial, high) > 0;
-    for (int i = 0; i < 100 && low < high; ++i) {
-        const double middle = .5 * (low + high);
-        ((value_at(polynomial, middle) > 0) == rises ? high : low) = middle;
+    double x = .5 * (low + high), before = high - low, step = before;
+    for (int i = 0; i < 200; ++i) {
+        const double value = value_at(polynomial, x), newton = value / value_at(slope, x);
+        ((value > 0) == rises ? high : low) = x;
+        const bool is_newton = x - newton > low && x - newton < high && std::abs(newton) <= .5 * std::abs(before);
+        before = step;
+        step = is_newton ? newton : x - .5 * (low + high);
+        if (value == 0 || std::abs(step) <= 1e-16 * std::abs(x)) break;
+        x -= step;
     }
-    return .5 * (low + high);
+    return x;
+}
+
+/// No root is farther from the origin (Cauchy), or than is looked for.
+double farthest_root(std::span<const double> polynomial) {
+    constexpr double far = 1e5;
+    double largest = 0;
+    for (const double coefficient : polynomial.first(polynomial.size() - 1)) largest = std::max(largest, std::abs(coefficient));
+    const double bound = 1.001 * (1 + largest / std::abs(polynomial.back()));
+    return bound < far ? bound : far;  // also where it is no number
 }
 
 /// The real roots up to 1e5 from the origin: one between two extrema, ascending. All roots of these polynomials are real; one may
 /// be farther out, or infinite where the leading coefficient is 0.
 std::vector<double> real_roots(std::span<const double> polynomial) {
-    constexpr double far = 1e5;
     if (polynomial.size() < 2) return {};
+    const double far = farthest_root(polynomial);
     std::vector<double> slope;
     for (std::size_t k = 1; k < polynomial.size(); ++k) slope.push_back(double(k) * polynomial[k]);
     std::vector<double> bounds = real_roots(slope), roots;
+    std::erase_if(bounds, [&](double bound) { return std::abs(bound) >= far; });
     bounds.insert(bounds.begin(), -far);
     bounds.push_back(far);
     for (std::size_t i = 0; i + 1 < bounds.size(); ++i)
         if ((value_at(polynomial, bounds[i]) > 0) != (value_at(polynomial, bounds[i + 1]) > 0))
-            roots.push_back(bisected(polynomial, bounds[i], bounds[i + 1]));
+            roots.push_back(root_within(polynomial, slope, bounds[i], bounds[i + 1]));
     return roots;
 }
 
