@@ -206,10 +206,11 @@ FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
     if (rays) {
         Trial of_rays(bytes_of(rays->records));
         best.try_all(of_rays, BlobShape::ray_records, sizeof(RayRecord));
-        if (best.filter.shape == BlobShape::ray_records)
-            if (std::vector<std::byte> bytes = stored(*rays, best.filter); bytes.size() < blob.size())
-                return {best.filter, std::move(bytes)};
-        if (best.filter.shape == BlobShape::ray_records) return {{}, std::move(blob)};
+    }
+    if (best.filter.shape == BlobShape::ray_records) {
+        std::vector<std::byte> bytes = stored(*rays, best.filter);  // with its tables, which the trial did not see
+        if (bytes.size() >= blob.size()) return {{}, std::move(blob)};
+        return {best.filter, std::move(bytes)};
     }
     if (best.filter == BlobFilter{}) return {{}, std::move(blob)};
     std::vector<std::byte> rearranged(blob.size());

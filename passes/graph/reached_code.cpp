@@ -153,10 +153,10 @@ std::vector<std::uint32_t> successors(const Instruction& last, const KnownConsta
 
 /// A function: its instructions, and those of the blocks that run.
 struct Function {
-    std::span<const Instruction> body;  ///< OpFunction to OpFunctionEnd
-    std::vector<std::uint32_t> calls;   ///< in blocks that run
-    std::set<std::size_t> idle_calls;   ///< in the others, by place in the body
-    OperationCount own;                 ///< of blocks that run, without what is called
+    std::span<const Instruction> body;                       ///< OpFunction to OpFunctionEnd
+    std::vector<std::uint32_t> calls;                        ///< in blocks that run
+    std::set<std::size_t> idle_calls;                        ///< in the others, by place in the body
+    std::vector<std::span<const Instruction>> running = {};  ///< blocks that run
 };
 
 /// Numbers that values consist of.
@@ -209,7 +209,7 @@ std::uint64_t operations_of(const Instruction& i, const Components& components) 
     return computes ? components.of_type(words[1]) : 0;
 }
 
-Function function_of(std::span<const Instruction> body, const KnownConstants& constants, Components& components) {
+Function function_of(std::span<const Instruction> body, const KnownConstants& constants) {
     struct Block {
         std::size_t first = 0, last = 0;
     };
@@ -222,16 +222,13 @@ Function function_of(std::span<const Instruction> body, const KnownConstants& co
         if (label != 0) blocks[label].last = body[i].op == spv::OpFunctionEnd ? i - 1 : i;
     }
     std::set<std::uint32_t> reached(next.begin(), next.end());
-    Function function{body, {}, {}, {}};
-    for (const Instruction& i : body) components.add(i);
+    Function function{body, {}, {}};
     while (!next.empty()) {
         const Block block = blocks[next.back()];
         next.pop_back();
-        for (std::size_t i = block.first; i <= block.last; ++i) {
-            if (body[i].op == spv::OpFunctionCall) function.calls.push_back(body[i].words[3]);
-            function.own.operations += operations_of(body[i], components);
-            function.own.loops += body[i].op == spv::OpLoopMerge;
-        }
+        function.running.push_back(body.subspan(block.first, block.last - block.first + 1));
+        for (const Instruction& i : function.running.back())
+            if (i.op == spv::OpFunctionCall) function.calls.push_back(i.words[3]);
         for (const std::uint32_t to : successors(body[block.last], constants))
             if (reached.insert(to).second) next.push_back(to);
     }
@@ -255,10 +252,8 @@ Module module_of(std::span<const Instruction> all, std::span<const ConstantBits>
     const auto first = std::ranges::find(all, spv::OpFunction, &Instruction::op);
     Module module{all.first(static_cast<std::size_t>(first - all.begin())), {}, {}, {}, {}};
     KnownConstants constants(given);
-    Components components;
     for (const Instruction& i : module.head) {
         constants.add(i);
-        components.add(i);
         if (i.op == spv::OpEntryPoint) module.entries.push_back(i.words[2]);
         if (i.op == spv::OpTypeVoid) module.void_types.insert(i.words[1]);
     }
@@ -266,7 +261,7 @@ Module module_of(std::span<const Instruction> all, std::span<const ConstantBits>
         const auto end = std::find_if(begin, all.end(), [](const Instruction& i) { return i.op == spv::OpFunctionEnd; });
         if (end == all.end()) break;
         module.order.push_back(begin->words[2]);
-        module.functions.emplace(begin->words[2], function_of({begin, end + 1}, constants, components));
+        module.functions.emplace(begin->words[2], function_of({begin, end + 1}, constants));
         begin = end + 1;
     }
     std::vector<std::uint32_t> next = module.entries;
@@ -281,11 +276,16 @@ Module module_of(std::span<const Instruction> all, std::span<const ConstantBits>
 }
 
 /// Of a function with what it calls.
-OperationCount count_of(const Module& module, std::uint32_t id) {
+OperationCount count_of(const Module& module, const Components& components, std::uint32_t id) {
     const Function& function = module.functions.at(id);
-    OperationCount count = function.own;
+    OperationCount count;
+    for (const std::span<const Instruction> block : function.running)
+        for (const Instruction& i : block) {
+            count.operations += operations_of(i, components);
+            count.loops += i.op == spv::OpLoopMerge;
+        }
     for (const std::uint32_t callee : function.calls) {
-        const OperationCount called = count_of(module, callee);  // SPIR-V has no recursion
+        const OperationCount called = count_of(module, components, callee);  // SPIR-V has no recursion
         count.operations += called.operations;
         count.loops += called.loops;
     }
@@ -321,7 +321,9 @@ std::vector<ConstantBits> fixed_constants(const Shader& shader, const Step& step
 OperationCount count_operations(std::span<const std::uint32_t> code, std::span<const ConstantBits> constants) {
     const std::vector<Instruction> all = instructions_of(code);
     const Module module = module_of(all, constants);
-    return module.entries.empty() ? OperationCount{} : count_of(module, module.entries.front());
+    Components components;
+    for (const Instruction& i : all) components.add(i);
+    return module.entries.empty() ? OperationCount{} : count_of(module, components, module.entries.front());
 }
 
 std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std::span<const ConstantBits> given) {

@@ -49,7 +49,8 @@ Result<DeviceLimits> measure_limits(Device& device, std::size_t repeats, const L
             const Execution run = executor->run(*plan, {.timestamps = Timestamps::on});
             limits.operations_done = operations_done(run.buffers.at(done.id));
             const double copy_ms = run.step_costs[1].ms, loop_ms = run.step_costs[2].ms;
-            if (copy_ms <= 0 || loop_ms <= 0) return fail(Fault::device_lacks, "the device's clock is too coarse for its limits");
+            if (copy_ms <= 0 || loop_ms <= 0)
+                return fail(Fault::device_lacks, "the device's timestamps are too coarse to measure what it can do");
             if (turn == 0) continue;
             bytes.push_back(1e3 * static_cast<double>(limits.copied_bytes) / copy_ms);
             operations.push_back(1e3 * static_cast<double>(limits.operations_done) / loop_ms);

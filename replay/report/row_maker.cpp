@@ -44,7 +44,7 @@ Result<void> RowMaker::time_again(const Progress& tell) {
     const std::vector<bool> uncertain = uncertain_rows(standings(report_->rows), wanted_->question);
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < uncertain.size(); ++i)
-        if (uncertain[i] && i != unit_) rows.push_back(i);
+        if (uncertain[i] && i != times_.unit()) rows.push_back(i);
     for (std::size_t begin = 0; begin < rows.size() && report_->stopped.empty(); begin += rows_at_once) {
         const std::span group = std::span(rows).subspan(begin, std::min(rows_at_once, rows.size() - begin));
         const auto told = [&](std::string_view what, double done) {
@@ -59,7 +59,7 @@ Result<void> RowMaker::time_again(const Progress& tell) {
             report_->stopped = fmt::format("stopped after {} of {} timed runs of rows whose rank is open", done, most - least);
         for (const std::size_t i : group) times_.add_to(report_->rows[i], i, *report_);
     }
-    if (unit_) times_.add_to(report_->rows[*unit_], *unit_, *report_);
+    if (const auto unit = times_.unit()) times_.add_to(report_->rows[*unit], *unit, *report_);
     count_repeats();
     return {};
 }
@@ -79,7 +79,7 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
                                  .tolerance = tolerance.rmse,
                                  .tolerated_worst = tolerance.worst,
                                  .model_is = variant.technique->model_is});
-        if (!unit_ && is_supported(i) && variant.technique->abilities.is_time_unit) times_.set_unit(*(unit_ = i));
+        if (!times_.unit() && is_supported(i) && variant.technique->abilities.is_time_unit) times_.set_unit(i);
     }
     std::vector<std::size_t> timed;
     for (std::size_t i = begin; i < end; ++i)
@@ -89,9 +89,9 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
     };
     const std::size_t least = least_repeats_of(*wanted_), first = least < wanted_->repeats ? 1 : least;
     if (const auto done = times_.time(timed, first, told); !done) return done;
-    if (times_.has_unit()) report_->time_unit = all_[*unit_].technique->name;
+    if (times_.has_unit()) report_->time_unit = all_[*times_.unit()].technique->name;
     for (const std::size_t i : timed) times_.add_to(report_->rows[i], i, *report_);
-    const std::vector<bool> are_far_behind = rows_far_behind(standings(report_->rows), unit_);
+    const std::vector<bool> are_far_behind = rows_far_behind(standings(report_->rows), times_.unit());
     std::erase_if(timed, [&](std::size_t i) { return are_far_behind[i]; });
     const auto done = times_.time(timed, least - first, told);
     if (!done && done.error().fault != Fault::stopped) return done;
@@ -110,9 +110,9 @@ void RowMaker::count_repeats() {
     report_->least_repeats = wanted_->repeats;
     bool are_others_timed = false;
     for (std::size_t i = 0; i < report_->rows.size(); ++i)
-        are_others_timed = are_others_timed || (i != unit_ && times_.repeats(i) > 0);
+        are_others_timed = are_others_timed || (i != times_.unit() && times_.repeats(i) > 0);
     for (std::size_t i = 0; i < report_->rows.size(); ++i) {
-        if (times_.repeats(i) == 0 || (i == unit_ && are_others_timed)) continue;
+        if (times_.repeats(i) == 0 || (i == times_.unit() && are_others_timed)) continue;
         report_->repeats = std::max(report_->repeats, times_.repeats(i));
         report_->least_repeats = std::min(report_->least_repeats, times_.repeats(i));
     }

@@ -39,7 +39,6 @@ private:
     const Yardstick* yardstick_;
     Report* report_;
     RowTimes times_;
-    std::optional<std::size_t> unit_;
 };
 
 }  // namespace strata

@@ -17,11 +17,12 @@ Result<void> RowTimes::time(std::vector<std::size_t> rows, std::size_t repeats, 
     const auto runs = session_->time(requests, repeats, progress);
     if (!runs) return runs.error();
     const std::string stage(name(stage_));
-    const std::size_t repeats_of_unit = unit_ ? this->repeats(*unit_) : 0;
-    const auto unit = std::ranges::find(rows, unit_.value_or(all_.size()));
-    const std::vector<double> unit_ms =
-        unit == rows.end() ? std::vector<double>() : (*runs)[std::size_t(unit - rows.begin())].stage_ms_by_repeat.at(stage);
-    if (unit_ && repeats_of_unit == 0) has_unit_ = !unit_ms.empty() && std::ranges::min(unit_ms) > 0;
+    std::vector<double> unit_ms;
+    if (unit_) {
+        const auto place = std::size_t(std::ranges::find(rows, *unit_) - rows.begin());
+        unit_ms = (*runs)[place].stage_ms_by_repeat.at(stage);
+        if (this->repeats(*unit_) == 0) has_unit_ = std::ranges::min(unit_ms) > 0;
+    }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         Row& row = all_[rows[i]];
         const Run& run = (*runs)[i];

@@ -19,6 +19,7 @@ public:
 
     /// The row whose time is 1. It is timed with every other.
     void set_unit(std::size_t row) { unit_ = row; }
+    std::optional<std::size_t> unit() const { return unit_; }
     /// Runs these rows in turn, `repeats` times each. Stopped, it keeps the turns that were complete, or fails where there is
     /// none.
     Result<void> time(std::vector<std::size_t> rows, std::size_t repeats, const Progress&);

@@ -108,8 +108,6 @@ DrawRecord draw_record(const Frame& frame, const Draw& draw, const BoundingSpher
         .bound_center = glm::vec3(bound.center),
         .bound_radius = float(bound.radius),
         .motion = glm::mat4(motion_in_view(draw, view)),
-        .first_index = 0,
-        .vertex_offset = 0,
         .normals = mesh.normals,
         .tangents = mesh.tangents,
         .uv0 = mesh.uv0,
@@ -132,8 +130,6 @@ DrawRecord emitter_record(const Frame& frame, std::size_t index, const SceneReco
         .bound_center = glm::vec3(0),
         .bound_radius = 0,
         .motion = glm::mat4(0),  // particles have neither names nor velocities
-        .first_index = 0,
-        .vertex_offset = 0,
         .normals = no_index,
         .tangents = no_index,
         .uv0 = no_index,

@@ -153,13 +153,13 @@ Result<void> DeviceSession::load(Frame frame, const FrameVariant& variant) {
 Result<void> DeviceSession::check_buffers(const Plan& plan) const {
     for (const PlannedStep& step : plan.steps)
         for (const PlannedBinding& bound : step.bindings) {
-            const bool is_storage = bound.kind == BindingKind::storage_buffer;
-            const BufferRecord* buffer = is_storage ? &plan.buffers[bound.binding.buffer.id] : nullptr;
-            if (!buffer || buffer->bytes <= device().max_buffer_bytes) continue;
-            const std::string advice = buffer->import ? "it grows with what the frame draws: replay one that draws less"
-                                                      : "replay with a smaller extent or settings that take less";
-            return fail(Fault::device_lacks, "'{}' takes {} MiB and {} binds at most {} MiB at once; {}", buffer->name,
-                        buffer->bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
+            if (bound.kind != BindingKind::storage_buffer) continue;
+            const BufferRecord& buffer = plan.buffers[bound.binding.buffer.id];
+            if (buffer.bytes <= device().max_buffer_bytes) continue;
+            const std::string advice = buffer.import ? "it grows with what the frame draws: replay one that draws less"
+                                                     : "replay with a smaller extent or settings that take less";
+            return fail(Fault::device_lacks, "'{}' takes {} MiB and {} binds at most {} MiB at once; {}", buffer.name,
+                        buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
         }
     return {};
 }
