@@ -86,7 +86,7 @@ Result<void> Capture::Contents::take_frame(std::size_t number) {
 bool Capture::Contents::is_known(const Section& section) {
     switch (section.type) {
         case SectionType::thumbnail:
-            return section.version == picture_version;
+            return section.version >= 1 && section.version <= picture_version;
         case SectionType::notes:
             return section.version == notes_version;
         case SectionType::expect:
@@ -106,7 +106,7 @@ Result<void> Capture::Contents::take(std::size_t number) {
     if (section.type == SectionType::thumbnail) {
         const auto stored = container.stored(number);
         if (!stored) return stored.error();
-        Result<Texture> picture = decode_picture(*stored);
+        Result<Texture> picture = decode_picture(*stored, section.version);
         if (!picture) return at(container, number, picture.error());
         thumbnail = *std::move(picture);
     }

@@ -139,7 +139,7 @@ Result<void> Recorder::Stream::write(WholeFrame& whole) {
 }
 
 Result<void> Recorder::Stream::write(EncodedThumbnail& picture) {
-    return writer.add({SectionType::thumbnail, picture_version, picture.bytes, picture.bytes.size()});
+    return writer.add({SectionType::thumbnail, picture_version, picture.bytes, picture.texel_bytes});
 }
 
 void Recorder::Stream::stop() {
@@ -322,7 +322,7 @@ Result<void> Recorder::thumbnail(const Texture& picture) {
     Result<std::vector<std::byte>> encoded = encode_picture(picture);
     if (!encoded) return encoded.error();
     const std::uint64_t bytes = encoded->size();
-    return stream_->queue.push(EncodedThumbnail{*std::move(encoded)}, bytes, "the thumbnail");
+    return stream_->queue.push(EncodedThumbnail{*std::move(encoded), picture.texels.size()}, bytes, "the thumbnail");
 }
 
 Result<void> Recorder::flush() {

@@ -36,6 +36,7 @@ struct WholeFrame {
 };
 struct EncodedThumbnail {
     std::vector<std::byte> bytes;
+    std::uint64_t texel_bytes = 0;  ///< of the picture, decoded
 };
 using Recorded = std::variant<Put<Texture>, Put<Mesh>, Put<Material>, SubmittedFrame, WholeFrame, EncodedThumbnail>;
 

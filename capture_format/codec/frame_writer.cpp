@@ -111,6 +111,7 @@ Result<void> FrameWriter::write(const Frame& frame, std::uint64_t number) {
 
 Result<void> FrameWriter::write_whole(const Frame& frame, std::uint64_t number) {
     if (const Result<void> checked = check_frame(frame); !checked) return refused(number, checked.error());
+    const BlobLoan loan(blobs_);  // the frame stays until it is written
     return write(frame, store_resources(frame, blobs_), number);
 }
 

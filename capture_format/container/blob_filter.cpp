@@ -196,9 +196,15 @@ bool undo_stored(std::span<const std::byte> bytes, const BlobFilter& filter, std
 
 }  // namespace
 
-FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
+std::vector<std::byte> rearranged(std::span<const std::byte> bytes, const BlobFilter& filter) {
+    std::vector<std::byte> result(bytes.size());
+    rearrange(bytes, filter, result);
+    return result;
+}
+
+std::optional<FilteredBlob> filtered(std::span<const std::byte> blob, std::size_t element_bytes) {
     if (element_bytes % word_bytes != 0 || element_bytes > largest_element || blob.size() < smallest_filtered)
-        return {{}, std::move(blob)};
+        return std::nullopt;
     Trial of_own(blob);
     Best best{{}, of_own.packed_bytes({}) * (1 - least_saving)};
     best.try_all(of_own, BlobShape::own, element_bytes);
@@ -207,15 +213,11 @@ FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes) {
         Trial of_rays(bytes_of(rays->records));
         best.try_all(of_rays, BlobShape::ray_records, sizeof(RayRecord));
     }
-    if (best.filter.shape == BlobShape::ray_records) {
-        std::vector<std::byte> bytes = stored(*rays, best.filter);  // with its tables, which the trial did not see
-        if (bytes.size() >= blob.size()) return {{}, std::move(blob)};
-        return {best.filter, std::move(bytes)};
-    }
-    if (best.filter == BlobFilter{}) return {{}, std::move(blob)};
-    std::vector<std::byte> rearranged(blob.size());
-    rearrange(blob, best.filter, rearranged);
-    return {best.filter, std::move(rearranged)};
+    if (best.filter == BlobFilter{}) return std::nullopt;
+    if (best.filter.shape == BlobShape::own) return FilteredBlob{best.filter, rearranged(blob, best.filter)};
+    std::vector<std::byte> bytes = stored(*rays, best.filter);  // with its tables, which the trial did not see
+    if (bytes.size() >= blob.size()) return std::nullopt;
+    return FilteredBlob{best.filter, std::move(bytes)};
 }
 
 bool undo_filter(std::span<const std::byte> filtered, const BlobFilter& filter, std::span<std::byte> blob) {

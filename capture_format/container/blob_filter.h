@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,9 +31,12 @@ struct FilteredBlob {
     std::vector<std::byte> bytes;
 };
 
-/// By the filter after which a part of the blob compresses best; by none where none saves enough, and where elements are not
+/// By the filter after which a part of the blob compresses best; nothing where no filter saves enough, and where elements are not
 /// made of words of 4 bytes. `element_bytes`: of a vertex attribute, an index, a texel, a particle.
-FilteredBlob filtered(std::vector<std::byte> blob, std::size_t element_bytes);
+std::optional<FilteredBlob> filtered(std::span<const std::byte> blob, std::size_t element_bytes);
+
+/// The bytes by a known filter of the shape `own`.
+std::vector<std::byte> rearranged(std::span<const std::byte>, const BlobFilter&);
 
 /// Fills the blob. False where it could not have been filtered to these bytes, or where the filter is not known.
 bool undo_filter(std::span<const std::byte> filtered, const BlobFilter&, std::span<std::byte> blob);

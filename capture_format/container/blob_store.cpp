@@ -11,11 +11,14 @@
 #include "capture_format/container/blob_store.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <charconv>
 #include <cstddef>
 #include <cstring>
+#include <future>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include <xxhash.h>
@@ -40,6 +43,10 @@ std::size_t entry_bytes(std::uint32_t version) {
 
 // zstd's default: 3 shrank a peer's captures 50 times at 400 MB/s; 19 gains a tenth and is a hundred times slower.
 constexpr int compression_level = 3;
+// Sections of so many bytes are packed by several threads, compressed in jobs of 8 MiB (zstd's, at this level). What is recorded
+// bit by bit stays below: an application keeps its cores.
+constexpr std::uint64_t least_for_threads = std::uint64_t{16} << 20;
+unsigned threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 }  // namespace
 
@@ -63,10 +70,21 @@ std::optional<BlobHash> parse_blob_hash(std::string_view digits) {
     return hash;
 }
 
+BlobLoan::~BlobLoan() {
+    std::erase_if(blobs_.pending_, [&](const BlobCollector::Pending& pending) {
+        if (!pending.own.empty()) return false;
+        blobs_.known_.erase(pending.blob.hash);
+        blobs_.pending_bytes_ -= pending.blob.bytes;
+        return true;
+    });
+    blobs_.is_loan_ = false;
+}
+
 BlobName BlobCollector::put(std::span<const std::byte> bytes, std::size_t element_bytes) {
     const BlobName blob = {blob_hash(bytes), bytes.size()};
     if (bytes.empty() || !known_.insert(blob.hash).second) return blob;
-    pending_.push_back({blob, element_bytes, {bytes.begin(), bytes.end()}});
+    Pending& pending = pending_.emplace_back(Pending{blob, element_bytes, bytes});
+    if (!is_loan_) pending.own.assign(bytes.begin(), bytes.end()), pending.bytes = pending.own;
     pending_bytes_ += bytes.size();
     return blob;
 }
@@ -89,34 +107,69 @@ Result<std::vector<PackedBlobs>> BlobCollector::pack() {
     return packed;
 }
 
+/// Rearranges the blobs that get smaller by it; says how.
+std::vector<BlobFilter> BlobCollector::filter(std::span<Pending> blobs) {
+    std::vector<BlobFilter> filters(blobs.size());
+    std::uint64_t bytes = 0;
+    for (const Pending& blob : blobs) bytes += blob.bytes.size();
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < blobs.size(); i = next++) {
+            auto better = filtered(blobs[i].bytes, blobs[i].element_bytes);
+            if (!better) continue;
+            filters[i] = better->filter;
+            blobs[i].own = std::move(better->bytes);
+            blobs[i].bytes = blobs[i].own;
+        }
+    };
+    std::vector<std::future<void>> helpers(bytes < least_for_threads ? 0 : threads() - 1);
+    for (std::future<void>& helper : helpers) helper = std::async(work);
+    work();
+    for (std::future<void>& helper : helpers) helper.get();
+    return filters;
+}
+
 /// One section. The blobs are compressed from where they are: a copy of them all would double what packing takes.
 PackedBlobs BlobCollector::pack(std::span<Pending> blobs) {
     const std::uint64_t count = blobs.size();
     std::vector<IndexEntry> index;
     PackedBlobs section{.version = 1};
-    for (Pending& blob : blobs) {
-        FilteredBlob better = filtered(std::move(blob.bytes), blob.element_bytes);
-        index.push_back({blob.blob.hash, blob.blob.bytes, better.bytes.size(), better.filter});
-        if (better.filter != BlobFilter{}) section.version = blobs_version;
-        section.raw_bytes += better.bytes.size();
-        blob.bytes = std::move(better.bytes);
+    const std::vector<BlobFilter> filters = filter(blobs);
+    for (std::size_t i = 0; i < count; ++i) {
+        index.push_back({blobs[i].blob.hash, blobs[i].blob.bytes, blobs[i].bytes.size(), filters[i]});
+        if (filters[i] != BlobFilter{}) section.version = blobs_version;
+        section.raw_bytes += blobs[i].bytes.size();
     }
     const std::size_t each = entry_bytes(section.version), index_bytes = sizeof(count) + count * each;
-    section.stored.resize(index_bytes + ZSTD_compressBound(section.raw_bytes));
+    section.stored.resize(index_bytes);
     std::memcpy(section.stored.data(), &count, sizeof(count));
     for (std::size_t i = 0; i < index.size(); ++i) std::memcpy(&section.stored[sizeof(count) + i * each], &index[i], each);
+    append_compressed(section, blobs);
+    return section;
+}
+
+/// The zstd frame of the blobs.
+void BlobCollector::append_compressed(PackedBlobs& section, std::span<const Pending> blobs) {
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression_level);
     ZSTD_CCtx_setPledgedSrcSize(context.get(), section.raw_bytes);
-    ZSTD_outBuffer out = {section.stored.data() + index_bytes, section.stored.size() - index_bytes, 0};
+    // A zstd that was built without threads refuses this, and uses none. How many there are does not change the bytes.
+    if (section.raw_bytes >= least_for_threads)
+        ZSTD_CCtx_setParameter(context.get(), ZSTD_c_nbWorkers, static_cast<int>(threads()));
+    // Cleared memory would be touched before it is used, and most of it never is.
+    const std::size_t bound = ZSTD_compressBound(section.raw_bytes);
+    const auto packed = std::make_unique_for_overwrite<std::byte[]>(bound);
+    ZSTD_outBuffer out = {packed.get(), bound, 0};
     for (const Pending& blob : blobs) {
         ZSTD_inBuffer in = {blob.bytes.data(), blob.bytes.size(), 0};
-        const ZSTD_EndDirective then = &blob == &blobs.back() ? ZSTD_e_end : ZSTD_e_continue;
-        [[maybe_unused]] const std::size_t left = ZSTD_compressStream2(context.get(), &out, &in, then);
-        assert(!ZSTD_isError(left) && in.pos == in.size);  // the bound is zstd's own
+        const bool is_last = &blob == &blobs.back();
+        std::size_t left = 1;
+        while (in.pos < in.size || (is_last && left > 0)) {
+            left = ZSTD_compressStream2(context.get(), &out, &in, is_last ? ZSTD_e_end : ZSTD_e_continue);
+            assert(!ZSTD_isError(left));  // the bound is zstd's own
+        }
     }
-    section.stored.resize(index_bytes + out.pos);
-    return section;
+    section.stored.insert(section.stored.end(), packed.get(), packed.get() + out.pos);
 }
 
 Result<BlobStore> BlobStore::open(const Container& container, MemoryBudget& budget, SectionType type) {

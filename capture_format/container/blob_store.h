@@ -61,16 +61,34 @@ public:
     std::uint64_t pending_bytes() const { return pending_bytes_; }
 
 private:
+    friend class BlobLoan;
     struct Pending {
         BlobName blob;
         std::size_t element_bytes = 1;
-        std::vector<std::byte> bytes;
+        std::span<const std::byte> bytes;
+        std::vector<std::byte> own = {};  ///< what `bytes` refers to, except during a BlobLoan
     };
     static PackedBlobs pack(std::span<Pending>);
+    static std::vector<BlobFilter> filter(std::span<Pending>);
+    static void append_compressed(PackedBlobs&, std::span<const Pending>);
 
     std::set<BlobHash> known_;
     std::vector<Pending> pending_;
     std::uint64_t pending_bytes_ = 0;
+    bool is_loan_ = false;
+};
+
+/// While it lasts, put() copies nothing: the bytes must stay where they are until the end of the loan. Blobs that were put
+/// meanwhile and are not packed by then are forgotten.
+class BlobLoan {
+public:
+    explicit BlobLoan(BlobCollector& blobs) : blobs_(blobs) { blobs_.is_loan_ = true; }
+    BlobLoan(const BlobLoan&) = delete;
+    BlobLoan& operator=(const BlobLoan&) = delete;
+    ~BlobLoan();
+
+private:
+    BlobCollector& blobs_;
 };
 
 /// Reading: finds blobs by hash, decompresses a section when one of its blobs is asked for the first time.

@@ -1,18 +1,35 @@
 // The grammar of a thumbnail section's payload:
 //
-//   picture = width:u32  height:u32  texel{width * height}
+//   picture = width:u32  height:u32  texel{width * height}                                            in version 1
+//   picture = width:u32  height:u32  zstd frame of the texels, rearranged as texel_filter says        in version 2
 //   texel   = r:u8  g:u8  b:u8  a:u8                          sRGB, rows top to bottom
 #include "capture_format/container/picture.h"
 
 #include <algorithm>
 #include <cstring>
 
+#include <zstd.h>
+
+#include "capture_format/container/blob_filter.h"
+
 namespace strata {
 namespace {
 
-bool fits(std::uint32_t width, std::uint32_t height, std::size_t texel_bytes) {
-    return width >= 1 && height >= 1 && width <= largest_picture_edge && height <= largest_picture_edge &&
-           texel_bytes == std::size_t{4} * width * height;
+constexpr std::size_t texel_bytes = 4;
+/// Differences to the texel on the left. They are packed channel by channel.
+constexpr BlobFilter texel_filter{.step = texel_bytes, .stride = texel_bytes};
+
+bool fits(std::uint32_t width, std::uint32_t height) {
+    return width >= 1 && height >= 1 && width <= largest_picture_edge && height <= largest_picture_edge;
+}
+
+/// The texels of a payload; empty where it does not hold `count` bytes of them.
+std::vector<std::byte> unpacked(std::span<const std::byte> payload, std::size_t count, std::uint32_t version) {
+    if (version == 1) return payload.size() == count ? std::vector(payload.begin(), payload.end()) : std::vector<std::byte>();
+    std::vector<std::byte> rearranged(count), texels(count);
+    const std::size_t written = ZSTD_decompress(rearranged.data(), count, payload.data(), payload.size());
+    const bool whole = written == count && undo_filter(rearranged, texel_filter, texels);
+    return whole ? texels : std::vector<std::byte>();
 }
 
 constexpr std::uint32_t thumbnail_width = 160;  // at the most
@@ -27,29 +44,31 @@ ThumbnailExtent thumbnail_extent(std::uint32_t frame_width, std::uint32_t frame_
 
 Result<std::vector<std::byte>> encode_picture(const Texture& picture) {
     const bool rgba8 = picture.format == TextureFormat::rgba8_unorm || picture.format == TextureFormat::rgba8_srgb;
-    if (!rgba8 || picture.mips != 1 || !fits(picture.width, picture.height, picture.texels.size())) {
+    if (!rgba8 || picture.mips != 1 || !fits(picture.width, picture.height) ||
+        picture.texels.size() != texel_bytes * picture.width * picture.height) {
         return fail(Fault::usage, "a thumbnail is RGBA8 with one mip and 1 to {} texels each way", largest_picture_edge);
     }
+    const std::vector<std::byte> filtered = rearranged(picture.texels, texel_filter);
     const std::uint32_t extent[] = {picture.width, picture.height};
-    const auto head = std::as_bytes(std::span(extent));
-    std::vector<std::byte> payload(head.begin(), head.end());
-    payload.insert(payload.end(), picture.texels.begin(), picture.texels.end());
+    std::vector<std::byte> payload(sizeof extent + ZSTD_compressBound(filtered.size()));
+    std::memcpy(payload.data(), extent, sizeof extent);
+    payload.resize(sizeof extent + ZSTD_compress(&payload[sizeof extent], payload.size() - sizeof extent, filtered.data(),
+                                                 filtered.size(), ZSTD_CLEVEL_DEFAULT));
     return payload;
 }
 
-Result<Texture> decode_picture(std::span<const std::byte> payload) {
+Result<Texture> decode_picture(std::span<const std::byte> payload, std::uint32_t version) {
     std::uint32_t extent[2] = {};
-    if (payload.size() >= sizeof(extent)) std::memcpy(extent, payload.data(), sizeof(extent));
-    if (payload.size() < sizeof(extent) || !fits(extent[0], extent[1], payload.size() - sizeof(extent))) {
-        return fail(Fault::bad_input, "it is no picture of 1 to {} texels each way", largest_picture_edge);
-    }
-    const std::span<const std::byte> texels = payload.subspan(sizeof(extent));
+    if (payload.size() >= sizeof extent) std::memcpy(extent, payload.data(), sizeof extent);
     Texture picture;
     picture.name = "thumbnail";
     picture.format = TextureFormat::rgba8_srgb;
     picture.width = extent[0];
     picture.height = extent[1];
-    picture.texels.assign(texels.begin(), texels.end());
+    if (fits(extent[0], extent[1]))
+        picture.texels = unpacked(payload.subspan(sizeof extent), texel_bytes * extent[0] * extent[1], version);
+    if (picture.texels.empty())
+        return fail(Fault::bad_input, "it is no picture of 1 to {} texels each way", largest_picture_edge);
     return picture;
 }
 

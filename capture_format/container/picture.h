@@ -11,8 +11,10 @@
 
 namespace strata {
 
-/// Versions of the payloads' grammars: notes and expect are UTF-8 text.
-inline constexpr std::uint32_t picture_version = 1, notes_version = 1, expect_version = 1;
+/// Newest grammar of a thumbnail's payload; programs that do not know it leave the thumbnail out.
+inline constexpr std::uint32_t picture_version = 2;
+/// Versions of the other payloads: UTF-8 text.
+inline constexpr std::uint32_t notes_version = 1, expect_version = 1;
 /// Expect sections of this version hold the images that texts after them name, in the grammar of blobs sections.
 inline constexpr std::uint32_t expect_images_version = 2;
 /// What a reader is willing to copy.
@@ -30,6 +32,7 @@ ThumbnailExtent thumbnail_extent(std::uint32_t frame_width, std::uint32_t frame_
 
 /// Fails unless the picture is RGBA8 with one mip and up to largest_picture_edge texels each way.
 Result<std::vector<std::byte>> encode_picture(const Texture&);
-Result<Texture> decode_picture(std::span<const std::byte>);
+/// `version` is 1 to picture_version.
+Result<Texture> decode_picture(std::span<const std::byte>, std::uint32_t version);
 
 }  // namespace strata

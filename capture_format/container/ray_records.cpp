@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <future>
 #include <limits>
 
 namespace strata {
@@ -105,58 +106,73 @@ private:
     std::vector<std::uint32_t> by_bin_ = std::vector<std::uint32_t>(bins, no_ray);
 };
 
-/// The least and the greatest x / z and y / z, or nothing where a position is not in front of the origin.
-std::optional<std::array<Interval, 2>> range_of(std::span<const std::byte> positions) {
+/// The least and the greatest x / z, or nothing where a position is not in front of the origin.
+std::optional<Interval> range_of(std::span<const std::byte> positions, std::size_t axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<Interval, 2> range{Interval{infinity, -infinity}, Interval{infinity, -infinity}};
+    Interval range{infinity, -infinity};
     for (std::size_t i = 0; i < positions.size() / position_bytes; ++i) {
         const Position at = position_at(positions, i);
-        if (!(at[2] > 0 && std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]))) return std::nullopt;
-        const double inverse = 1 / double(at[2]);
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            range[axis].low = std::min(range[axis].low, double(at[axis]) * inverse);
-            range[axis].high = std::max(range[axis].high, double(at[axis]) * inverse);
-        }
+        if (!(at[2] > 0 && std::isfinite(at[axis]) && std::isfinite(at[2]))) return std::nullopt;
+        const double number = double(at[axis]) * (1 / double(at[2]));
+        range.low = std::min(range.low, number);
+        range.high = std::max(range.high, number);
     }
     return range;
 }
 
-Position position_of(const RayRecords& rays, const RayRecord& record) {
-    return {static_cast<float>(rays.x_per_z[record.column] * double(record.z)),
-            static_cast<float>(rays.y_per_z[record.row] * double(record.z)), record.z};
+float coordinate(double number, float z) { return static_cast<float>(number * double(z)); }
+
+/// The rays of one coordinate (0: x, 1: y), and the place among them of every position's.
+struct Coordinates {
+    std::vector<double> numbers;
+    std::vector<std::uint16_t> places;
+};
+
+/// Nothing where the coordinates are not on few rays, to the bit.
+std::optional<Coordinates> coordinates(std::span<const std::byte> positions, std::size_t axis) {
+    const auto range = range_of(positions, axis);
+    if (!range) return std::nullopt;
+    Rays rays(*range);
+    Coordinates result;
+    result.places.reserve(positions.size() / position_bytes);
+    for (std::size_t i = 0; i < positions.size() / position_bytes; ++i) {
+        const Position at = position_at(positions, i);
+        const std::uint32_t ray = rays.find(at[axis], 1 / double(at[2]));
+        if (ray == no_ray) return std::nullopt;
+        result.places.push_back(static_cast<std::uint16_t>(ray));
+    }
+    const std::vector<std::uint16_t> sorted = rays.sort(result.numbers);
+    for (std::size_t i = 0; i < result.places.size(); ++i) {
+        std::uint16_t& place = result.places[i];
+        place = sorted[place];
+        const Position at = position_at(positions, i);
+        if (std::bit_cast<std::uint32_t>(coordinate(result.numbers[place], at[2])) != std::bit_cast<std::uint32_t>(at[axis]))
+            return std::nullopt;
+    }
+    return result;
 }
 
 }  // namespace
 
 std::optional<RayRecords> ray_records(std::span<const std::byte> positions) {
     if (positions.empty() || positions.size() % position_bytes != 0 || !may_have_rays(positions)) return std::nullopt;
-    const auto range = range_of(positions);
-    if (!range) return std::nullopt;
-    RayRecords result;
-    std::array<Rays, 2> rays{Rays((*range)[0]), Rays((*range)[1])};
-    result.records.reserve(positions.size() / position_bytes);
-    for (std::size_t i = 0; i < positions.size() / position_bytes; ++i) {
-        const Position at = position_at(positions, i);
-        const double inverse = 1 / double(at[2]);
-        const std::uint32_t column = rays[0].find(at[0], inverse), row = rays[1].find(at[1], inverse);
-        if (column == no_ray || row == no_ray) return std::nullopt;
-        result.records.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), at[2]});
-    }
-    const std::vector<std::uint16_t> columns = rays[0].sort(result.x_per_z), rows = rays[1].sort(result.y_per_z);
-    for (std::size_t i = 0; i < result.records.size(); ++i) {
-        RayRecord& record = result.records[i];
-        record = {columns[record.column], rows[record.row], record.z};
-        const Position undone = position_of(result, record), wanted = position_at(positions, i);
-        if (std::memcmp(&undone, &wanted, position_bytes) != 0) return std::nullopt;
-    }
+    // Half of the time to write a deep image, so each coordinate has a thread; both run here where there is none to be had.
+    auto columns = std::async([&] { return coordinates(positions, 0); });
+    auto rows = coordinates(positions, 1);
+    auto found = columns.get();
+    if (!found || !rows) return std::nullopt;
+    RayRecords result{.x_per_z = std::move(found->numbers), .y_per_z = std::move(rows->numbers), .records = {}};
+    result.records.reserve(rows->places.size());
+    for (std::size_t i = 0; i < rows->places.size(); ++i)
+        result.records.push_back({found->places[i], rows->places[i], position_at(positions, i)[2]});
     return result;
 }
 
 bool undo_ray_records(const RayRecords& rays, std::span<std::byte> positions) {
     for (std::size_t i = 0; i < rays.records.size(); ++i) {
-        const RayRecord& record = rays.records[i];
-        if (record.column >= rays.x_per_z.size() || record.row >= rays.y_per_z.size()) return false;
-        const Position at = position_of(rays, record);
+        const auto& [column, row, z] = rays.records[i];
+        if (column >= rays.x_per_z.size() || row >= rays.y_per_z.size()) return false;
+        const Position at = {coordinate(rays.x_per_z[column], z), coordinate(rays.y_per_z[row], z), z};
         std::memcpy(&positions[i * position_bytes], &at, position_bytes);
     }
     return true;

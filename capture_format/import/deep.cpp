@@ -2,43 +2,56 @@
 // nearer one, so the earlier sample of the file comes last.
 #include "capture_format/import/deep.h"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "capture_format/container/file.h"
 #include "capture_format/container/picture.h"
-#include "capture_format/import/deep_pixel.h"
+#include "capture_format/import/deep_triangles.h"
 #include "capture_format/inspection.h"
 #include "capture_format/memory_budget.h"
 
 namespace strata {
 namespace {
 
-/// Corners of a sample's triangle in pixels from the pixel's upper left corner. It holds Vulkan's four standard sample positions,
-/// the center, and the lower right corner, which is the center of a pixel at half extent (thumbnails, quick truths); and none of
-/// these points of any other pixel. All of them stay 8.8 steps of 1/256 pixel off its sides, the most that a search found, so
-/// that no rounding of a vertex or of the rasterizer decides what is covered.
-constexpr std::array<glm::dvec2, 3> corners = {{{.8604, -.2404}, {-.4087, .6061}, {1.2512, 1.3509}}};
+/// Three vertices of position and color with their indices. They are there three times while the frame is recorded: in its
+/// meshes, rearranged, and compressed.
+constexpr std::uint64_t bytes_per_fragment = 3 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
 
-/// Three vertices of position and color with their indices. They are there four times while the frame is recorded: in its meshes,
-/// in the recorder's blobs, rearranged, and compressed.
-constexpr std::uint64_t bytes_per_fragment = 4 * 3 * (sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(std::uint32_t));
-
-/// Events below both are dropped by every technique (docs/algorithms/transparency.md 0.2).
-constexpr double least_alpha = 1e-5;
-
-/// Which channels of a mesh's samples hide what is behind: all, or with chromatic alpha one of three.
-struct Layer {
-    const char* name;
-    glm::vec3 transmission;
-};
-constexpr Layer grey[] = {{"deep samples", glm::vec3(0)}};
+constexpr DeepLayer grey[] = {{"deep samples", glm::vec3(0)}};
 // A sample that hides red, green and blue differently is three at one depth: channels do not know of each other.
-constexpr Layer chromatic[] = {{"deep samples, red", glm::vec3(0, 1, 1)},
-                               {"deep samples, green", glm::vec3(1, 0, 1)},
-                               {"deep samples, blue", glm::vec3(1, 1, 0)}};
+constexpr DeepLayer chromatic[] = {{"deep samples, red", glm::vec3(0, 1, 1)},
+                                   {"deep samples, green", glm::vec3(1, 0, 1)},
+                                   {"deep samples, blue", glm::vec3(1, 1, 0)}};
+
+void add_up(DeepCensus& sum, const DeepCensus& more) {
+    using Count = std::uint64_t DeepCensus::*;
+    constexpr Count added[] = {&DeepCensus::samples,
+                               &DeepCensus::fragments,
+                               &DeepCensus::pixels,
+                               &DeepCensus::unsorted_pixels,
+                               &DeepCensus::ties,
+                               &DeepCensus::volumes,
+                               &DeepCensus::split_pixels,
+                               &DeepCensus::cuts,
+                               &DeepCensus::depth_not_a_number,
+                               &DeepCensus::depth_not_in_front,
+                               &DeepCensus::depth_too_near,
+                               &DeepCensus::depth_infinite,
+                               &DeepCensus::bad_color,
+                               &DeepCensus::bad_alpha,
+                               &DeepCensus::without_alpha,
+                               &DeepCensus::faint,
+                               &DeepCensus::outside};
+    for (const Count count : added) sum.*count += more.*count;
+    sum.deepest = std::max(sum.deepest, more.deepest);
+}
 
 class DeepImport {
 public:
@@ -47,8 +60,7 @@ public:
           options_(options),
           window_(options.window.value_or(file.display_window())),
           read_(options.window.value_or(file.data_window())),
-          small_(thumbnail_extent(window_.width, window_.height)),
-          layers_(is_chromatic() ? std::span<const Layer>(chromatic) : grey) {}
+          layers_(is_chromatic() ? std::span<const DeepLayer>(chromatic) : grey) {}
 
     Result<ImportedDeep> run() {
         if (window_.width < 1 || window_.height < 1 || window_.width > largest_extent || window_.height > largest_extent)
@@ -66,16 +78,11 @@ public:
             mesh.colors.reserve(3 * *count);
             mesh.indices.reserve(3 * *count);
         }
-        result_.preview.resize(std::size_t{small_.width} * small_.height);
-        DeepBlock block;
-        for (std::size_t i = 0; i < file_.blocks(); ++i) {
-            if (!overlap(file_.window(i), read_)) continue;
-            auto read = file_.read(i, std::move(block));
-            if (!read) return read.error();
-            block = *std::move(read);
-            if (const auto done = add(block); !done) return done.error();
-        }
-        place_infinite_samples();
+        const ThumbnailExtent small = thumbnail_extent(window_.width, window_.height);
+        result_.preview.resize(std::size_t{small.width} * small.height);
+        const DeepTriangleMaker maker(window_, result_.frame.view, layers_);
+        if (const auto done = add_blocks(maker); !done) return done.error();
+        place_infinite_samples(maker);
         set_near();
         add_draws();
         warn();
@@ -98,72 +105,70 @@ private:
         view.projection[2][3] = 1;
     }
 
-    Result<void> add(const DeepBlock& block) {
-        const DeepWindow& window = block.window;
-        for (std::size_t i = 0; i + 1 < block.begin.size(); ++i) {
-            if (block.begin[i] == block.begin[i + 1]) continue;
-            const std::int64_t x = std::int64_t{window.x} - window_.x + std::int64_t(i % window.width);
-            const std::int64_t y = std::int64_t{window.y} - window_.y + std::int64_t(i / window.width);
-            if (x < 0 || y < 0 || x >= window_.width || y >= window_.height) {
-                result_.census.outside += block.begin[i + 1] - block.begin[i];
-                continue;
-            }
-            const auto samples = pixel_samples(block, i, result_.census);
-            if (!samples) return samples.error();
-            add_pixel(glm::uvec2(x, y), *samples);
-        }
-        return {};
+    /// A block on its way through add_blocks().
+    struct Slot {
+        std::size_t block = 0;
+        DeepTriangles triangles = {};
+        Result<void> done = {};
+    };
+
+    /// Threads unpack blocks and make their triangles, ahead of the one that adds them in the order of the file.
+    Result<void> add_blocks(const DeepTriangleMaker& maker) {
+        namespace tbb = oneapi::tbb;
+        std::vector<Slot> slots(2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));  // used in turn
+        tbb::enumerable_thread_specific<DeepBlock> reused;
+        std::atomic<bool> failed = false;
+        std::size_t taken = 0, next = 0;
+        const auto take = [&](tbb::flow_control& flow) -> Slot* {
+            while (next < file_.blocks() && !overlap(file_.window(next), read_)) ++next;
+            if (next == file_.blocks() || failed) return flow.stop(), nullptr;
+            Slot& slot = slots[taken++ % slots.size()];
+            slot.block = next++;
+            return &slot;
+        };
+        const auto make = [&](Slot* slot) {
+            auto block = file_.read(slot->block, std::move(reused.local()));
+            slot->done = block ? maker.make(*block, slot->triangles) : block.error();
+            if (block) reused.local() = *std::move(block);
+            return slot;
+        };
+        Result<void> result;
+        const auto join = [&](const Slot* slot) {
+            if (result) result = slot->done ? add(slot->triangles) : slot->done;
+            failed = !result;
+        };
+        using Mode = tbb::filter_mode;
+        tbb::parallel_pipeline(slots.size(), tbb::make_filter<void, Slot*>(Mode::serial_in_order, take) &
+                                                 tbb::make_filter<Slot*, Slot*>(Mode::parallel, make) &
+                                                 tbb::make_filter<Slot*, void>(Mode::serial_in_order, join));
+        return result;
     }
 
-    void add_pixel(const glm::uvec2& pixel, const std::vector<DeepSample>& nearest_first) {
-        DeepCensus& census = result_.census;
-        if (nearest_first.empty()) return;
-        ++census.pixels;
-        if (const glm::uvec2 texel = pixel / small_.pixels; texel.x < small_.width && texel.y < small_.height) {
-            const glm::uvec2 left = glm::uvec2(window_.width, window_.height) - texel * small_.pixels;
-            const glm::dvec2 covered(glm::min(left, glm::uvec2(small_.pixels)));
-            result_.preview[texel.y * small_.width + texel.x] += glm::dvec3(composite(nearest_first)) / (covered.x * covered.y);
+    Result<void> add(const DeepTriangles& block) {
+        for (const auto& [first, pixel] : block.infinite) infinite_.emplace_back(meshes_[0].positions.size() + first, pixel);
+        for (const auto& [texel, radiance] : block.seen) result_.preview[texel] += radiance;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            const auto& [positions, colors] = block.layers[i];
+            Mesh& mesh = meshes_[i];
+            mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
+            mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
+            while (mesh.indices.size() < mesh.positions.size())
+                mesh.indices.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
         }
-        census.deepest = std::max<std::uint64_t>(census.deepest, nearest_first.size());
-        for (auto sample = nearest_first.rbegin(); sample != nearest_first.rend(); ++sample) {
-            const glm::dvec3 &color = sample->color, &alpha = sample->alpha;
-            const double brightest = std::max({color.x, color.y, color.z}), densest = std::max({alpha.x, alpha.y, alpha.z});
-            if (densest == 0 && brightest > 0) ++census.without_alpha;
-            if (densest < least_alpha && brightest < least_alpha) ++census.faint;
-            DeepSample placed = *sample;
-            placed.depth = std::max(placed.depth, nearest_depth);
-            if (std::isinf(placed.depth)) infinite_.emplace_back(meshes_[0].positions.size(), pixel);
-            else nearest_ = std::min(nearest_, placed.depth), farthest_ = std::max(farthest_, placed.depth);
-            for (int layer = 0; layer < int(layers_.size()); ++layer) add_triangle(layer, pixel, placed);
-        }
-    }
-
-    void add_triangle(int layer, const glm::dvec2& pixel, const DeepSample& sample) {
-        Mesh& mesh = meshes_[static_cast<std::size_t>(layer)];
-        const glm::dvec3 alone = glm::dvec3(1) - glm::dvec3(layers_[static_cast<std::size_t>(layer)].transmission);
-        const glm::vec4 color(sample.color * alone, sample.alpha[layer]);
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-            mesh.positions.push_back(position(pixel, corner, sample.depth));
-            mesh.colors.push_back(color);
-        }
-        ++result_.census.fragments;
-    }
-
-    glm::vec3 position(const glm::dvec2& pixel, std::size_t corner, double depth) const {
-        const View& view = result_.frame.view;
-        const glm::dvec2 ndc = (pixel + corners[corner]) / glm::dvec2(view.width, view.height) * 2.0 - 1.0;
-        return {ndc.x / double(view.projection[0][0]) * depth, ndc.y / double(view.projection[1][1]) * depth, depth};
+        add_up(result_.census, block.census);
+        nearest_ = std::min(nearest_, block.nearest);
+        farthest_ = std::max(farthest_, block.farthest);
+        return check_cuts(result_.census);
     }
 
     /// What is infinitely far lies at twice the depth of the farthest other sample.
-    void place_infinite_samples() {
+    void place_infinite_samples(const DeepTriangleMaker& maker) {
         const double depth = farthest_ > 0 ? 2 * farthest_ : 1;
         if (!infinite_.empty()) nearest_ = std::min(nearest_, depth);
         for (const auto& [first, pixel] : infinite_)
             for (Mesh& mesh : meshes_)
                 for (std::size_t corner = 0; corner < 3; ++corner)
-                    mesh.positions[first + corner] = position(pixel, corner, depth);
+                    mesh.positions[first + corner] = maker.position(pixel, corner, depth);
     }
 
     /// A power of two at most half as far as the nearest sample.
@@ -232,8 +237,7 @@ private:
     const DeepOptions& options_;
     const DeepWindow window_;  ///< of the image that is the frame
     const DeepWindow read_;    ///< whose blocks are read: all, unless a window was asked for
-    const ThumbnailExtent small_;
-    std::span<const Layer> layers_;
+    std::span<const DeepLayer> layers_;
     ImportedDeep result_;
     std::vector<Mesh> meshes_;                                  ///< one per layer
     std::vector<std::pair<std::size_t, glm::dvec2>> infinite_;  ///< first vertex and pixel

@@ -134,6 +134,11 @@ std::vector<DeepSample> without_overlaps(const std::vector<DeepSample>& samples)
     return result;
 }
 
+Result<void> check_cuts(const DeepCensus& census) {
+    if (census.cuts <= most_cuts) return {};
+    return fail(Fault::bad_input, "its volumes overlap too often: up to {} cuts", census.cuts);
+}
+
 Result<std::vector<DeepSample>> pixel_samples(const DeepBlock& block, std::size_t pixel, DeepCensus& census) {
     const std::size_t begin = block.begin[pixel], end = block.begin[pixel + 1];
     std::vector<DeepSample> samples;
@@ -149,7 +154,7 @@ Result<std::vector<DeepSample>> pixel_samples(const DeepBlock& block, std::size_
     if (!any_overlap(samples)) return samples;
     ++census.split_pixels;
     census.cuts += 2 * samples.size() * samples.size();
-    if (census.cuts > most_cuts) return fail(Fault::bad_input, "its volumes overlap too often: up to {} cuts", census.cuts);
+    if (const auto few = check_cuts(census); !few) return few.error();
     return without_overlaps(samples);
 }
 

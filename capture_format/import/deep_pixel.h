@@ -26,8 +26,11 @@ struct DeepSample {
 
 /// Samples begin[pixel] to begin[pixel + 1] of the block: nearest first, of equal depths the thinner one first and then the
 /// earlier in the file; volumes are cut. Adds to the census what was counted on the way (but not what depends on the frame).
-/// Fails where the census' volumes overlap so often that cutting them would take for ever.
+/// Fails as check_cuts() does.
 Result<std::vector<DeepSample>> pixel_samples(const DeepBlock&, std::size_t pixel, DeepCensus&);
+
+/// Fails where volumes overlap so often that cutting them would take for ever.
+Result<void> check_cuts(const DeepCensus&);
 
 /// Cuts the volumes among sorted samples wherever another sample begins or ends inside them, and merges equal cuts: optical
 /// depths add, and each adds light in proportion to its share of the cut. Points stay as they are.

@@ -115,6 +115,55 @@ TEST(BlobStore, ASectionHasTheOlderVersionUnlessABlobIsRearranged) {
     EXPECT_LT(packed.stored.size(), 500u) << "of 40000 bytes";
 }
 
+TEST(BlobStore, LargeSectionsComeBackAndAreTheSameEveryTime) {
+    const TemporaryFile file;
+    std::vector<std::uint32_t> values(std::size_t{5} << 20);  // 20 MiB: several threads pack them
+    for (std::uint32_t i = 0; i < values.size(); ++i) values[i] = i * 2654435761u % 100000;
+    const auto bytes = std::as_bytes(std::span(values));
+    BlobCollector blobs, again;
+    const BlobName name = blobs.put(bytes, 4), other = blobs.put(indices(), 4);
+    again.put(bytes, 4), again.put(indices(), 4);
+    EXPECT_EQ(blobs.pack()->front().stored, again.pack()->front().stored);
+    BlobCollector written;
+    written.put(bytes, 4), written.put(indices(), 4);
+    auto writer = ContainerWriter::create(file.path());
+    write_pending(*writer, written);
+    ASSERT_TRUE(writer->finish());
+    const auto container = Container::open(file.path());
+    MemoryBudget budget;
+    auto store = BlobStore::open(*container, budget);
+    EXPECT_TRUE(std::ranges::equal(*store->find(name), bytes));
+    EXPECT_TRUE(std::ranges::equal(*store->find(other), indices()));
+}
+
+TEST(BlobLoan, BytesAreReadWhenTheyArePacked) {
+    BlobCollector blobs, copied;
+    const auto first = bytes_of("first");
+    std::vector<std::byte> lent(first.begin(), first.end());
+    copied.put(bytes_of("later"));
+    const BlobLoan loan(blobs);
+    blobs.put(lent);
+    std::ranges::copy(bytes_of("later"), lent.begin());
+    const auto packed = blobs.pack(), wanted = copied.pack();
+    // Behind the index with its hash the two sections are equal.
+    constexpr std::size_t index_bytes = 32;
+    EXPECT_TRUE(std::ranges::equal(std::span(packed->front().stored).subspan(index_bytes),
+                                   std::span(wanted->front().stored).subspan(index_bytes)));
+}
+
+TEST(BlobLoan, WhatIsNotPackedAtItsEndIsForgotten) {
+    BlobCollector blobs;
+    blobs.put(bytes_of("kept"));
+    {
+        const BlobLoan loan(blobs);
+        blobs.put(bytes_of("lent"));
+    }
+    EXPECT_EQ(blobs.pending_bytes(), 4u);
+    EXPECT_EQ(blobs.pack()->front().raw_bytes, 4u);
+    blobs.put(bytes_of("lent"));
+    EXPECT_EQ(blobs.pack()->front().raw_bytes, 4u) << "it counts as new";
+}
+
 TEST(BlobStore, RearrangedBlobsAreFoundBesideOthers) {
     const TemporaryFile file;
     BlobCollector blobs;

@@ -1,5 +1,6 @@
 // What an application records is what is read, whatever happens to the process or the disk meanwhile.
 #include "capture_format/recorder.h"
+#include "capture_format/container/picture.h"
 
 #include <sys/resource.h>
 
@@ -12,6 +13,7 @@
 #include "capture_format/codec/decode_frame.h"
 #include "capture_format/codec/encode_frame.h"
 #include "capture_format/container/container.h"
+#include "capture_format/container/picture.h"
 #include "capture_format/reader.h"
 #include "tests/1_capture/frame_fields.h"
 #include "tests/1_capture/sample_frames.h"
@@ -288,6 +290,39 @@ TEST(Recorder, NotesAndThumbnailTravelAlong) {
     EXPECT_EQ(capture->thumbnail().texels, picture.texels);
     EXPECT_EQ(capture->frame_count(), 0u);
     EXPECT_THAT(capture->frame(0).error().sentence, HasSubstr("there is no frame 0: the capture has 0"));
+}
+
+TEST(Picture, TakesLessThanItsTexels) {
+    Texture picture{.format = TextureFormat::rgba8_srgb, .width = 160, .height = 90};
+    for (std::uint32_t i = 0; i < 160 * 90; ++i)  // a slope, opaque
+        for (const std::uint32_t value : {i % 160, i / 160, 7u, 255u}) picture.texels.push_back(static_cast<std::byte>(value));
+    const auto encoded = encode_picture(picture);
+    ASSERT_TRUE(encoded);
+    EXPECT_LT(encoded->size(), picture.texels.size() / 20);
+    EXPECT_EQ(decode_picture(*encoded, picture_version)->texels, picture.texels);
+}
+
+TEST(Picture, TexelsOfTheFirstVersionAreRead) {
+    const std::vector<std::byte> plain = {std::byte{1}, {}, {}, {}, std::byte{1}, {}, {}, {}, std::byte{9}, std::byte{8}, {}, {}};
+    const auto picture = decode_picture(plain, 1);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->texels, std::vector(plain.begin() + 8, plain.end()));
+}
+
+TEST(Picture, PayloadsThatDoNotHoldTheirTexelsAreRefused) {
+    Texture picture{.format = TextureFormat::rgba8_srgb, .width = 4, .height = 4, .texels = std::vector<std::byte>(64)};
+    auto encoded = *encode_picture(picture);
+    const auto refused = [](std::span<const std::byte> payload, std::uint32_t version) {
+        const auto decoded = decode_picture(payload, version);
+        EXPECT_THAT(decoded ? "" : decoded.error().sentence, HasSubstr("no picture of 1 to 1024"));
+    };
+    refused(encoded, 1);
+    refused(std::span(encoded).first(encoded.size() - 1), 2);
+    refused(std::span(encoded).first(7), 2);
+    for (const std::byte rows : {std::byte{3}, std::byte{5}, std::byte{0}}) {
+        encoded[4] = rows;
+        refused(encoded, 2);
+    }
 }
 
 TEST(Recorder, AThumbnailOfAnotherShapeIsRefused) {
