@@ -132,7 +132,7 @@ DepthTest depth_test(const RasterPoint& point, double opaque_depth) {
 struct FoundRow {
     std::vector<Fragment> fragments;
     std::vector<std::uint32_t> slots;
-    std::vector<const Fragment*> sorted;  ///< for order_is_undecided
+    std::vector<std::size_t> next;  ///< where a slot's next fragment goes
 };
 
 // Whether the result depends on the order of two fragments whose depths a float cannot tell apart. Exact ties are decided by
@@ -198,16 +198,14 @@ std::vector<std::uint32_t> transparent_draws(const Frame& frame) {
 FragmentLists::FragmentLists(std::uint32_t width, std::uint32_t height, std::uint32_t samples)
     : width_(width), height_(height), samples_(samples), rows_(height) {
     const std::size_t slots = std::size_t(width) * samples;
-    for (Row& row : rows_) {
+    for (FragmentRow& row : rows_) {
         row.begin.assign(slots + 1, 0);
         row.undecided.assign(slots, 0);
     }
 }
 
 std::span<const Fragment> FragmentLists::at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
-    const Row& row = rows_[y];
-    const std::size_t slot = std::size_t(x) * samples_ + sample;
-    return std::span(row.fragments).subspan(row.begin[slot], row.begin[slot + 1] - row.begin[slot]);
+    return rows_[y].at(std::size_t(x) * samples_ + sample);
 }
 
 bool FragmentLists::undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
@@ -216,55 +214,78 @@ bool FragmentLists::undecided(std::uint32_t x, std::uint32_t y, std::uint32_t sa
 
 std::uint64_t FragmentLists::total() const {
     return std::accumulate(rows_.begin(), rows_.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Row& row) { return sum + row.fragments.size(); });
+                           [](std::uint64_t sum, const FragmentRow& row) { return sum + row.fragments.size(); });
 }
 
 std::uint32_t FragmentLists::deepest() const {
     std::size_t most = 0;
-    for (const Row& row : rows_) {
+    for (const FragmentRow& row : rows_) {
         for (std::size_t i = 1; i < row.begin.size(); ++i) most = std::max(most, row.begin[i] - row.begin[i - 1]);
     }
     return static_cast<std::uint32_t>(most);
 }
 
-FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows) {
-    const View& view = frame.view;
-    FragmentLists lists(view.width, view.height, view.samples);
-    const std::vector<std::uint32_t> draws = transparent_draws(frame);
-    const Raster raster(frame, draws);
-    const LitFrame scene(frame);
-    const bool has_interfaces = frame_features(frame).has(Feature::interface_layers);
-    const std::uint32_t end = std::min(rows.end, view.height);
-    oneapi::tbb::enumerable_thread_specific<FoundRow> reused;  // fresh pages for every row take longer than the fragments
-    oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {
-        FragmentLists::Row& row = lists.rows_[y];
-        FoundRow& found = reused.local();
-        found.fragments.clear();
-        found.slots.clear();
-        raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
-            const double opaque_depth = depth.at(point.x, point.y, point.sample).x;
-            const DepthTest test = depth_test(point, opaque_depth);
-            if (test == DepthTest::fails) return;
-            std::optional<Fragment> fragment = event_at(scene, point, triangle, opaque_depth);
-            if (!fragment) return;
-            if (has_interfaces) {
-                fragment->layer = layer_of(frame, point.draw);
-                fragment->depth = ordering_depth(frame, fragment->layer, fragment->depth);
-            }
-            const std::uint32_t slot = point.x * view.samples + point.sample;
-            if (point.undecided || test != DepthTest::passes) row.undecided[slot] = 1;
-            if (!point.covered || test == DepthTest::undecided_fails) return;
-            found.fragments.push_back(*fragment);
-            found.slots.push_back(slot);
-            ++row.begin[slot + 1];
-        });
-        for (std::size_t i = 1; i < row.begin.size(); ++i) row.begin[i] += row.begin[i - 1];
-        row.fragments.resize(found.fragments.size());
-        std::vector<std::size_t> next(row.begin.begin(), row.begin.end() - 1);
-        for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[next[found.slots[i]]++] = found.fragments[i];
-        for (std::uint32_t slot = 0; slot < row.undecided.size(); ++slot) {
-            if (order_is_undecided(lists.at(slot / view.samples, y, slot % view.samples), found.sorted)) row.undecided[slot] = 1;
+struct FragmentRows::Scene {
+    Scene(const Frame& f, const ReferenceImage& d)
+        : lit(f), depth(d), raster(f, transparent_draws(f)), has_interfaces(frame_features(f).has(Feature::interface_layers)) {}
+
+    LitFrame lit;
+    const ReferenceImage& depth;
+    Raster raster;
+    bool has_interfaces;
+    mutable oneapi::tbb::enumerable_thread_specific<FoundRow> found =
+        {};  ///< fresh pages for every row take longer than fragments
+};
+
+FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth)
+    : scene_(std::make_unique<const Scene>(frame, depth)) {}
+FragmentRows::FragmentRows(FragmentRows&&) noexcept = default;
+FragmentRows::~FragmentRows() = default;
+
+const View& FragmentRows::view() const { return scene_->lit.frame.view; }
+
+void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
+    const Frame& frame = scene_->lit.frame;
+    const std::uint32_t samples = frame.view.samples;
+    const std::size_t slots = std::size_t(frame.view.width) * samples;
+    row.begin.assign(slots + 1, 0);
+    row.undecided.assign(slots, 0);
+    FoundRow& found = scene_->found.local();
+    found.fragments.clear();
+    found.slots.clear();
+    scene_->raster.row(y, {.near_misses = true}, [&](const RasterPoint& point, const RasterTriangle& triangle) {
+        const double opaque_depth = scene_->depth.at(point.x, point.y, point.sample).x;
+        const DepthTest test = depth_test(point, opaque_depth);
+        if (test == DepthTest::fails) return;
+        std::optional<Fragment> fragment = event_at(scene_->lit, point, triangle, opaque_depth);
+        if (!fragment) return;
+        if (scene_->has_interfaces) {
+            fragment->layer = layer_of(frame, point.draw);
+            fragment->depth = ordering_depth(frame, fragment->layer, fragment->depth);
         }
+        const std::uint32_t slot = point.x * samples + point.sample;
+        if (point.undecided || test != DepthTest::passes) row.undecided[slot] = 1;
+        if (!point.covered || test == DepthTest::undecided_fails) return;
+        found.fragments.push_back(*fragment);
+        found.slots.push_back(slot);
+        ++row.begin[slot + 1];
+    });
+    for (std::size_t i = 1; i < row.begin.size(); ++i) row.begin[i] += row.begin[i - 1];
+    row.fragments.resize(found.fragments.size());
+    found.next.assign(row.begin.begin(), row.begin.end() - 1);
+    for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[found.next[found.slots[i]]++] = found.fragments[i];
+}
+
+FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows) {
+    FragmentLists lists(frame.view.width, frame.view.height, frame.view.samples);
+    const FragmentRows made(frame, depth);
+    const std::uint32_t end = std::min(rows.end, frame.view.height);
+    oneapi::tbb::enumerable_thread_specific<std::vector<const Fragment*>> sorted;
+    oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {
+        FragmentRow& row = lists.rows_[y];
+        made.fill(y, row);
+        for (std::size_t slot = 0; slot < row.undecided.size(); ++slot)
+            if (order_is_undecided(row.at(slot), sorted.local())) row.undecided[slot] = 1;
     });
     return lists;
 }

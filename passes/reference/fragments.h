@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -93,6 +94,34 @@ struct PixelRows {
     std::uint32_t begin = 0, end = ~0u;
 };
 
+/// The transparent fragments of a row of pixels: the lists of its samples (x * samples + sample) after each other.
+struct FragmentRow {
+    std::vector<Fragment> fragments;
+    std::vector<std::size_t> begin;  ///< one more than there are samples in the row
+    std::vector<std::uint8_t> undecided;
+
+    std::span<const Fragment> at(std::size_t slot) const {
+        return std::span(fragments).subspan(begin[slot], begin[slot + 1] - begin[slot]);
+    }
+};
+
+/// The transparent fragments of a frame row by row, for callers that need no two rows at once: all of them are large.
+class FragmentRows {
+public:
+    /// Both must outlive it. Device depth as for transparent_fragments().
+    FragmentRows(const Frame&, const ReferenceImage& depth);
+    FragmentRows(FragmentRows&&) noexcept;
+    ~FragmentRows();
+
+    /// Fills a row whose memory may be reused. Thread safe. Whether an order hangs on rounding is not looked at.
+    void fill(std::uint32_t y, FragmentRow&) const;
+    const View& view() const;
+
+private:
+    struct Scene;
+    std::unique_ptr<const Scene> scene_;
+};
+
 /// The transparent fragments of every sample.
 class FragmentLists {
 public:
@@ -108,14 +137,8 @@ public:
 
 private:
     friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows);
-    /// One pixel row: the lists of its samples (x * samples + sample) after each other.
-    struct Row {
-        std::vector<Fragment> fragments;
-        std::vector<std::size_t> begin;  ///< one more than there are samples in the row
-        std::vector<std::uint8_t> undecided;
-    };
     std::uint32_t width_, height_, samples_;
-    std::vector<Row> rows_;
+    std::vector<FragmentRow> rows_;
 };
 
 /// Fragments in front of `depth` (device depth per sample, reversed: layer = sample), in submission order, dropped and

@@ -1,4 +1,4 @@
-// Filtering from the definition: no tables but the 256 values of the sRGB curve.
+// Filtering from the definition: no tables but those of what a byte stands for.
 #include "passes/reference/textures.h"
 
 #include <glm/gtc/packing.hpp>
@@ -33,6 +33,7 @@ std::size_t mip_offset(const Texture& texture, std::uint32_t mip) {
 
 std::uint32_t wrapped(std::int64_t index, std::uint32_t size, AddressMode mode) {
     const std::int64_t n = size;
+    if (index >= 0 && index < n) return static_cast<std::uint32_t>(index);  // as nearly all are, and divisions are slow
     if (mode == AddressMode::clamp) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(index, 0, n - 1));
     const std::int64_t period = mode == AddressMode::mirror ? 2 * n : n;
     std::int64_t within = index % period;
@@ -49,12 +50,16 @@ double srgb_to_linear(double encoded) { return encoded <= 0.04045 ? encoded / 12
 
 namespace {
 
+/// What bytes stand for.
+struct ByteValues {
+    std::array<double, 256> unorm, srgb;
+    ByteValues() {
+        for (std::size_t i = 0; i < unorm.size(); ++i) unorm[i] = double(i) / 255, srgb[i] = srgb_to_linear(unorm[i]);
+    }
+};
+
 glm::dvec4 texel_at(const Texture& texture, std::size_t index) {
-    static const std::array<double, 256> srgb = [] {
-        std::array<double, 256> table{};
-        for (std::size_t i = 0; i < table.size(); ++i) table[i] = srgb_to_linear(double(i) / 255);
-        return table;
-    }();
+    static const ByteValues values;
     const std::byte* bytes = texture.texels.data() + index * texel_bytes(texture.format);
     if (texture.format == TextureFormat::rgba32f) {
         std::array<float, 4> v;
@@ -67,9 +72,8 @@ glm::dvec4 texel_at(const Texture& texture, std::size_t index) {
         return {glm::unpackHalf1x16(v[0]), glm::unpackHalf1x16(v[1]), glm::unpackHalf1x16(v[2]), glm::unpackHalf1x16(v[3])};
     }
     const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
-    const double alpha = double(byte(3)) / 255;
-    if (texture.format == TextureFormat::rgba8_srgb) return {srgb[byte(0)], srgb[byte(1)], srgb[byte(2)], alpha};
-    return {double(byte(0)) / 255, double(byte(1)) / 255, double(byte(2)) / 255, alpha};
+    const auto& color = texture.format == TextureFormat::rgba8_srgb ? values.srgb : values.unorm;
+    return {color[byte(0)], color[byte(1)], color[byte(2)], values.unorm[byte(3)]};
 }
 
 }  // namespace
@@ -104,7 +108,8 @@ glm::dvec4 trilinear(const Texture& texture, const glm::dvec2& uv, double lod) {
 
 double level_of_detail(const Texture& texture, const glm::dvec2& uv_per_x, const glm::dvec2& uv_per_y) {
     const glm::dvec2 size(texture.width, texture.height);
-    return std::log2(std::max(glm::length(uv_per_x * size), glm::length(uv_per_y * size)));
+    const glm::dvec2 along_x = uv_per_x * size, along_y = uv_per_y * size;
+    return std::log2(std::sqrt(std::max(glm::dot(along_x, along_x), glm::dot(along_y, along_y))));
 }
 
 glm::dvec2 transformed(const TextureUse& use, const glm::dvec2& uv) {

@@ -5,8 +5,12 @@
 namespace strata {
 
 glm::dvec3 exact_blend(std::span<const Fragment> fragments, glm::dvec3 behind) {
+    return exact_blend(fragments, transparency::nearest_first_order(fragments), behind);
+}
+
+glm::dvec3 exact_blend(std::span<const Fragment> fragments, std::span<const std::size_t> nearest_first, glm::dvec3 behind) {
     glm::dvec3 color(0), through(1);
-    for (const std::size_t i : transparency::nearest_first_order(fragments)) {
+    for (const std::size_t i : nearest_first) {
         const Fragment& fragment = fragments[i];
         color += through * (fragment.color + fragment.emission);
         through *= fragment.transmittance;

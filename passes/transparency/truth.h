@@ -11,6 +11,8 @@ namespace strata {
 /// One sample's fragments in submission order over what is behind: C = sum T (p + e) + T_total L_behind, near to far. Of equal
 /// depths the later submission is nearer.
 glm::dvec3 exact_blend(std::span<const Fragment>, glm::dvec3 behind);
+/// The same where their nearest_first_order() is known.
+glm::dvec3 exact_blend(std::span<const Fragment>, std::span<const std::size_t> nearest_first, glm::dvec3 behind);
 
 /// How far from a sample, in uv, what is behind its fragments is seen: sum T d (docs/algorithms/transparency.md 6.13).
 glm::dvec2 exact_distortion(std::span<const Fragment>);

@@ -1,10 +1,9 @@
 // strata export --deep: rasterized in double, tested against the depth that the replay gave.
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 
 #include "capture_format/container/whole_file.h"
-#include "passes/transparency/truth.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/run_json.h"
 #include "replay/deep/deep_image.h"
@@ -36,18 +35,17 @@ Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samp
 }
 
 /// How far the file, flattened again, is from the exact blend of the fragments over black, relative to the larger of 1 and it.
-Result<double> worst_difference(std::string_view exr, const FragmentLists& lists, std::uint32_t sample) {
+Result<double> worst_difference(std::string_view exr, const DeepImage& image) {
     const auto flat = flatten_deep(std::as_bytes(std::span(exr)), "the exported image");
     if (!flat) return flat.error();
-    std::vector<double> rows(lists.height());
-    oneapi::tbb::parallel_for(std::uint32_t{0}, lists.height(), [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < lists.width(); ++x) {
-            const glm::dvec3 wanted = exact_blend(lists.at(x, y, sample), glm::dvec3(0)), got(texel(flat->image, x, y));
-            for (int c = 0; c < 3; ++c)
-                rows[y] = std::max(rows[y], std::abs(got[c] - wanted[c]) / std::max(1.0, std::abs(wanted[c])));
-        }
-    });
-    return rows.empty() ? 0 : std::ranges::max(rows);
+    double worst = 0;
+    for (std::size_t i = 0; i < image.blend.size(); ++i) {
+        const glm::dvec3& wanted = image.blend[i];
+        const glm::dvec3 got(
+            texel(flat->image, static_cast<std::uint32_t>(i % image.width), static_cast<std::uint32_t>(i / image.width)));
+        for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(got[c] - wanted[c]) / std::max(1.0, std::abs(wanted[c])));
+    }
+    return worst;
 }
 
 }  // namespace
@@ -72,21 +70,23 @@ Result<void> export_deep(const ExportOptions& options) {
     if (!run) return run.error();
 
     const auto depth = run->images.find("depth_layers");
-    const FragmentLists lists = transparent_fragments(
-        frame, depth == run->images.end() ? ReferenceImage(frame.view.width, frame.view.height, frame.view.samples)
-                                          : in_double(depth->second));
+    const ReferenceImage opaque = depth == run->images.end()
+                                      ? ReferenceImage(frame.view.width, frame.view.height, frame.view.samples)
+                                      : in_double(depth->second);
     const auto transmittance =
         std::ranges::find(transmittances, options.transmittance, [](const auto& row) { return row.first; });
-    const auto image = deep_image(lists, *sample, transmittance->second, frame);
+    const auto image = deep_image(FragmentRows(frame, opaque), *sample, transmittance->second, frame);
     if (!image) return image.error();
     Metadata metadata = provenance(**session, *request, *run);
     metadata["strata.sample"] = fmt::format("{} of {}", *sample, frame.view.samples);
     metadata["strata.transmittance"] = options.transmittance;
     const auto exr = deep_exr(*image, metadata);
     if (!exr) return exr.error();
-    if (const auto done = write_whole_file(options.output, *exr); !done) return done;
-
-    const auto worst = worst_difference(*exr, lists, *sample);
+    Result<void> written;
+    Result<double> worst = 0.0;
+    oneapi::tbb::parallel_invoke([&] { written = write_whole_file(options.output, *exr); },
+                                 [&] { worst = worst_difference(*exr, *image); });
+    if (!written) return written;
     if (!worst) return worst.error();
     const bool is_mean = transmittance->second == Transmittance::mean;
     const std::string_view why = *worst <= expected_difference ? ""
@@ -95,7 +95,7 @@ Result<void> export_deep(const ExportOptions& options) {
     to_stderr(
         "exported {}; flattened again, the radiance of every pixel is within {:.1e} of the exact blend (relative to the blend, "
         "absolute below 1){}\n",
-        plural(image->begin.back(), "fragment"), *worst, why);
+        plural(image->samples(), "fragment"), *worst, why);
     return {};
 }
 

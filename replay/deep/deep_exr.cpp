@@ -37,22 +37,16 @@ constexpr std::size_t longest_short_name = 31;
 /// A line's bytes, and what they are made from.
 class LinePacker {
 public:
-    std::string pack(const DeepImage& image, std::span<const std::size_t> channels, std::size_t y) {
-        const auto begin = std::span(image.begin).subspan(y * image.width, image.width + 1);
-        raw_.clear();
-        for (std::size_t x = 0; x < image.width; ++x) append(std::uint32_t(begin[x + 1] - begin[0]));
-        const std::string counts = packed();
-        raw_.clear();
-        for (const std::size_t channel : channels)
-            append_bytes(std::as_bytes(std::span(image.channels[channel].values).subspan(begin[0], begin.back() - begin[0])));
-        const std::uint64_t samples_bytes = raw_.size();
-        const std::string samples = packed();
+    std::string pack(const DeepLine& source, std::size_t y) {
+        const std::string counts = packed(std::as_bytes(std::span(source.ends)));
+        const auto values = std::as_bytes(std::span(source.values));
+        const std::string samples = packed(values);
         std::string line;
         const auto put = [&](auto value) { line.append(reinterpret_cast<const char*>(&value), sizeof value); };
         put(static_cast<std::int32_t>(y));
         put(std::uint64_t{counts.size()});
         put(std::uint64_t{samples.size()});
-        put(samples_bytes);
+        put(std::uint64_t{values.size()});
         return line + counts + samples;
     }
 
@@ -61,36 +55,38 @@ private:
         void operator()(libdeflate_compressor* freed) const { libdeflate_free_compressor(freed); }
     };
 
-    void append(std::uint32_t value) { append_bytes(std::as_bytes(std::span(&value, 1))); }
-    void append_bytes(std::span<const std::byte> bytes) { raw_.insert(raw_.end(), bytes.begin(), bytes.end()); }
-
     /// As ZIPS packs them: bytes at even places first, then differences, then deflate; as they are where that is not smaller.
-    std::string packed() {
-        deltas_.resize(raw_.size());
-        const std::size_t even = (raw_.size() + 1) / 2;
-        for (std::size_t i = 0; i < raw_.size(); ++i) deltas_[i % 2 * even + i / 2] = std::to_integer<std::uint8_t>(raw_[i]);
-        for (std::size_t i = deltas_.size(); i-- > 1;) deltas_[i] = static_cast<std::uint8_t>(deltas_[i] - deltas_[i - 1] + 128);
-        std::string packed(raw_.size(), '\0');
+    std::string packed(std::span<const std::byte> bytes) {
+        halves_.resize(bytes.size());
+        deltas_.resize(bytes.size());
+        const std::size_t odd = bytes.size() / 2, even = bytes.size() - odd;
+        for (std::size_t i = 0; i < odd; ++i) {
+            halves_[i] = std::to_integer<std::uint8_t>(bytes[2 * i]);
+            halves_[even + i] = std::to_integer<std::uint8_t>(bytes[2 * i + 1]);
+        }
+        if (even > odd) halves_[odd] = std::to_integer<std::uint8_t>(bytes.back());
+        if (!bytes.empty()) deltas_[0] = halves_[0];
+        for (std::size_t i = 1; i < bytes.size(); ++i) deltas_[i] = static_cast<std::uint8_t>(halves_[i] - halves_[i - 1] + 128);
+        std::string packed(bytes.size(), '\0');
         packed.resize(libdeflate_zlib_compress(compressor_.get(), deltas_.data(), deltas_.size(), packed.data(), packed.size()));
         // 0 where it does not fit; as many bytes as there are would be read as not packed.
-        if (packed.empty() || packed.size() == raw_.size())
-            packed.assign(reinterpret_cast<const char*>(raw_.data()), raw_.size());
+        if (packed.empty() || packed.size() == bytes.size())
+            packed.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         return packed;
     }
 
     std::unique_ptr<libdeflate_compressor, Free> compressor_{libdeflate_alloc_compressor(compression_level)};
-    std::vector<std::byte> raw_;
-    std::vector<std::uint8_t> deltas_;
+    std::vector<std::uint8_t> halves_, deltas_;
 };
 
 Imf::Header header_of(const DeepImage& image, const Metadata& metadata) {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.lines.size()));
     header.setType(Imf::DEEPSCANLINE);
     header.setVersion(1);
-    header.setChunkCount(static_cast<int>(image.height));
+    header.setChunkCount(static_cast<int>(image.lines.size()));
     header.compression() = Imf::ZIPS_COMPRESSION;
-    for (const DeepImage::Channel& channel : image.channels)
-        header.channels().insert(std::string(channel.name), Imf::Channel(Imf::FLOAT));
+    for (const std::string_view channel : image.channels)
+        header.channels().insert(std::string(channel), Imf::Channel(Imf::FLOAT));
     Imf::addDeepImageState(header, Imf::DIS_SORTED);
     for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
     return header;
@@ -107,14 +103,6 @@ std::string head_of(const DeepImage& image, const Metadata& metadata) {
     return stream.str();
 }
 
-/// Places of the channels in the order of their names, which is the file's.
-std::vector<std::size_t> channels_by_name(const DeepImage& image) {
-    std::vector<std::size_t> order(image.channels.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::sort(order, {}, [&](std::size_t i) { return image.channels[i].name; });
-    return order;
-}
-
 }  // namespace
 
 Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
@@ -122,13 +110,13 @@ Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
     try {
         file = head_of(image, metadata);
     } catch (const std::exception& problem) {
-        return fail(Fault::usage, "a deep image of {} x {} pixels cannot be made: {}", image.width, image.height, problem.what());
+        return fail(Fault::usage, "a deep image of {} x {} pixels cannot be made: {}", image.width, image.lines.size(),
+                    problem.what());
     }
-    const std::vector<std::size_t> channels = channels_by_name(image);
-    std::vector<std::string> lines(image.height);
+    std::vector<std::string> lines(image.lines.size());
     oneapi::tbb::enumerable_thread_specific<LinePacker> packers;
     oneapi::tbb::parallel_for(std::size_t{0}, lines.size(),
-                              [&](std::size_t y) { lines[y] = packers.local().pack(image, channels, y); });
+                              [&](std::size_t y) { lines[y] = packers.local().pack(image.lines[y], y); });
     std::uint64_t offset = file.size() + lines.size() * sizeof offset;
     for (const std::string& line : lines) {
         file.append(reinterpret_cast<const char*>(&offset), sizeof offset);

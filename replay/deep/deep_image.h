@@ -20,22 +20,25 @@ enum class Transmittance {
     channels,  ///< besides that alpha, AR, AG and AB: exact for programs that read them, as `import --deep` does
 };
 
-/// Samples of pixel i (row by row) are begin[i] to begin[i + 1], nearest first.
+/// A row of pixels as a file holds it.
+struct DeepLine {
+    std::vector<std::uint32_t> ends;  ///< of each pixel's samples, nearest first
+    std::vector<float> values;        ///< all samples of the first channel, then of the next
+};
+
 struct DeepImage {
-    std::uint32_t width = 0, height = 0;
-    std::vector<std::size_t> begin;
-    /// A channel with its name in the file and a value per sample.
-    struct Channel {
-        std::string_view name;
-        std::vector<float> values;
-    };
-    std::vector<Channel> channels;
+    std::uint32_t width = 0;
+    std::vector<std::string_view> channels;  ///< by name, in the alphabet's order, which is that of a file
+    std::vector<DeepLine> lines;
+    std::vector<glm::dvec3> blend;  ///< exact_blend() of every pixel's fragments over black, row by row
+
+    std::uint64_t samples() const;
 };
 
 /// Radiance p + e premultiplied in R, G, B; 1 - t in A; view depth in metres in Z. Of equal depths the nearer (submitted later)
-/// comes first. `sample` is below lists.samples(). Fails (usage) where transmittance is refused, naming how many fragments and
-/// the draw that has most of them; `frame` is the one the lists are of.
-Result<DeepImage> deep_image(const FragmentLists& lists, std::uint32_t sample, Transmittance, const Frame& frame);
+/// comes first. `sample` is below the view's. Fails (usage) where transmittance is refused, naming how many fragments and
+/// the draw that has most of them; `frame` is the one the rows are of.
+Result<DeepImage> deep_image(const FragmentRows&, std::uint32_t sample, Transmittance, const Frame& frame);
 
 /// Deep scan lines, ZIPS. Equal images and metadata give equal files.
 Result<std::string> deep_exr(const DeepImage&, const Metadata&);

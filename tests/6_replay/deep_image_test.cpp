@@ -24,14 +24,14 @@ namespace {
 struct ReplayedFragments {
     Frame frame;
     FragmentLists lists{0, 0, 1};
-    ReferenceImage behind, truth;
+    ReferenceImage depth, behind, truth;
 
     explicit ReplayedFragments(std::string_view scenario, std::uint32_t samples = 1) {
         Request request = on_scenario(scenario, samples);
         Session& session = session_of_scenarios();
         frame = must(load_frame(must(session.frame(request.variant.frame)), request.variant))->frame;
         truth = must(session.truth(request, Stage::transparency)).at("color");
-        ReferenceImage depth(truth.width, truth.height, truth.layers);
+        depth = ReferenceImage(truth.width, truth.height, truth.layers);
         for (const ActImages& act : must(session.act_images(request))) {
             if (act.label == "combine") behind = in_double(act.images.at("color"));
             if (const auto found = act.images.find("depth_layers"); found != act.images.end()) depth = in_double(found->second);
@@ -40,7 +40,7 @@ struct ReplayedFragments {
     }
 
     std::string exported(Transmittance transmittance = Transmittance::refused, std::uint32_t sample = 0) const {
-        return must(deep_exr(must(deep_image(lists, sample, transmittance, frame)), {}));
+        return must(deep_exr(must(deep_image(FragmentRows(frame, depth), sample, transmittance, frame)), {}));
     }
 };
 
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, DeepExport,
 
 TEST(DeepExportOfGlass, IsRefusedWithTheDrawThatHasMostOfIt) {
     const ReplayedFragments& replayed = replayed_once("red_and_green_glass");
-    const auto refused = deep_image(replayed.lists, 0, Transmittance::refused, replayed.frame);
+    const auto refused = deep_image(FragmentRows(replayed.frame, replayed.depth), 0, Transmittance::refused, replayed.frame);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::usage);
     EXPECT_THAT(refused.error().sentence,

@@ -28,18 +28,20 @@ constexpr std::uint32_t width = 1000, height = 500, per_pixel = 20;
 DeepImage ten_million_fragments() {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> unit(0, 1);
-    DeepImage image{.width = width, .height = height, .begin = {0}};
-    for (const std::string_view name : {"R", "G", "B", "A", "Z"}) image.channels.push_back({name, {}});
-    for (std::uint32_t pixel = 0; pixel < width * height; ++pixel) {
+    DeepImage image{.width = width, .channels = {"A", "B", "G", "R", "Z"}, .lines = std::vector<DeepLine>(height)};
+    constexpr std::size_t samples = std::size_t{width} * per_pixel;
+    for (DeepLine& line : image.lines) {
+        line.values.resize(samples * image.channels.size());
         float depth = 1;
-        for (std::uint32_t i = 0; i < per_pixel; ++i) {
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            if (i % per_pixel == 0) depth = 1;
             const float alpha = .2f * unit(random);
             depth += unit(random);
-            for (std::size_t c = 0; c < 3; ++c) image.channels[c].values.push_back(alpha * unit(random));
-            image.channels[3].values.push_back(alpha);
-            image.channels[4].values.push_back(depth);
+            line.values[i] = alpha;
+            for (std::size_t c = 1; c <= 3; ++c) line.values[c * samples + i] = alpha * unit(random);
+            line.values[4 * samples + i] = depth;
+            if ((i + 1) % per_pixel == 0) line.ends.push_back(i + 1);
         }
-        image.begin.push_back(image.channels[0].values.size());
     }
     return image;
 }
