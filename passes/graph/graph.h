@@ -138,6 +138,8 @@ public:
     /// What the frame is for; whatever feeds nothing kept is culled. Counters are kept by enter(). No image: nothing happens.
     void keep(Image);
     void keep(Buffer);
+    /// From here on, steps that count into these counters of enter() are not culled.
+    void keep_counting(Buffer counters) { buffers_[counters.id].weak = false; }
     /// Bound wherever a shader declares the name and the step does not bind it (scene buffers, the view, counters).
     void offer(std::string name, Buffer);
 

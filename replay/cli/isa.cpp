@@ -1,4 +1,5 @@
 // strata isa: every pipeline of a frame through the compiler of a GPU that need not be there.
+#include <oneapi/tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -108,14 +109,6 @@ Result<void> add_tiles(Session& session, Request request, const IsaArguments& op
     return write_exr(options.tiles, {{"waves per SIMD", made.picture}}, metadata);
 }
 
-/// What of the frame must be run to be known: indirect dispatches and draws.
-bool needs_a_run(const Plan& plan) {
-    return std::ranges::any_of(plan.steps, [](const PlannedStep& planned) {
-        const auto* compute = std::get_if<ComputeWork>(&planned.step.work);
-        return (compute && compute->arguments) || std::holds_alternative<DrawWork>(planned.step.work);
-    });
-}
-
 Result<IsaReport> describe_frame(Session& session, const Request& request, const IsaArguments& options) {
     return session.frame(request.variant.frame).and_then([&](auto& frame) {
         return IsaReport{.capture = options.open.capture.filename().string(),
@@ -126,19 +119,22 @@ Result<IsaReport> describe_frame(Session& session, const Request& request, const
     });
 }
 
-/// The compilations of one plan, in the order of the models.
+/// The compilations of one plan, in the order of the models; of several models at once.
 Result<std::vector<Compilation>> compile_all(const IsaArguments& options, const PipelineRequests& requests,
                                              std::span<const GpuModel* const> models, std::uint32_t device) {
-    std::vector<Compilation> made;
-    for (const GpuModel* model : models) {
-        auto compiled =
-            compile_elsewhere(requests.pipelines, {.model = model,
-                                                   .device = model ? 0 : device,
+    std::vector<Result<Compilation>> compiled(models.size(), Compilation{});
+    oneapi::tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {
+        compiled[i] =
+            compile_elsewhere(requests.pipelines, {.model = models[i],
+                                                   .device = models[i] ? 0 : device,
                                                    .texts = options.dump.empty() ? CompilerTexts::left : CompilerTexts::kept,
                                                    .program = "/proc/self/exe",
                                                    .environment = environ});
-        if (!compiled) return compiled.error();
-        made.push_back(*std::move(compiled));
+    });
+    std::vector<Compilation> made;
+    for (Result<Compilation>& one : compiled) {
+        if (!one) return one.error();
+        made.push_back(*std::move(one));
     }
     return made;
 }
@@ -171,8 +167,7 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
     const auto made = compile_all(options, requests, models, device.index);
     if (!made) return made.error();
     progress("running the frame", .5);
-    auto counts =
-        options.no_run || !needs_a_run(planned->plan) ? Result<StepCounts>(StepCounts{}) : count_steps(**session, *request);
+    const auto counts = options.no_run ? Result<StepCounts>(StepCounts{}) : count_steps(**session, *request);
     if (!counts) return counts.error();
     auto report = describe_frame(**session, *request, options);
     if (!report) return report.error();

@@ -60,18 +60,12 @@ void add_occupancy(IsaProgram& program, const GpuModel& model, IsaOfGpu& gpu) {
                         program.label, *program.stated, *program.stated_by_rule));
 }
 
-std::size_t draws_in(const Plan& plan, std::uint32_t scope) {
-    return static_cast<std::size_t>(std::ranges::count_if(plan.steps, [&](const PlannedStep& planned) {
-        return planned.step.scope == scope && std::holds_alternative<DrawWork>(planned.step.work);
-    }));
-}
-
 /// What the technique counted as fragments, where it draws once and so counts those of that draw.
 std::optional<std::uint64_t> counted_fragments(const Counting& counting, const PlannedStep& planned) {
-    if (draws_in(counting.plan, planned.step.scope) != 1) return {};
+    if (!draws_once(counting.plan, planned.step.scope)) return {};
     const Scope& scope = counting.plan.scopes[planned.step.scope];
     for (const CounterRecord& counter : counting.counts.counters)
-        if (is_act_of(scope, counter.technique) && counter.name == "fragments") return counter.value;
+        if (is_act_of(scope, counter.technique) && counter.name == fragments_counter) return counter.value;
     return {};
 }
 

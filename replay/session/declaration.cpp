@@ -275,4 +275,23 @@ Result<Declaration> declare_from(const Request& request, const Sources& sources,
     return d;
 }
 
+Result<Declaration> declare_counts(const Request& request, const Sources& sources, const Plan& whole,
+                                   const std::set<const Technique*>& counting) {
+    auto choices = choose(sources.loaded.frame, request.choices);
+    if (!choices) return choices.error();
+    Declaration d;
+    d.choices = *std::move(choices);
+    Request counts = request;
+    counts.outputs.clear();
+    if (const auto filled = fill(d, counts, sources, Keep::outputs, {}); !filled) return filled.error();
+    for (const PlannedStep& planned : whole.steps)
+        if (const auto* compute = std::get_if<ComputeWork>(&planned.step.work)) d.graph.keep(compute->arguments);
+    for (const CounterSource& source : d.counters)
+        if (counting.contains(source.technique)) d.graph.keep_counting(source.buffer);
+    auto plan = compile(d.graph, sources.shaders);
+    if (!plan) return plan.error();
+    d.plan = *std::move(plan);
+    return d;
+}
+
 }  // namespace strata

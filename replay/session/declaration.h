@@ -54,5 +54,8 @@ enum class Keep { outputs, all_images };
 Result<Declaration> declare(const Request&, const Sources&, Keep);
 /// The same without the memo, with images in the place of what a stage's own act gives: see Session::run_from.
 Result<Declaration> declare_from(const Request&, const Sources&, Stage, const ImageSet& outputs);
+/// A request that is done in its place: the arguments of its plan's indirect dispatches are kept, and what the techniques given
+/// count. No image is made that neither of them needs. Buffers have the numbers that they have in the request's plan.
+Result<Declaration> declare_counts(const Request&, const Sources&, const Plan&, const std::set<const Technique*>& counting);
 
 }  // namespace strata

@@ -1,6 +1,6 @@
 // The session behind Session::open: one device, one capture, the frame that is loaded, the memo. What it does is spread over
-// session.cpp (opening, running), timed_runs.cpp, inspection.cpp (looking inside a frame, judging), memory_budget.cpp and
-// reloaded_shaders.cpp.
+// session.cpp (opening, running), timed_runs.cpp, step_counts.cpp, inspection.cpp (looking inside a frame, judging),
+// memory_budget.cpp and reloaded_shaders.cpp.
 #pragma once
 
 #include <set>
@@ -15,6 +15,7 @@
 namespace strata {
 
 class GlslSources;
+struct StepCounts;
 
 class DeviceSession final : public Session {
 public:
@@ -53,6 +54,7 @@ public:
         std::vector<StepCost> step_costs;
     };
     Result<TimedRun> time_alone(const Request&);
+    Result<StepCounts> count(const Request&);  ///< see count_steps()
     /// What one request took in one turn: its steps, and by stage what the host sorted, in milliseconds.
     struct TurnTimes {
         std::vector<StepCost> steps;

@@ -1,12 +1,18 @@
-// How often the shaders of each step ran, by running them.
+// How often the shaders of each step ran, by running what that depends on.
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "replay/session/session.h"
 
 namespace strata {
+
+/// The counter by which a technique that draws once tells how often its fragment shader ran.
+inline constexpr std::string_view fragments_counter = "fragments";
+/// Whether exactly one step of the scope draws.
+bool draws_once(const Plan&, std::uint32_t scope);
 
 struct StepCounts {
     /// Of fragment and compute shaders, by step of Session::plan(); nothing where the device does not count.
@@ -14,7 +20,9 @@ struct StepCounts {
     std::vector<CounterRecord> counters;  ///< what techniques counted themselves
 };
 
-/// Runs the frame once, everything executed.
+/// Counts what the plan does not tell. A GPU runs the frame once, everything executed. A CPU driver's count of fragments is
+/// wrong, so it only runs the steps on which the arguments of indirect dispatches and fragments_counter depend: none where there
+/// are no such steps. Most of its time would be the making of pipelines.
 Result<StepCounts> count_steps(Session&, const Request&);
 
 }  // namespace strata

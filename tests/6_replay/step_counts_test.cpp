@@ -1,0 +1,60 @@
+// How often shaders run, counted by a part of the frame: as a whole run counts it.
+#include "replay/session/step_counts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "replay/session/device_session.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+Request on(const std::string& scenario, const std::string& technique) {
+    Request request = on_scenario(scenario);
+    request.choices = chosen({technique});
+    return request;
+}
+
+TEST(StepCounts, OfIndirectDispatchesAreWhatAWholeRunCounts) {
+    Session& session = session_of_scenarios();
+    const Request request = on("agents_hq", "lighting/tiled");
+    const StepCounts counts = must(count_steps(session, request));
+    const auto whole = must(static_cast<DeviceSession&>(session).time_alone(request));
+    const Plan plan = must(session.plan(request)).plan;
+    ASSERT_EQ(counts.invocations.size(), plan.steps.size());
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+        const auto* compute = std::get_if<ComputeWork>(&plan.steps[i].step.work);
+        if (!compute || !compute->arguments) continue;
+        EXPECT_EQ(counts.invocations[i], whole.step_costs[i].invocations) << plan.steps[i].step.name;
+        compared += *counts.invocations[i] > 0;
+    }
+    EXPECT_GE(compared, 4u);
+}
+
+TEST(StepCounts, OfATechniqueThatDrawsOnceAreItsOwn) {
+    Session& session = session_of_scenarios();
+    const Request request = on("three_panes", "transparency/weighted");
+    const StepCounts counts = must(count_steps(session, request));
+    const auto fragments = [](const std::vector<CounterRecord>& counters) {
+        const auto found = std::ranges::find(counters, fragments_counter, &CounterRecord::name);
+        return found == counters.end() ? 0 : found->value;
+    };
+    EXPECT_GT(fragments(counts.counters), 100u);
+    EXPECT_EQ(fragments(counts.counters), fragments(must(session.run(request)).counters));
+}
+
+TEST(StepCounts, AreKnownWithoutTheShadersThatTheyAreOf) {
+    const auto session = scenario_session("agents_hq");
+    Request request{.choices = chosen({"lighting/tiled"})};
+    must(count_steps(*session, request));
+    request.until = "lighting/tiled/shade.comp";
+    const auto run = must(session->run(request));
+    const auto shades = std::ranges::count(run.steps, request.until, &StepRecord::name);
+    EXPECT_GE(shades, 4);
+    EXPECT_GE(run.pipelines_created, static_cast<std::size_t>(shades)) << "they were not there before";
+}
+
+}  // namespace
+}  // namespace strata
