@@ -194,6 +194,19 @@ TEST(DeepImport, LeavesOutWhatHasNoPlaceInFrontOfTheEyeAndMendsTheRest) {
     EXPECT_NEAR(fragments_of(image.frame).at(0, 0)[0].depth, 10, 1e-12) << "twice as far as the farthest finite one";
 }
 
+TEST(DeepImport, PutsWhatIsInfinitelyFarIntoItsOwnPixelInEveryLine) {
+    DeepSource source{.channels = {"R", "A", "Z"}, .width = 2, .height = 3};
+    for (std::uint32_t i = 0; i < 6; ++i) source.pixels.push_back({{1, .5f, infinite}, {0, .5f, float(1 + i)}});
+    const ImportedDeep image = frame_of(source);
+    EXPECT_EQ(image.census.depth_infinite, 6u);
+    const FragmentLists lists = fragments_of(image.frame);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        ASSERT_EQ(lists.at(i % 2, i / 2).size(), 2u) << "pixel " << i;
+        EXPECT_NEAR(lists.at(i % 2, i / 2)[0].depth, 12, 1e-6);
+        EXPECT_NEAR(lists.at(i % 2, i / 2)[1].depth, 1 + i, 1e-6);
+    }
+}
+
 TEST(DeepImport, PutsDepthsBelowTheSmallestThatCanBeDrawnThereInTheirOrder) {
     const ImportedDeep image = frame_of(pixel_of({{1, 1, 2e-40f}, {0, .5f, 1e-40f}}));
     EXPECT_EQ(image.census.depth_too_near, 2u);
