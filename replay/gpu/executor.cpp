@@ -32,6 +32,18 @@ struct HostCopies {
     HostImage take(const Copy& copy) const { return {copy.shape, readback.take(copy.ticket)}; }
 };
 
+std::size_t steps_to_run(const Plan& plan, const RunOptions& options) {
+    return std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
+}
+
+/// Whether the buffer holds more than what its memory held before.
+bool is_written(std::span<const PlannedStep> steps, Buffer buffer) {
+    return std::ranges::any_of(steps, [&](const PlannedStep& planned) {
+        return std::ranges::any_of(uses(planned),
+                                   [&](const Use& use) { return use.buffer.id == buffer.id && writes(use.access); });
+    });
+}
+
 void go_to(const vk::raii::CommandBuffer& commands, DeviceImage& image, const PartRange& range, vk::ImageLayout layout) {
     const auto barriers = image.transitions(range, layout, DeviceImage::Contents::keep);
     commands.pipelineBarrier2(vk::DependencyInfo().setImageMemoryBarriers(barriers));
@@ -150,8 +162,7 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
     const double pipelines_ms = pipelines_.milliseconds();
     const std::size_t pipelines_before = pipelines_.created();
 
-    const std::size_t steps = std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
-    pipelines_.make(plan, steps, options.stop);
+    pipelines_.make(plan, steps_to_run(plan, options), options.stop);
     if (options.stop.stop_requested()) throw DeviceFailure("stopped");
     auto commands = device_->begin_commands();
     try {
@@ -181,7 +192,7 @@ void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& fram
     const Plan& plan = frame.plan;
     StepRecorder recorder(commands, plan, frame.resources, pipelines_, frame.sets);
     const bool has_labels = device_->instance().has_labels(), is_timed = frame.options.timestamps == Timestamps::on;
-    const std::size_t end = std::min(plan.steps.size(), frame.options.until ? *frame.options.until + 1 : plan.steps.size());
+    const std::size_t end = steps_to_run(plan, frame.options);
     full_barrier(commands);  // what ran before the plan is visible when it starts
     for (std::size_t i = 0; i < end; ++i) {
         const PlannedStep& planned = plan.steps[i];
@@ -247,8 +258,7 @@ void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
             if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), copies);
         }
         for (const Buffer buffer : plan.kept_buffers) {
-            const bool is_there = std::ranges::count(plan.used_buffers, buffer.id) > 0;
-            if (is_there)
+            if (is_written(std::span(plan.steps).first(steps_to_run(plan, frame.options)), buffer))
                 buffers[buffer.id] = copies.readback.add(commands, frame.resources.buffer(buffer), plan.buffers[buffer.id].bytes);
         }
         copies.readback.finish(commands);

@@ -16,11 +16,13 @@ const ComputeWork* indirect_work(const PlannedStep& planned) {
     return compute && compute->arguments ? compute : nullptr;
 }
 
-/// Whether arguments are still in their buffers at the end of the frame.
+/// Whether the frame makes all arguments, and they are still in their buffers at its end.
 bool keeps_arguments(const Plan& plan) {
     return std::ranges::all_of(plan.steps, [&](const PlannedStep& planned) {
         const ComputeWork* work = indirect_work(planned);
-        return !work || plan.buffers[work->arguments.id].version == work->arguments.version;
+        if (!work) return true;
+        const BufferRecord& buffer = plan.buffers[work->arguments.id];
+        return !buffer.import && buffer.version == work->arguments.version;
     });
 }
 
