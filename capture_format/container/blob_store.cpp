@@ -44,7 +44,7 @@ std::size_t entry_bytes(std::uint32_t version) {
 // zstd's default: 3 shrank a peer's captures 50 times at 400 MB/s; 19 gains a tenth and is a hundred times slower.
 constexpr int compression_level = 3;
 // Sections of so many bytes are packed by several threads, compressed in jobs of 8 MiB (zstd's, at this level). What is recorded
-// bit by bit stays below: an application keeps its cores.
+// bit by bit stays below: an application keeps its cores (only positions that lie on rays take a second one, in ray_records.cpp).
 constexpr std::uint64_t least_for_threads = std::uint64_t{16} << 20;
 unsigned threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 

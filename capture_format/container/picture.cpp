@@ -68,7 +68,7 @@ Result<Texture> decode_picture(std::span<const std::byte> payload, std::uint32_t
     if (fits(extent[0], extent[1]))
         picture.texels = unpacked(payload.subspan(sizeof extent), texel_bytes * extent[0] * extent[1], version);
     if (picture.texels.empty())
-        return fail(Fault::bad_input, "it is no picture of 1 to {} texels each way", largest_picture_edge);
+        return fail(Fault::bad_input, "the thumbnail is no picture of 1 to {} texels each way", largest_picture_edge);
     return picture;
 }
 

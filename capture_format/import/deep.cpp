@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "capture_format/container/file.h"
@@ -49,6 +50,7 @@ void add_up(DeepCensus& sum, const DeepCensus& more) {
                                &DeepCensus::without_alpha,
                                &DeepCensus::faint,
                                &DeepCensus::outside};
+    static_assert(sizeof(DeepCensus) == (std::size(added) + 1) * sizeof(std::uint64_t), "a count is left out");
     for (const Count count : added) sum.*count += more.*count;
     sum.deepest = std::max(sum.deepest, more.deepest);
 }

@@ -233,8 +233,8 @@ struct FragmentRows::Scene {
     const ReferenceImage& depth;
     Raster raster;
     bool has_interfaces;
-    mutable oneapi::tbb::enumerable_thread_specific<FoundRow> found =
-        {};  ///< fresh pages for every row take longer than fragments
+    /// Kept, because fresh pages for every row take longer than the fragments.
+    mutable oneapi::tbb::enumerable_thread_specific<FoundRow> found = {};
 };
 
 FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth)

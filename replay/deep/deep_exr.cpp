@@ -9,6 +9,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -106,6 +107,7 @@ std::string head_of(const DeepImage& image, const Metadata& metadata) {
 }  // namespace
 
 Result<std::string> deep_exr(const DeepImage& image, const Metadata& metadata) {
+    assert(std::ranges::is_sorted(image.channels));  // the file's header sorts their names, but not their values
     std::string file;
     try {
         file = head_of(image, metadata);

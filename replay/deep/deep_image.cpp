@@ -37,6 +37,13 @@ constexpr ChannelValue channel_values[] = {
     {"Z", [](const Fragment& f) { return f.depth; }},
 };
 
+std::vector<ChannelValue> channels_of(Transmittance transmittance) {
+    std::vector<ChannelValue> channels;
+    for (const ChannelValue& channel : channel_values)
+        if (!channel.chromatic || transmittance == Transmittance::channels) channels.push_back(channel);
+    return channels;
+}
+
 bool is_chromatic(const Fragment& fragment) {
     const glm::dvec3& t = fragment.transmittance;
     return t.x != t.y || t.y != t.z;
@@ -60,7 +67,7 @@ Error chromatic_error(const ChromaticTriangles& triangles, const Frame& frame) {
 class LineMaker {
 public:
     LineMaker(const FragmentRows& rows, std::uint32_t sample, Transmittance transmittance)
-        : rows_(rows), sample_(sample), transmittance_(transmittance) {}
+        : rows_(rows), sample_(sample), transmittance_(transmittance), channels_(channels_of(transmittance)) {}
 
     /// `blend` is the line's.
     DeepLine make(std::uint32_t y, std::span<glm::dvec3> blend) {
@@ -74,10 +81,9 @@ public:
             for (const std::size_t i : order) sorted_.push_back(&fragments[i]);
             line.ends.push_back(static_cast<std::uint32_t>(sorted_.size()));
         }
-        line.values.reserve(sorted_.size() * std::size(channel_values));
-        for (const ChannelValue& channel : channel_values)
-            if (!channel.chromatic || transmittance_ == Transmittance::channels)
-                for (const Fragment* fragment : sorted_) line.values.push_back(static_cast<float>(channel.of(*fragment)));
+        line.values.reserve(sorted_.size() * channels_.size());
+        for (const ChannelValue& channel : channels_)
+            for (const Fragment* fragment : sorted_) line.values.push_back(static_cast<float>(channel.of(*fragment)));
         if (transmittance_ == Transmittance::refused)
             for (const Fragment* fragment : sorted_)
                 if (is_chromatic(*fragment)) ++chromatic_[fragment->submission];
@@ -89,6 +95,7 @@ private:
     const FragmentRows& rows_;
     std::uint32_t sample_;
     Transmittance transmittance_;
+    std::vector<ChannelValue> channels_;
     FragmentRow row_;
     std::vector<const Fragment*> sorted_;
     ChromaticTriangles chromatic_;
@@ -106,8 +113,7 @@ Result<DeepImage> deep_image(const FragmentRows& rows, std::uint32_t sample, Tra
                     .channels = {},
                     .lines = std::vector<DeepLine>(rows.view().height),
                     .blend = std::vector<glm::dvec3>(std::size_t{rows.view().width} * rows.view().height)};
-    for (const ChannelValue& channel : channel_values)
-        if (!channel.chromatic || transmittance == Transmittance::channels) image.channels.push_back(channel.name);
+    for (const ChannelValue& channel : channels_of(transmittance)) image.channels.push_back(channel.name);
     oneapi::tbb::enumerable_thread_specific<LineMaker> makers([&] { return LineMaker(rows, sample, transmittance); });
     oneapi::tbb::parallel_for(std::uint32_t{0}, rows.view().height, [&](std::uint32_t y) {
         image.lines[y] = makers.local().make(y, std::span(image.blend).subspan(std::size_t{y} * image.width, image.width));

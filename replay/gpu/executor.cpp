@@ -1,6 +1,7 @@
 #include "replay/gpu/executor.h"
 
 #include <algorithm>
+#include <set>
 
 #include "replay/gpu/device_memory.h"
 #include "replay/gpu/opened_device.h"
@@ -36,12 +37,13 @@ std::size_t steps_to_run(const Plan& plan, const RunOptions& options) {
     return std::min(plan.steps.size(), options.until ? *options.until + 1 : plan.steps.size());
 }
 
-/// Whether the buffer holds more than what its memory held before.
-bool is_written(std::span<const PlannedStep> steps, Buffer buffer) {
-    return std::ranges::any_of(steps, [&](const PlannedStep& planned) {
-        return std::ranges::any_of(uses(planned),
-                                   [&](const Use& use) { return use.buffer.id == buffer.id && writes(use.access); });
-    });
+/// Ids of the buffers that the steps write. Memory of all others holds what an earlier run left there.
+std::set<std::uint32_t> written_buffers(std::span<const PlannedStep> steps) {
+    std::set<std::uint32_t> ids;
+    for (const PlannedStep& planned : steps)
+        for (const Use& use : uses(planned))
+            if (use.buffer && writes(use.access)) ids.insert(use.buffer.id);
+    return ids;
 }
 
 void go_to(const vk::raii::CommandBuffer& commands, DeviceImage& image, const PartRange& range, vk::ImageLayout layout) {
@@ -257,8 +259,9 @@ void VulkanExecutor::read_kept(Frame& frame, Execution& execution) {
             const bool is_there = !plan.images[image.id].import && frame.resources.holds(image);
             if (is_there) images[image.id] = copy_out(commands, frame.resources.image(image), copies);
         }
+        const auto written = written_buffers(std::span(plan.steps).first(steps_to_run(plan, frame.options)));
         for (const Buffer buffer : plan.kept_buffers) {
-            if (is_written(std::span(plan.steps).first(steps_to_run(plan, frame.options)), buffer))
+            if (written.contains(buffer.id))
                 buffers[buffer.id] = copies.readback.add(commands, frame.resources.buffer(buffer), plan.buffers[buffer.id].bytes);
         }
         copies.readback.finish(commands);

@@ -227,6 +227,13 @@ Result<void> fill(Declaration& d, const Request& request, const Sources& sources
     return {};
 }
 
+Result<void> add_plan(Declaration& d, const Sources& sources) {
+    auto plan = compile(d.graph, sources.shaders);
+    if (!plan) return plan.error();
+    d.plan = *std::move(plan);
+    return {};
+}
+
 }  // namespace
 
 Result<Declaration> declare(const Request& request, const Sources& sources, Keep keep) {
@@ -247,9 +254,7 @@ Result<Declaration> declare(const Request& request, const Sources& sources, Keep
         Remember remember(d, sources, std::move(wanted), std::move(skip));
         if (const auto filled = fill(d, request, sources, keep, std::ref(remember)); !filled) return filled.error();
     }
-    auto plan = compile(d.graph, sources.shaders);
-    if (!plan) return plan.error();
-    d.plan = *std::move(plan);
+    if (const auto planned = add_plan(d, sources); !planned) return planned.error();
     settle_idle_counters(d);
     return d;
 }
@@ -269,9 +274,7 @@ Result<Declaration> declare_from(const Request& request, const Sources& sources,
     d.choices = *choices;
     const auto filled = fill(d, request, sources, Keep::outputs, Give(d, stage, outputs));
     if (!filled) return filled.error();
-    auto plan = compile(d.graph, sources.shaders);
-    if (!plan) return plan.error();
-    d.plan = *std::move(plan);
+    if (const auto planned = add_plan(d, sources); !planned) return planned.error();
     return d;
 }
 
@@ -288,9 +291,7 @@ Result<Declaration> declare_counts(const Request& request, const Sources& source
         if (const auto* compute = std::get_if<ComputeWork>(&planned.step.work)) d.graph.keep(compute->arguments);
     for (const CounterSource& source : d.counters)
         if (counting.contains(source.technique)) d.graph.keep_counting(source.buffer);
-    auto plan = compile(d.graph, sources.shaders);
-    if (!plan) return plan.error();
-    d.plan = *std::move(plan);
+    if (const auto planned = add_plan(d, sources); !planned) return planned.error();
     return d;
 }
 

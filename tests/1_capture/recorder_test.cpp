@@ -1,6 +1,5 @@
 // What an application records is what is read, whatever happens to the process or the disk meanwhile.
 #include "capture_format/recorder.h"
-#include "capture_format/container/picture.h"
 
 #include <sys/resource.h>
 

@@ -32,15 +32,16 @@ DeepImage ten_million_fragments() {
     constexpr std::size_t samples = std::size_t{width} * per_pixel;
     for (DeepLine& line : image.lines) {
         line.values.resize(samples * image.channels.size());
-        float depth = 1;
-        for (std::uint32_t i = 0; i < samples; ++i) {
-            if (i % per_pixel == 0) depth = 1;
-            const float alpha = .2f * unit(random);
-            depth += unit(random);
-            line.values[i] = alpha;
-            for (std::size_t c = 1; c <= 3; ++c) line.values[c * samples + i] = alpha * unit(random);
-            line.values[4 * samples + i] = depth;
-            if ((i + 1) % per_pixel == 0) line.ends.push_back(i + 1);
+        for (std::uint32_t begin = 0; begin < samples; begin += per_pixel) {
+            float depth = 1;
+            for (std::uint32_t i = begin; i < begin + per_pixel; ++i) {
+                const float alpha = .2f * unit(random);
+                depth += unit(random);
+                line.values[i] = alpha;
+                for (std::size_t c = 1; c <= 3; ++c) line.values[c * samples + i] = alpha * unit(random);
+                line.values[4 * samples + i] = depth;
+            }
+            line.ends.push_back(begin + per_pixel);
         }
     }
     return image;
