@@ -30,12 +30,13 @@ struct FrameImages {
     // What it is drawn on.
     Capabilities capabilities;
 
-    // Draw lists of the scene, all indexed triangles over the offered scene buffers (passes/shaders/scene.shared.h).
-    DrawList all_opaque;     ///< opaque and masked draws, before culling
-    DrawList opaque;         ///< after the culling stage
-    DrawList casters;        ///< opaque and masked draws that cast shadows
-    DrawList transparent;    ///< transparent draws in submission order, then emitters
-    DrawList numbered;       ///< the same, not indexed, for fragment shaders that read in_triangle (numbered_draw.vert)
+    // Draw lists of the scene, all triangles over the offered scene buffers (passes/shaders/scene.shared.h).
+    DrawList all_opaque;   ///< opaque and masked draws, before culling
+    DrawList opaque;       ///< after the culling stage
+    DrawList casters;      ///< opaque and masked draws that cast shadows
+    DrawList transparent;  ///< transparent draws in submission order, then emitters
+    DrawList numbered;  ///< the same, where each triangle begins with a vertex of its own: for in_triangle (numbered_draw.vert)
+    DrawList separate;  ///< the same, where triangles share no vertices: for vertex shaders that ask for the whole triangle
     DrawList back_to_front;  ///< the same, sorted by object; particles sorted within their emitter
 
     // culling

@@ -7,7 +7,7 @@ namespace strata::edges {
 namespace {
 
 std::optional<std::string> unwanted(const Features& features) {
-    if (features.has(Feature::multisampled)) return std::nullopt;
+    if (features.has(Feature::multisampled)) return info(Stage::culling).unwanted(features);
     return "the frame has one sample per pixel";
 }
 

@@ -2,8 +2,8 @@
 
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
+#include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/scene/texture_uses.h"
 
 namespace strata::gbuffer {
 namespace {
@@ -42,7 +42,7 @@ void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
         DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
-        fix_textures(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
+        fix_materials(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
         // The shader discards backs draw by draw: the same pixels, shaded in vain.
         if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
     }

@@ -21,9 +21,9 @@ const float largest_half = 65504.0;
 // Discards backs of one-sided faces and what the alpha test cuts away. The material is evaluated first: derivatives need the
 // whole quad.
 MaterialPoint visible_point() {
-    const MaterialRecord material = materials[draws[in_draw].material];
+    const MaterialRecord material = material_of(in_draw);
     const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
-    if (!gl_FrontFacing && material.double_sided == 0u) discard;
+    if (!gl_FrontFacing && has_one_side(material.double_sided)) discard;
     if (m.alpha_mode == alpha_mask && m.alpha < material.mask_cutoff) discard;
     return m;
 }

@@ -65,12 +65,12 @@ struct Shader {
 
 /// What draws the scene's meshes unless a draw has a vertex shader of its own.
 inline constexpr const char* mesh_vertex_shader = "shaders/draw.vert";
-/// The same for lists that are not indexed.
+/// The same for lists of places.
 inline constexpr const char* numbered_vertex_shader = "shaders/numbered_draw.vert";
 
-/// Which of the two draws a list; an empty list counts as indexed.
+/// Which of the two draws a list.
 inline const char* scene_vertex_shader(const DrawList& list) {
-    return list.indices || list.count == 0 ? mesh_vertex_shader : numbered_vertex_shader;
+    return list.of_places ? numbered_vertex_shader : mesh_vertex_shader;
 }
 
 /// Reflects SPIR-V. Fails with a sentence when it is not SPIR-V we can use.

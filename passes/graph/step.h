@@ -69,6 +69,7 @@ enum class Cull : std::uint32_t { none, back, front };
 struct DrawList {
     Buffer commands = {}, indices = {};
     std::uint32_t first = 0, count = 0;
+    bool of_places = false;  ///< its vertices are places in the scene's indices: for numbered_draw.vert and its like
 };
 
 /// Resources that outlive the frame are known to the executor by such a key.

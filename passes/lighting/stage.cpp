@@ -7,7 +7,7 @@ namespace strata::lighting {
 namespace {
 
 std::optional<std::string> unwanted(const Features& features) {
-    if (features.has(Feature::sun) || features.has(Feature::local_lights)) return std::nullopt;
+    if (features.has(Feature::sun) || features.has(Feature::local_lights)) return info(Stage::culling).unwanted(features);
     return "the frame has no lights";
 }
 

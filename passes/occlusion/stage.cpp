@@ -5,7 +5,7 @@ namespace strata::occlusion {
 namespace {
 
 std::optional<std::string> unwanted(const Features& features) {
-    if (features.has(Feature::hemisphere) || features.has(Feature::light_volumes)) return std::nullopt;
+    if (features.has(Feature::hemisphere) || features.has(Feature::light_volumes)) return info(Stage::culling).unwanted(features);
     return "the frame has no ambient light to occlude";
 }
 

@@ -3,20 +3,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/scene/view_space.h"
 
 namespace strata {
 namespace {
 
-// Vertices are transformed in float (1e-6 of a coordinate) and snapped to 1/256 pixel; both stay far below this, in pixels.
-constexpr double edge_margin = .25;
+// Corners are snapped to a grid of 1/16 pixel or finer (subPixelPrecisionBits is 4 or more).
+constexpr double snapping = 1. / 16;
+// A sum of four products in float, of numbers that were rounded to float before: relative to the largest of them.
+constexpr double rounding = 0x1p-21;
 
-/// First and last pixel of a range in one direction that a polygon from `low` to `high` can touch; none where last < first.
+/// Where samples of a pixel may lie in it, each way: a single one in the middle, of several anywhere, because devices differ.
+struct Places {
+    double first, last;
+};
+Places places(std::uint32_t samples) { return samples == 1 ? Places{.5, .5} : Places{0, 1}; }
+
+/// First and last pixel in one direction of those that can have a sample from `low` to `high`; none where last < first.
 struct PixelRange {
-    PixelRange(double low, double high, std::uint32_t size)
-        : first(static_cast<std::int64_t>(std::floor(std::clamp(low - edge_margin, 0., double(size))))),
-          last(static_cast<std::int64_t>(std::floor(std::clamp(high + edge_margin, -1., size - 1.)))) {}
+    PixelRange(double low, double high, Places places, std::uint32_t size)
+        : first(static_cast<std::int64_t>(std::ceil(std::clamp(low - places.last, 0., double(size))))),
+          last(static_cast<std::int64_t>(std::floor(std::clamp(high - places.first, -1., size - 1.)))) {}
     std::int64_t first, last;
     std::uint64_t count() const { return last < first ? 0 : static_cast<std::uint64_t>(last - first) + 1; }
 };
@@ -50,14 +61,22 @@ private:
     std::vector<std::int64_t> corners_;
 };
 
-/// Projects to pixels and adds what polygons touch to the rows.
-class TouchedPixels {
-public:
-    TouchedPixels(const View& view, Extent extent) : view_(view), extent_(extent), rows_(extent.height, 0), overlaps_(extent) {}
+/// The corner of a polygon in view space, and how far off a device may see it, in metres.
+struct Corner {
+    glm::dvec3 position;
+    double error;
+};
 
-    /// A convex polygon in view space.
-    void add(std::span<const glm::dvec3> corners) {
+/// Projects to pixels and adds what polygons touch to the rows.
+class TouchedSamples {
+public:
+    TouchedSamples(const View& view, Extent extent, std::uint32_t samples)
+        : view_(view), extent_(extent), samples_(samples), places_(places(samples)), rows_(extent.height, 0), overlaps_(extent) {}
+
+    /// A convex polygon.
+    void add(std::span<const Corner> corners) {
         pixels_.clear();
+        margin_ = 0;
         for (std::size_t i = 0; i < corners.size(); ++i) add_clipped(corners[i], corners[(i + 1) % corners.size()]);
         if (!pixels_.empty()) add_pixels();
     }
@@ -65,30 +84,48 @@ public:
     FragmentBounds take() { return {std::move(rows_), overlaps_.most()}; }
 
 private:
-    /// The part of an edge in front of the near plane: its begin, and where it crosses the plane.
-    void add_clipped(const glm::dvec3& a, const glm::dvec3& b) {
-        const double near = double(view_.near) * .999;  // a little before the device's own clip
-        if (a.z >= near) pixels_.push_back(projected(a));
-        if ((a.z >= near) != (b.z >= near)) pixels_.push_back(projected(glm::mix(a, b, (near - a.z) / (b.z - a.z))));
+    /// The part of an edge in front of the near plane, or of where a device may take it to be: its begin, and where it crosses
+    /// the plane.
+    void add_clipped(const Corner& a, const Corner& b) {
+        const double near = std::max(double(view_.near) * .999 - std::max(a.error, b.error), double(view_.near) * .01);
+        if (a.position.z >= near) add_pixel(a);
+        if ((a.position.z >= near) != (b.position.z >= near))
+            add_pixel(
+                {glm::mix(a.position, b.position, (near - a.position.z) / (b.position.z - a.position.z)), a.error + b.error});
     }
 
-    glm::dvec2 projected(const glm::dvec3& p) const {
+    void add_pixel(const Corner& corner) {
+        const glm::dvec3& p = corner.position;
         const double x = double(view_.projection[0][0]) * p.x / p.z + double(view_.projection[2][0]) + double(view_.jitter.x);
         const double y = double(view_.projection[1][1]) * p.y / p.z + double(view_.projection[2][1]) + double(view_.jitter.y);
-        return {(.5 + .5 * x) * extent_.width, (.5 + .5 * y) * extent_.height};
+        pixels_.emplace_back((.5 + .5 * x) * extent_.width, (.5 + .5 * y) * extent_.height);
+        // An error across the ray moves a corner by `focal` halves of the image, one along it by as many as the image's far edge
+        // is from the ray ahead. A corner beyond the edge moves more, but what it moves of an edge within the image is no more
+        // than this.
+        const double focal = std::max(std::abs(double(view_.projection[0][0])), std::abs(double(view_.projection[1][1])));
+        const double off_x = std::abs(double(view_.projection[2][0]) + double(view_.jitter.x));
+        const double off_y = std::abs(double(view_.projection[2][1]) + double(view_.jitter.y));
+        const double far_edge = 1 + std::max(off_x, off_y);
+        const double moved = corner.error / p.z * (.5 * focal + far_edge) + rounding * far_edge;
+        margin_ = std::max(margin_, moved * std::max(extent_.width, extent_.height));
     }
 
     void add_pixels() {
+        const double margin = snapping + margin_;
         glm::dvec2 low = pixels_[0], high = low;
         for (const glm::dvec2& p : pixels_) low = glm::min(low, p), high = glm::max(high, p);
-        const PixelRange columns(low.x, high.x, extent_.width), rows(low.y, high.y, extent_.height);
+        low -= margin, high += margin;
+        const PixelRange columns(low.x, high.x, places_, extent_.width), rows(low.y, high.y, places_, extent_.height);
         overlaps_.add(columns, rows);
-        for (std::int64_t y = rows.first; y <= rows.last; ++y)
-            rows_[static_cast<std::size_t>(y)] += touched(double(y) - edge_margin, double(y) + 1 + edge_margin);
+        if (columns.count() == 0) return;
+        for (std::int64_t y = rows.first; y <= rows.last; ++y) {
+            const double top = double(y) + places_.first - margin, bottom = double(y) + places_.last + margin;
+            rows_[static_cast<std::size_t>(y)] += samples_ * touched(top, bottom, margin);
+        }
     }
 
-    /// Pixels of the row that the polygon can touch between two heights.
-    std::uint64_t touched(double top, double bottom) const {
+    /// Pixels in which the polygon can cover a sample between two heights.
+    std::uint64_t touched(double top, double bottom, double margin) const {
         double low = 1e300, high = -1e300;
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
             const glm::dvec2 a = pixels_[i], b = pixels_[(i + 1) % pixels_.size()];
@@ -100,41 +137,56 @@ private:
             }
         }
         if (low > high) return 0;
-        return PixelRange(low, high, extent_.width).count();
+        return PixelRange(low - margin, high + margin, places_, extent_.width).count();
     }
 
     const View& view_;
     Extent extent_;
+    std::uint32_t samples_;
+    Places places_;
     std::vector<std::uint64_t> rows_;
     Overlaps overlaps_;
     std::vector<glm::dvec2> pixels_;
+    double margin_ = 0;  ///< pixels that the polygon's corners may be off
 };
 
-void add_draw(const Frame& frame, const Draw& draw, TouchedPixels& sum) {
+/// Of view positions that a device transforms itself: products and sums are as large as these, however small what they come to.
+double transform_error(const glm::dmat4& to_view, const Mesh& mesh) {
+    glm::dvec3 farthest(0);
+    for (const glm::vec3& p : mesh.positions) farthest = glm::max(farthest, glm::abs(glm::dvec3(p)));
+    glm::dvec3 terms = glm::abs(glm::dvec3(to_view[3]));
+    for (int i = 0; i < 3; ++i) terms += glm::abs(glm::dvec3(to_view[i])) * farthest[i];
+    return rounding * std::max({terms.x, terms.y, terms.z});
+}
+
+void add_draw(const Frame& frame, const Draw& draw, TouchedSamples& sum) {
     const Mesh& mesh = frame.meshes[draw.mesh];
-    std::vector<glm::dvec3> positions;
-    positions.reserve(mesh.positions.size());
+    const glm::dmat4 to_view = glm::dmat4(frame.view.to_view) * glm::translate(glm::dmat4(1), -frame.view.origin) * draw.to_world;
+    const double error = transform_error(to_view, mesh);
+    std::vector<Corner> corners;
+    corners.reserve(mesh.positions.size());
     for (const glm::vec3& p : mesh.positions)
-        positions.push_back(in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(p), 1))));
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::array corners{positions[mesh.indices[i]], positions[mesh.indices[i + 1]], positions[mesh.indices[i + 2]]};
-        sum.add(corners);
-    }
+        corners.push_back({in_view_space(frame.view, glm::dvec3(draw.to_world * glm::dvec4(glm::dvec3(p), 1))), error});
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        sum.add(std::array{corners[mesh.indices[i]], corners[mesh.indices[i + 1]], corners[mesh.indices[i + 2]]});
 }
 
 /// The two triangles of a quad share no sample, so the quad counts once.
-void add_particle(const Frame& frame, const Particle& particle, TouchedPixels& sum) {
+void add_particle(const Frame& frame, const Particle& particle, TouchedSamples& sum) {
     const glm::dvec3 center = in_view_space(frame.view, particle.center);
     const double c = std::cos(double(particle.rotation)) * double(particle.size);
     const double s = std::sin(double(particle.rotation)) * double(particle.size);
     const glm::dvec3 u(c, s, 0), v(-s, c, 0);
-    sum.add(std::array{center - u - v, center + u - v, center + u + v, center - u + v});
+    const glm::dvec3 terms = glm::abs(center) + std::abs(c) + std::abs(s);
+    const double error = rounding * std::max({terms.x, terms.y, terms.z});
+    sum.add(std::array<Corner, 4>{
+        {{center - u - v, error}, {center + u - v, error}, {center + u + v, error}, {center - u + v, error}}});
 }
 
 }  // namespace
 
-FragmentBounds fragment_bounds(const Frame& frame, const DrawLists& lists, Extent extent) {
-    TouchedPixels sum(frame.view, extent);
+FragmentBounds fragment_bounds(const Frame& frame, const DrawLists& lists, Extent extent, std::uint32_t samples) {
+    TouchedSamples sum(frame.view, extent, samples);
     for (const std::uint32_t index : lists.transparent) {
         if (index < frame.draws.size()) {
             add_draw(frame, frame.draws[index], sum);
@@ -146,13 +198,13 @@ FragmentBounds fragment_bounds(const Frame& frame, const DrawLists& lists, Exten
     return sum.take();
 }
 
-std::vector<RowBand> row_bands(std::span<const std::uint64_t> fragments_by_row, std::uint64_t limit) {
+std::vector<RowBand> row_bands(std::span<const std::uint64_t> fragments_by_row, std::uint64_t limit, std::uint32_t most_rows) {
     std::vector<RowBand> bands{{}};
     for (std::size_t y = 0; y < fragments_by_row.size(); y += 2) {
         const std::uint32_t rows = y + 1 < fragments_by_row.size() ? 2 : 1;
         const std::uint64_t pair = fragments_by_row[y] + (rows == 2 ? fragments_by_row[y + 1] : 0);
-        if (bands.back().rows > 0 && bands.back().bound + pair > limit)
-            bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
+        const bool is_full = bands.back().bound + pair > limit || bands.back().rows + rows > most_rows;
+        if (bands.back().rows > 0 && is_full) bands.push_back({.first_row = static_cast<std::uint32_t>(y)});
         bands.back().rows += rows;
         bands.back().bound += pair;
     }

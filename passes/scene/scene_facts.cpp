@@ -43,15 +43,15 @@ float SceneFacts::farthest_depth_offset() const {
     return farthest_depth_offset_.get([&] { return strata::farthest_depth_offset(*frame_); });
 }
 
-const FragmentBounds& SceneFacts::fragment_bounds(Extent extent) const {
-    const auto [found, is_new] = fragment_bounds_.try_emplace({extent.width, extent.height});
-    if (is_new) found->second = strata::fragment_bounds(*frame_, lists(), extent);
+const FragmentBounds& SceneFacts::fragment_bounds(Extent extent, std::uint32_t samples) const {
+    const auto [found, is_new] = fragment_bounds_.try_emplace({extent.width, extent.height, samples});
+    if (is_new) found->second = strata::fragment_bounds(*frame_, lists(), extent, samples);
     return found->second;
 }
 
-TextureUses SceneFacts::texture_uses(Surfaces surfaces) const {
-    return texture_uses_[static_cast<std::size_t>(surfaces)].get(
-        [&] { return strata::texture_uses(*frame_, lists(), surfaces); });
+const MaterialUses& SceneFacts::material_uses(Surfaces surfaces) const {
+    return material_uses_[static_cast<std::size_t>(surfaces)].get(
+        [&] { return strata::material_uses(*frame_, lists(), surfaces); });
 }
 
 std::uint32_t SceneFacts::light_features() const {
@@ -78,8 +78,8 @@ std::size_t SceneFacts::derived() const {
     std::size_t made = fragment_bounds_.size() + possible_spectra_.size();
     for (const bool is_made :
          {features_.is_made(), lists_.is_made(), lights_.is_made(), bounds_.is_made(), views_[0].is_made(), views_[1].is_made(),
-          transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), texture_uses_[0].is_made(),
-          texture_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made()})
+          transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), material_uses_[0].is_made(),
+          material_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made()})
         made += is_made ? 1 : 0;
     return made;
 }

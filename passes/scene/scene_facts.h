@@ -2,10 +2,10 @@
 // device's records and every declaration read it; models, truths and judges derive what they need by their own code.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "capture_format/frame.h"
@@ -14,8 +14,8 @@
 #include "passes/scene/draw_bounds.h"
 #include "passes/scene/draw_lists.h"
 #include "passes/scene/fragment_bounds.h"
+#include "passes/scene/material_uses.h"
 #include "passes/scene/shadow_views.h"
-#include "passes/scene/texture_uses.h"
 #include "passes/scene/transparent_depths.h"
 
 namespace strata {
@@ -53,9 +53,9 @@ public:
     DepthRange transparent_depths() const;
     DepthRange world_depths() const;
     float farthest_depth_offset() const;
-    /// Of transparent geometry on images of an extent.
-    const FragmentBounds& fragment_bounds(Extent) const;
-    TextureUses texture_uses(Surfaces) const;
+    /// Of transparent geometry on images of an extent with 1 or 4 samples per pixel.
+    const FragmentBounds& fragment_bounds(Extent, std::uint32_t samples) const;
+    const MaterialUses& material_uses(Surfaces) const;
     /// What lights and materials need (light_features.h), and what of it the view may show (frame_spectrum.h).
     std::uint32_t light_features() const;
     std::uint32_t spectrum() const;
@@ -66,8 +66,8 @@ public:
     /// Of everything transparent; 0 where nothing is in an interface layer.
     std::uint32_t highest_interface_layer() const;
 
-    /// How many members were derived so far, fragment bounds once per extent and possible spectra once per set of features:
-    /// asking for a member again adds nothing.
+    /// How many members were derived so far, fragment bounds once per extent and samples and possible spectra once per set of
+    /// features: asking for a member again adds nothing.
     std::size_t derived() const;
 
 private:
@@ -79,8 +79,8 @@ private:
     Kept<std::vector<ShadowView>> views_[2];  ///< by Allocation
     Kept<DepthRange> transparent_depths_, world_depths_;
     Kept<float> farthest_depth_offset_;
-    mutable std::map<std::pair<std::uint32_t, std::uint32_t>, FragmentBounds> fragment_bounds_;  ///< by width and height
-    Kept<TextureUses> texture_uses_[2];                                                          ///< by Surfaces
+    mutable std::map<std::array<std::uint32_t, 3>, FragmentBounds> fragment_bounds_;  ///< by width, height and samples
+    Kept<MaterialUses> material_uses_[2];                                             ///< by Surfaces
     Kept<std::uint32_t> light_features_, spectrum_, highest_interface_layer_;
     mutable std::map<std::uint32_t, std::vector<std::uint32_t>> possible_spectra_;  ///< by features
 };

@@ -27,8 +27,9 @@ invariant gl_Position;
 vec3 view_position(uint vertex, uint draw) { return (draws[draw].to_view * vec4(position_of(vertex, draw), 1.0)).xyz; }
 
 void hand_on_material(DrawRecord d) {
-    const MaterialRecord m = materials[d.material];
-    const TextureUseRecord use = m.textures[base_color_texture];
+    const MaterialRecord m = as_used(materials[d.material]);
+    TextureUseRecord use = TextureUseRecord(no_index, 0u, vec3(0.0), vec3(0.0));
+    if (is_used(base_color_texture)) use = m.textures[base_color_texture];
     TextureRecord t = TextureRecord(0u, 0u, 1u, 1u, 1u, 0u);
     if (use.texture != no_index) t = textures[use.texture];
     out_base_color = m.base_color;

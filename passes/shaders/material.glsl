@@ -4,12 +4,7 @@
 #define PASSES_SHADERS_MATERIAL_GLSL
 #include "passes/shaders/material_point.glsl"
 #include "passes/shaders/texture.glsl"
-
-const uint every_texture = (1u << texture_kinds) - 1u;
-// What the frame's materials use (passes/scene/texture_uses.h); the rest is compiled away.
-layout(constant_id = 20) const uint used_textures = every_texture;
-
-bool is_used(uint kind) { return (used_textures & (1u << kind)) != 0u; }
+#include "passes/shaders/uses.glsl"
 
 // The varyings uv0, uv1 with their derivatives. These are taken of the varyings alone: lavapipe 22.3 reads buffers as 0 in
 // helper lanes, so anything that went through a buffer (a size, a transform) has no derivative along a triangle's edge.
@@ -98,7 +93,8 @@ MaterialPoint material_point(uint draw, MaterialRecord material, MaterialTexels 
     m.alpha = base.a;
     m.metallic = has_metals(material.lighting_model) ? material.metallic * surface.b : 0.0;
     m.roughness = material.roughness * surface.g;
-    m.occlusion = 1.0 + material.occlusion_strength * (texels.of[occlusion_texture].r - 1.0);
+    m.occlusion = 1.0;
+    if (is_used(occlusion_texture)) m.occlusion += material.occlusion_strength * (texels.of[occlusion_texture].r - 1.0);
     m.emissive = material.emissive * texels.of[emissive_texture].rgb;
     m.transmission = material.transmission;
     m.lighting_model = material.lighting_model;
@@ -106,10 +102,11 @@ MaterialPoint material_point(uint draw, MaterialRecord material, MaterialTexels 
     return m;
 }
 
+MaterialRecord material_of(uint draw) { return as_used(materials[draws[draw].material]); }
+
 // With everything read from the material of the draw.
 MaterialPoint material_point(uint draw, vec4 uv, Varyings v) {
-    const uint material = draws[draw].material;
-    return material_point(draw, materials[material], material_texels(material, every_texture, footprint(uv)), v);
+    return material_point(draw, material_of(draw), material_texels(draws[draw].material, every_texture, footprint(uv)), v);
 }
 
 #endif

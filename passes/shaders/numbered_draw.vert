@@ -1,6 +1,6 @@
-// draw.vert without an index buffer: a corner is told by its place in the list of indices, and so is the number of its triangle.
-// gl_PrimitiveID in a fragment shader would say the same and needs a device with geometry shaders. Corners that triangles share are
-// computed for each of them.
+// draw.vert told a place in the list of indices, where a corner of one triangle stands: so it knows the triangle's number, too, which
+// fragments take from a triangle's first corner. gl_PrimitiveID in a fragment shader would say the same and needs a device with
+// geometry shaders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/shaders/draw_vertex.glsl"

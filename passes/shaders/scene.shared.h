@@ -52,7 +52,6 @@ struct DrawRecord {
     mat4 to_view;  // object to view
     mat3 normal_to_view;
     uint material;
-    uint submission;  // place in the frame: draws, then emitters
     float soft_fade;  // metres; 0 is hard
     uint layer;
     vec3 bound_center;  // view space sphere

@@ -4,7 +4,7 @@
 #include "passes/shaders/scene.glsl"
 #include "passes/shaders/srgb.glsl"
 
-// The formats of the textures that are read (passes/scene/texture_uses.h); the rest is compiled away.
+// The formats of the textures that are read (passes/scene/material_uses.h); the rest is compiled away.
 layout(constant_id = 21) const uint used_formats = 0xffffffffu;
 // Their address modes, as bits 1 << mode of one direction.
 layout(constant_id = 23) const uint used_addresses = 0xffffffffu;

@@ -2,7 +2,7 @@
 // than a device binds. A particle is a quad of four vertices, which are made here of what is kept once for all of them.
 #ifndef PASSES_SHADERS_VERTEX_GLSL
 #define PASSES_SHADERS_VERTEX_GLSL
-#include "passes/shaders/scene.glsl"
+#include "passes/shaders/uses.glsl"
 
 struct Vertex {
     vec3 position;  // object space of its draw (view space for particles)
@@ -38,8 +38,6 @@ Vertex corner_of(DrawRecord emitter, uint own, uint corner) {
     return v;
 }
 
-bool is_emitter(uint draw) { return draw >= view.first_emitter; }
-
 vec3 position_of(uint vertex, uint draw) {
     if (!is_emitter(draw)) return vertex_positions[vertex];
     const uint own = vertex - draws[draw].vertex_offset;
@@ -57,13 +55,17 @@ Vertex vertex_of(uint vertex, uint draw) {
     if (is_emitter(draw)) return corner_of(d, own / 4u, own % 4u);
     Vertex v;
     v.position = vertex_positions[vertex];
-    v.normal = d.normals == no_index ? vec3(0.0) : vertex_normals[d.normals + own];
-    v.tangent = d.tangents == no_index ? vec4(0.0) : vertex_tangents[d.tangents + own];
-    v.uv0 = d.uv0 == no_index ? vec2(0.0) : vertex_uvs[d.uv0 + own];
-    v.uv1 = d.uv1 == no_index ? vec2(0.0) : vertex_uvs[d.uv1 + own];
-    v.color = d.colors == no_index ? vec4(1.0) : vertex_colors[d.colors + own];
+    v.normal = vec3(0.0);
+    v.tangent = vec4(0.0);
+    v.uv0 = v.uv1 = vec2(0.0);
+    v.color = vec4(1.0);
     v.emissive = vec3(0.0);
     v.depth_offset = 0.0;
+    if (has_attribute(attribute_normal) && d.normals != no_index) v.normal = vertex_normals[d.normals + own];
+    if (has_attribute(attribute_tangent) && d.tangents != no_index) v.tangent = vertex_tangents[d.tangents + own];
+    if (has_attribute(attribute_uv0) && d.uv0 != no_index) v.uv0 = vertex_uvs[d.uv0 + own];
+    if (has_attribute(attribute_uv1) && d.uv1 != no_index) v.uv1 = vertex_uvs[d.uv1 + own];
+    if (has_attribute(attribute_color) && d.colors != no_index) v.color = vertex_colors[d.colors + own];
     return v;
 }
 

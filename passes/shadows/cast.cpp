@@ -2,8 +2,8 @@
 #include "passes/shadows/cast.h"
 
 #include "passes/scene/map_places.h"
+#include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/scene/texture_uses.h"
 #include "passes/shadows/shadows.shared.h"
 
 namespace strata {
@@ -20,7 +20,7 @@ void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
         const bool is_alone = allocation == Allocation::own;
         const std::uint32_t viewport = is_alone ? views[slot].size : in.extent;
         DrawPass cast = graph.draw("shadows/cast", frame.casters);
-        fix_textures(cast, frame, Surfaces::opaque)
+        fix_materials(cast, frame, Surfaces::opaque)
             .writes_depth(frame.shadow_maps, {.layer = views[slot].layer})
             .within({viewport, viewport})
             .push(CastPush{.record = slot + (is_alone ? 0 : count), .viewport = viewport});

@@ -9,7 +9,7 @@ layout(location = 2) flat in uint in_draw;
 
 void main() {
     const Footprint uv = footprint(in_uv);
-    const MaterialRecord material = materials[draws[in_draw].material];
+    const MaterialRecord material = material_of(in_draw);
     if (material.alpha_mode != alpha_mask) return;
     float alpha = material.base_color.a * in_alpha;
     if (is_used(base_color_texture)) alpha *= texture_at(material.textures[base_color_texture], uv).a;

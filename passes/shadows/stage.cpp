@@ -7,7 +7,7 @@ namespace strata::shadows {
 namespace {
 
 std::optional<std::string> unwanted(const Features& features) {
-    if (features.has(Feature::shadows)) return std::nullopt;
+    if (features.has(Feature::shadows)) return info(Stage::culling).unwanted(features);
     return "no light of the frame casts shadows";
 }
 

@@ -8,7 +8,6 @@
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
 #include "passes/shaders/ordering.shared.h"
-#include "passes/transparency/event.shared.h"
 #include "passes/transparency/event_material.glsl"
 #include "passes/transparency/sanitize.glsl"
 
@@ -25,10 +24,9 @@ layout(constant_id = 1) const uint soft_fade = 0u;      // 1: the frame has soft
 layout(constant_id = 2) const float sample_near = 0.0;  // the near plane with several samples, 0 with one
 layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has materials that distort
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
-layout(constant_id = 9) const uint drawn = 3u;           // bits: what the frame has of meshes_drawn and particles_drawn
 layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has none
 layout(constant_id = 22) const uint light_features = every_light_feature;
-layout(constant_id = 29) const uint has_lit_surfaces = 1u;  // 0: every transparent draw is unlit, or of particles, which are
+layout(constant_id = 29) const uint has_lights = 1u;  // 0: the frame has none, as it must be where light_count is 0
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -63,11 +61,15 @@ bool reached(LightRecord light, MaterialPoint m) {
 
 // All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
 vec3 lit(MaterialPoint m) {
-    if (has_lit_surfaces == 0u) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
+    if (used_models == 1u << model_unlit) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
-    for (uint i = 0u; i < view.light_count; ++i)
+    if (has_lights == 0u) return sum;
+    // The condition last: llvmpipe runs the body once more, without effect, where it is first.
+    uint i = 0u;
+    do {
         if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
+    } while (++i < view.light_count);
     return sum;
 }
 
@@ -118,15 +120,13 @@ float ordering_depth(float z) {
 }
 
 // glTF culls back faces in every alpha mode. A particle has none.
-bool is_culled() { return !gl_FrontFacing && !is_double_sided(); }
+bool is_culled() { return !gl_FrontFacing && has_one_side(in_modes.z); }
 
 // Adds nothing, hides nothing and bends nothing, also where a technique does not ask whether it is visible.
 Event no_event() { return Event(position_here().z, 0.0, vec3(0.0), vec3(1.0), vec3(0.0), vec2(0.0), false); }
 
-bool is_particle() { return drawn == particles_drawn || drawn != meshes_drawn && in_draw >= view.first_emitter; }
-
 Event transparent_event() {
-    const bool particle = is_particle();
+    const bool particle = is_emitter(in_draw);
     const float scale = to_sample();
     const vec4 color = particle ? vec4(1.0) : in_color * scale;
     const vec4 tangent = vec4(in_tangent.xyz, sign(in_tangent.w));
@@ -142,7 +142,8 @@ Event transparent_event() {
         event.visible = event.visible || is_finite(event.z) && event.d != vec2(0.0);
     }
     if (!particle && is_culled()) event = no_event();
-    event.z = ordering_depth(event.z - in_emissive.w * scale);
+    const float offset = drawn == meshes_drawn ? 0.0 : in_emissive.w * scale;
+    event.z = ordering_depth(event.z - offset);
     return event;
 }
 

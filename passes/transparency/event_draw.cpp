@@ -3,20 +3,11 @@
 #include <cassert>
 #include <utility>
 
+#include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/scene/texture_uses.h"
-#include "passes/transparency/event.shared.h"
 
 namespace strata {
 namespace {
-
-/// The constant `drawn` of event.glsl.
-std::uint32_t drawn(const FrameImages& images) {
-    std::uint32_t bits = 0;
-    for (const std::uint32_t index : images.facts->lists().transparent)
-        bits |= index < images.recorded->draws.size() ? meshes_drawn : particles_drawn;
-    return bits;
-}
 
 DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
@@ -24,13 +15,12 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("sample_near", images.samples > 1 ? images.recorded->view.near : 0.f)
         .fixes("distorts", images.features->has(Feature::distortion) ? 1u : 0u)
         .fixes("has_interfaces", images.features->has(Feature::interface_layers) ? 1u : 0u)
-        .fixes("drawn", drawn(images))
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
         .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features())
-        .fixes("has_lit_surfaces", has_lit_surfaces(*images.recorded, images.facts->lists()) ? 1u : 0u)
+        .fixes("has_lights", images.facts->lights().empty() ? 0u : 1u)
         .culls(hidden_side(images));
-    return fix_textures(pass, images, Surfaces::transparent);
+    return fix_materials(pass, images, Surfaces::transparent);
 }
 
 }  // namespace
@@ -60,7 +50,7 @@ std::vector<DrawList> drawn_at(const FrameImages& images, Resolution resolution)
         const bool is_mesh = draws[i] < frame.draws.size();
         const Resolution at =
             is_mesh ? frame.draws[draws[i]].resolution : frame.emitters[draws[i] - frame.draws.size()].resolution;
-        if (at == resolution && !goes_on) stretches.push_back({list.commands, list.indices, list.first + i, 0});
+        if (at == resolution && !goes_on) stretches.push_back({list.commands, list.indices, list.first + i, 0, list.of_places});
         goes_on = at == resolution;
         if (goes_on) ++stretches.back().count;
     }

@@ -14,7 +14,6 @@ layout(location = 13) flat in vec4 in_row1;
 
 float soft_fade_metres() { return in_row0.w; }
 float distortion_here() { return in_row1.w; }
-bool is_double_sided() { return in_modes.z != 0u; }
 uint layer_here() { return in_modes.w; }
 
 MaterialRecord material_here(uint draw) {
@@ -22,7 +21,7 @@ MaterialRecord material_here(uint draw) {
     material.base_color = in_base_color;
     material.alpha_mode = in_modes.x;
     material.lighting_model = in_modes.y;
-    return material;
+    return as_used(material);
 }
 
 // The texture of the base color, which nearly all transparent surfaces have and often no other.

@@ -82,6 +82,10 @@ public:
     std::uint64_t image_bytes(const Shape& shape) const override { return device_bytes(*device_, shape); }
     std::uint64_t buffer_bytes(std::uint64_t bytes) const override { return device_bytes(*device_, bytes, MemoryUse::buffers); }
     void forget_plan() override { memory_.reset(); }
+    void give_back_memory() override {
+        memory_.reset();
+        device_->memory().give_back_empty();
+    }
 
 private:
     /// What one run needs besides the plan.

@@ -96,8 +96,10 @@ public:
     /// What an image of a shape and a buffer take of the device.
     virtual std::uint64_t image_bytes(const Shape&) const = 0;
     virtual std::uint64_t buffer_bytes(std::uint64_t bytes) const = 0;
-    /// Gives back what the latest plan holds.
+    /// Frees what the latest plan holds.
     virtual void forget_plan() = 0;
+    /// The same, and gives the device back all memory that nothing lies in: the next run takes it anew.
+    virtual void give_back_memory() = 0;
 };
 
 }  // namespace strata

@@ -118,6 +118,10 @@ Memory MemoryPool::allocate(const vk::MemoryRequirements& needed, MemoryUse use)
     return {block, *block.take(needed.size, needed.alignment), needed.size};
 }
 
+void MemoryPool::give_back_empty() {
+    std::erase_if(blocks_, [](const auto& block) { return block->is_empty(); });
+}
+
 std::uint32_t MemoryPool::type_for(std::uint32_t allowed, MemoryUse use) const {
     using Bit = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags host = Bit::eHostVisible | Bit::eHostCoherent;

@@ -56,6 +56,8 @@ public:
     /// Throws vk::OutOfDeviceMemoryError, also where the budget is exceeded.
     Memory allocate(const vk::MemoryRequirements&, MemoryUse);
     const PoolBytes& bytes() const { return *bytes_; }
+    /// Gives the device back what nothing lies in.
+    void give_back_empty();
 
 private:
     std::uint32_t type_for(std::uint32_t allowed, MemoryUse) const;

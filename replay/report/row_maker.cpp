@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "replay/measure/host_memory.h"
 #include "replay/plural.h"
 #include "replay/report/enough_repeats.h"
 
@@ -11,7 +10,7 @@ namespace {
 
 /// Rows that are timed beside each other. A row waits for the others of its group until its times are known, and the pipelines of
 /// a group are kept; but each group runs the unit, too, and what comes before the stage.
-constexpr std::size_t rows_at_once = 8;
+constexpr std::size_t rows_at_once = 4;
 
 }  // namespace
 
@@ -21,7 +20,6 @@ std::size_t least_repeats_of(const ReportRequest& wanted) {
 
 Result<void> RowMaker::make_all(const Progress& tell) {
     while (report_->rows.size() < all_.size() && report_->stopped.empty()) {
-        release_freed_memory();
         const std::size_t begin = report_->rows.size(), end = std::min(begin + rows_at_once, all_.size());
         if (const auto made = make_group(end, tell); made) continue;
         else if (made.error().fault != Fault::stopped || report_->rows.empty()) return made;
@@ -68,6 +66,7 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
     const std::size_t begin = report_->rows.size();
     for (std::size_t i = begin; i < end; ++i) {
         const Variant& variant = all_[i];
+        session_->give_back_memory();
         tell(fmt::format("{} of {}, {}", i + 1, all_.size(), label(variant.technique->name, variant.settings)),
              double(i) / double(all_.size()));
         auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, *yardstick_);

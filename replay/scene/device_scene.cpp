@@ -39,9 +39,10 @@ constexpr BufferRow rows[] = {
     {"BlockerPortals", bytes_of<&SceneRecords::blocker_portals>},
     {"ClipPlanes", bytes_of<&SceneRecords::clip_planes>},
     {"LtcTable", ltc_bytes},
-    // Not offered to shaders as such, but the source of every draw list.
+    // The sources of every draw list; of these, Indices alone is offered to shaders.
     {"DrawCommands", bytes_of<&SceneRecords::commands>},
     {"Indices", bytes_of<&SceneRecords::indices>},
+    {"Places", bytes_of<&SceneRecords::places>},
     {"VertexNormals", bytes_of<&SceneRecords::normals>},
     {"VertexTangents", bytes_of<&SceneRecords::tangents>},
     {"VertexUvs", bytes_of<&SceneRecords::uvs>},
@@ -76,6 +77,7 @@ void DeviceScene::describe(const SceneRecords& scene) {
     casters_ = scene.casters;
     transparent_ = scene.transparent;
     numbered_ = scene.numbered;
+    separate_ = scene.separate;
     back_to_front_ = scene.back_to_front;
 }
 
@@ -101,7 +103,10 @@ void DeviceScene::import_into(Graph& graph, FrameImages& images) const {
     images.casters = list(casters_);
     images.transparent = list(transparent_);
     images.numbered = list(numbered_);
-    images.numbered.indices = {};
+    images.numbered.indices = buffers[row_of("Places")];
+    images.separate = list(separate_);
+    images.separate.indices = {};
+    images.numbered.of_places = images.separate.of_places = true;
     images.back_to_front = list(back_to_front_);
 }
 

@@ -25,7 +25,7 @@ public:
 private:
     Executor* executor_;
     std::vector<std::uint64_t> bytes_;  ///< by row of the buffer table
-    CommandRange opaque_, casters_, transparent_, numbered_, back_to_front_;
+    CommandRange opaque_, casters_, transparent_, numbered_, separate_, back_to_front_;
 };
 
 /// Import ids below this belong to the scene, those from here to first_free_import to given outputs (Declaration::given).

@@ -1,8 +1,10 @@
 // Meshes and particles as vertices, indices, draws and indirect commands. Meshes are stored once however many draws use them;
 // particles become camera-facing quads in view space, in the corner order that passes/reference/fragments.h states. On the device
 // a vertex takes 12 bytes and what else its mesh has: normal 12, tangent 16, uv 8 each, color 16; a particle takes 84. An index
-// takes 4, and a particle has 12 of them: 6 in submission order, 6 from back to front.
+// takes 4, and 4 more where a transparent draw has it; a particle has 12 of them, 6 in submission order, 6 from back to front,
+// and 24 bytes more.
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "passes/scene/object_order.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/scene/view_space.h"
+#include "replay/scene/numbering.h"
 #include "replay/scene/scene_records.h"
 
 namespace strata {
@@ -102,7 +105,6 @@ DrawRecord draw_record(const Frame& frame, const Draw& draw, const BoundingSpher
         .to_view = glm::mat4(to_view),
         .normal_to_view = glm::mat3(is_flat(to_view) ? linear : glm::transpose(glm::inverse(linear))),
         .material = draw.material,
-        .submission = 0,
         .soft_fade = 0,
         .layer = draw.layer,
         .bound_center = glm::vec3(bound.center),
@@ -124,7 +126,6 @@ DrawRecord emitter_record(const Frame& frame, std::size_t index, const SceneReco
         .to_view = glm::mat4(1),
         .normal_to_view = glm::mat3(1),
         .material = static_cast<uint>(frame.materials.size() + index),
-        .submission = 0,
         .soft_fade = emitter.soft_depth_fade,
         .layer = emitter.layer,
         .bound_center = glm::vec3(0),
@@ -144,6 +145,22 @@ CommandRange add_commands(std::span<const std::uint32_t> listed, std::span<const
     const CommandRange range{static_cast<std::uint32_t>(scene.commands.size()), static_cast<std::uint32_t>(listed.size())};
     for (const std::uint32_t draw : listed) scene.commands.push_back(of_draw[draw]);
     return range;
+}
+
+/// The listed draws over places, which those of one range of indices share.
+std::vector<DrawCommand> numbered(std::vector<DrawCommand> commands, std::span<const std::uint32_t> listed, SceneRecords& scene) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_places;  // by the range's first and its count
+    for (const std::uint32_t draw : listed) {
+        DrawCommand& command = commands[draw];
+        const auto [place, is_new] = first_places.try_emplace({command.first_index, command.index_count});
+        if (is_new) {
+            place->second = static_cast<std::uint32_t>(scene.places.size());
+            add_places(scene.indices, command.first_index, command.index_count, scene.places);
+        }
+        command.first_index = place->second;
+        command.vertex_offset = 0;
+    }
+    return commands;
 }
 
 /// As VkDrawIndirectCommand in the same 20 bytes: the first vertex is the first place in the list of indices.
@@ -186,7 +203,6 @@ void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
         sorted.push_back({count, 1, add_quads(back_to_front_particles(frame, emitter), scene), 0, index});
     }
     for (std::uint32_t i = 0; i < scene.draws.size(); ++i) {
-        scene.draws[i].submission = i;
         scene.draws[i].first_index = submitted[i].first_index;
         scene.draws[i].vertex_offset = static_cast<uint>(submitted[i].vertex_offset);
     }
@@ -194,7 +210,8 @@ void add_geometry(const SceneFacts& facts, SceneRecords& scene) {
     scene.opaque = add_commands(facts.lists().opaque, submitted, scene);
     scene.casters = add_commands(facts.lists().casters, submitted, scene);
     scene.transparent = add_commands(facts.lists().transparent, submitted, scene);
-    scene.numbered = add_commands(facts.lists().transparent, not_indexed(submitted), scene);
+    scene.numbered = add_commands(facts.lists().transparent, numbered(submitted, facts.lists().transparent, scene), scene);
+    scene.separate = add_commands(facts.lists().transparent, not_indexed(submitted), scene);
     scene.back_to_front = add_commands(back_to_front_draws(frame), sorted, scene);
 }
 

@@ -34,13 +34,14 @@ struct SceneRecords : LightRecords {
     std::vector<glm::vec4> particle_bottoms, particle_tops, particle_uvs, particle_glows;
     std::vector<float> particle_depths;
     std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> places;      ///< in indices: what numbered draws have for theirs (numbering.h)
     std::vector<DrawRecord> draws;          ///< Frame::draws, then one per emitter
     std::vector<MaterialRecord> materials;  ///< Frame::materials, then one per emitter
     std::vector<TextureRecord> textures;
     std::vector<std::uint32_t> texels;
     std::vector<ShadowRecord> shadows;
     std::vector<DrawCommand> commands;
-    CommandRange opaque, casters, transparent, numbered, back_to_front;
+    CommandRange opaque, casters, transparent, numbered, separate, back_to_front;
 };
 
 SceneRecords scene_records(const SceneFacts&);

@@ -47,6 +47,7 @@ public:
     void stop_when(std::stop_token stop) override { stop_ = std::move(stop); }
     void forget_memo() override;
     void limit_memo(std::uint64_t bytes) override;
+    void give_back_memory() override;
 
     /// A run that executes everything, with what each step took and counted.
     struct TimedRun {

@@ -212,6 +212,11 @@ void DeviceSession::forget_memo() {
     remembered_.clear();
 }
 
+void DeviceSession::give_back_memory() {
+    executor_->give_back_memory();
+    release_freed_memory();
+}
+
 Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions options) {
     options.stop = stop_;
     const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();

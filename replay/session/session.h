@@ -225,6 +225,9 @@ public:
     virtual void limit_memo(std::uint64_t /*bytes*/) {}
     /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;
+    /// Frees what the latest run's plan holds and gives the system back what is kept for the next one, on the device and on the
+    /// host: for who runs many different requests.
+    virtual void give_back_memory() {}
 };
 
 }  // namespace strata

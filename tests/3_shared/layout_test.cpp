@@ -59,7 +59,6 @@ std::vector<Record> geometry_records() {
              {{"to_view", offsetof(D, to_view)},
               {"normal_to_view", offsetof(D, normal_to_view)},
               {"material", offsetof(D, material)},
-              {"submission", offsetof(D, submission)},
               {"soft_fade", offsetof(D, soft_fade)},
               {"layer", offsetof(D, layer)},
               {"bound_center", offsetof(D, bound_center)},

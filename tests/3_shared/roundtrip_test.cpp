@@ -75,28 +75,27 @@ TEST(RoundTrip, ADrawArrivesWithItsMatrices) {
     for (int column = 0; column < 3; ++column)
         for (int i = 0; i < 3; ++i) draw.normal_to_view[column][i] = static_cast<float>(3 * column + i + 17);
     draw.material = 26;
-    draw.submission = 27;
-    draw.soft_fade = 28;
-    draw.layer = 29;
-    draw.bound_center = {30, 31, 32};
-    draw.bound_radius = 33;
+    draw.soft_fade = 27;
+    draw.layer = 28;
+    draw.bound_center = {29, 30, 31};
+    draw.bound_radius = 32;
     for (int column = 0; column < 4; ++column)
-        for (int i = 0; i < 4; ++i) draw.motion[column][i] = static_cast<float>(4 * column + i + 34);
-    draw.first_index = 50;
-    draw.vertex_offset = 51;
-    draw.normals = 52;
-    draw.tangents = 53;
-    draw.uv0 = 54;
-    draw.uv1 = 55;
-    draw.colors = 56;
-    draw.first_particle = 57;
+        for (int i = 0; i < 4; ++i) draw.motion[column][i] = static_cast<float>(4 * column + i + 33);
+    draw.first_index = 49;
+    draw.vertex_offset = 50;
+    draw.normals = 51;
+    draw.tangents = 52;
+    draw.uv0 = 53;
+    draw.uv1 = 54;
+    draw.colors = 55;
+    draw.first_particle = 56;
     const auto seen =
         members_seen_by_a_shader(draw, "DrawRecord",
-                                 "see(r.to_view); see(r.normal_to_view); see(r.material); see(r.submission);"
+                                 "see(r.to_view); see(r.normal_to_view); see(r.material);"
                                  "see(r.soft_fade); see(r.layer); see(r.bound_center); see(r.bound_radius); see(r.motion);"
                                  "see(r.first_index); see(r.vertex_offset); see(r.normals); see(r.tangents); see(r.uv0);"
                                  "see(r.uv1); see(r.colors); see(r.first_particle);");
-    ASSERT_EQ(seen.size(), 57u);
+    ASSERT_EQ(seen.size(), 56u);
     for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<float>(i + 1)) << "member " << i;
 }
 

@@ -246,10 +246,10 @@ TEST(SceneFacts, DeriveNothingBeforeItIsAskedForAndNothingTwice) {
     EXPECT_EQ(facts.derived(), 4u);
     EXPECT_EQ(&facts.shadow_views(Allocation::own), views);
     EXPECT_EQ(facts.derived(), 4u);
-    const auto* rows = &facts.fragment_bounds({16, 16, 1});
-    facts.fragment_bounds({8, 8, 1});
-    EXPECT_EQ(&facts.fragment_bounds({16, 16, 1}), rows);
-    EXPECT_EQ(facts.derived(), 6u) << "bounds, once per extent";
+    const auto* rows = &facts.fragment_bounds({16, 16, 1}, 1);
+    facts.fragment_bounds({8, 8, 1}, 1);
+    EXPECT_EQ(&facts.fragment_bounds({16, 16, 1}, 1), rows);
+    EXPECT_EQ(facts.derived(), 6u) << "bounds, once per extent and samples";
 }
 
 }  // namespace

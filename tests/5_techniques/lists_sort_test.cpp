@@ -49,40 +49,29 @@ protected:
         const std::uint32_t groups = (cells + cells_per_group - 1) / cells_per_group;
         const Band band{0, 1, cells, 1, 0};
         Graph graph;
-        const Buffer counted = import(graph, "counts", counts);
-        Buffer within = graph.create("starts", cells * sizeof(std::uint32_t));
-        Buffer of_groups = graph.create("group starts", groups * sizeof(std::uint32_t));
+        transparency::EventLists lists{.starts = graph.create("starts", cells * sizeof(std::uint32_t)),
+                                       .ends = import(graph, "counts", counts),
+                                       .group_starts = graph.create("group starts", groups * sizeof(std::uint32_t))};
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
         graph.clear(counters, 0);
-        graph.compute("transparency/lists/scan_cells.comp")
-            .loads("Counts", counted)
-            .stores("Starts", within)
-            .stores("GroupStarts", of_groups)
-            .updates("Counters", counters)
-            .push(band)
-            .groups({groups, 1, 1});
-        graph.compute("transparency/lists/scan_groups.comp").updates("GroupStarts", of_groups).push(band).groups({1, 1, 1});
-        graph.keep(within);
-        graph.keep(of_groups);
-        const Execution done = shared_executor().run(must(compile(graph, ShaderLibrary::built_in())), {});
-        auto result = values_of<std::uint32_t>(done.buffers.at(within.id));
-        const auto group_starts = values_of<std::uint32_t>(done.buffers.at(of_groups.id));
-        for (std::size_t i = 0; i < result.size(); ++i) result[i] += group_starts[i / cells_per_group];
-        return result;
+        graph.offer("Counters", counters);
+        transparency::place_lists(graph, lists, band);
+        graph.keep(lists.starts);
+        return values_of<std::uint32_t>(run(graph, lists.starts));
     }
 
     /// Lists of these lengths lie one after the other in `keys`, one per cell.
     std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const std::vector<ListKey>& keys,
                                 std::uint32_t order) {
         const Band band{0, 1, static_cast<std::uint32_t>(lengths.size()), 1, static_cast<std::uint32_t>(keys.size())};
-        std::vector<std::uint32_t> places;
-        std::uint32_t place = 0;
-        for (const std::uint32_t length : lengths) places.push_back(std::exchange(place, place + length));
+        std::vector<std::uint32_t> starts, ends;
+        for (const std::uint32_t length : lengths) {
+            starts.push_back(ends.empty() ? 0 : ends.back());
+            ends.push_back(starts.back() + length);
+        }
         Graph graph;
-        transparency::EventLists lists{.counts = import(graph, "counts", lengths),
-                                       .starts = import(graph, "starts", places),
-                                       .group_starts = import(graph, "group starts", std::vector<std::uint32_t>(1, 0u)),
-                                       .layers = std::ranges::max(lengths)};
+        transparency::EventLists lists{
+            .starts = import(graph, "starts", starts), .ends = import(graph, "ends", ends), .layers = std::ranges::max(lengths)};
         transparency::create_keys(graph, lists, band.pool);
         graph.copy(import(graph, "keys", keys), lists.keys);
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));

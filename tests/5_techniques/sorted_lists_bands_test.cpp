@@ -51,7 +51,7 @@ const std::vector<Banded>& banded() {
     static const std::vector<Banded> techniques = {
         {"transparency/sorted_lists", "pool=64", "pool=0.01", "transparency/lists/fill"},
         {"transparency/multi_layer", "pool=64", "pool=0.01", "transparency/lists/fill"},
-        {"transparency/adaptive", "pool=64", "pool=0.01", "transparency/lists/count"},
+        {"transparency/adaptive", "pool=64", "pool=0.01", "transparency/adaptive/accumulate"},
         {"transparency/exact_function", "pool=64", "pool=0.01", "transparency/exact_function/accumulate"},
         {"transparency/stochastic", "memory=256", "memory=0.0625", "transparency/stochastic/shade"},
     };
@@ -117,14 +117,28 @@ TEST(Bands, AreDrawnRowByRowWithoutGapAndWithoutOverlap) {
 }
 
 TEST(Bands, OfHalfResolutionAreDrawnInHalfTheRows) {
-    const Banded& method = banded()[3];
-    const Plan plan = must(odd_rows().plan(banded_request(2, method, method.bands))).plan;
-    std::uint32_t next = 0;
-    for (const Rows& band : rows_drawn(plan, method.draw, 35)) {
-        EXPECT_EQ(band.first, next);
-        next = band.first + band.count;
+    for (const Banded& method : {banded()[2], banded()[3]}) {
+        const Plan plan = must(odd_rows().plan(banded_request(2, method, method.bands))).plan;
+        std::uint32_t next = 0;
+        for (const Rows& band : rows_drawn(plan, method.draw, 35)) {
+            EXPECT_EQ(band.first, next);
+            next = band.first + band.count;
+        }
+        EXPECT_EQ(next, 35u) << method.technique;
     }
-    EXPECT_EQ(next, 35u);
+}
+
+TEST(Bands, OfCurvesFitWhatEveryDeviceBinds) {
+    Frame frame = scenario_frames("three_cards", 4).front();
+    frame.view.width = 1920, frame.view.height = 1080;
+    const auto session = must(Session::open({frame}, {}));
+    const Plan plan = must(session->plan({.choices = chosen({"transparency/adaptive"}, {"nodes=16"})})).plan;
+    std::uint64_t largest = 0, drawn = 0;
+    for (const BufferRecord& buffer : plan.buffers) largest = std::max(largest, buffer.bytes);
+    for (const Rows& band : rows_drawn(plan, "transparency/adaptive/accumulate", 1080)) drawn += band.count;
+    EXPECT_LE(largest, 128u << 20);
+    EXPECT_GT(largest, 100u << 20) << "and bands are no smaller than need be";
+    EXPECT_EQ(drawn, 1080u);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// Shaders of transparent surfaces are specialized to what the frame draws and to its textures. What a frame has besides, out of
-// sight, makes them general and must not change a bit.
+// Shaders of surfaces are specialized to what the frame draws, to its meshes, materials and textures. What a frame has besides,
+// out of sight, makes them general and must not change a bit.
 #include <gtest/gtest.h>
 
+#include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
-#include "passes/scene/texture_uses.h"
+#include "passes/shaders/uses.shared.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -37,6 +38,32 @@ void add_unseen_particle(Frame& frame) {
     Emitter emitter{.particles = {{.center = behind_the_camera(frame.view)}}};
     emitter.texture = add_texture(frame, AddressMode::repeat);
     frame.emitters.push_back(std::move(emitter));
+}
+
+/// A draw behind the camera of a mesh that has every attribute, with a material that has everything that others may lack.
+void add_unseen_variety(Frame& frame, AlphaMode mode) {
+    Mesh mesh = frame.meshes.front();
+    const std::size_t vertices = mesh.positions.size();
+    mesh.normals.assign(vertices, {0, 0, 1});
+    mesh.tangents.assign(vertices, {1, 0, 0, 1});
+    mesh.uv0.assign(vertices, {.25f, .5f});
+    mesh.uv1.assign(vertices, {.5f, .25f});
+    mesh.colors.assign(vertices, glm::vec4(.5f));
+    frame.meshes.push_back(std::move(mesh));
+    Material material{.name = "unseen", .lighting_model = LightingModel::ggx, .alpha_mode = mode};
+    material.base_color = glm::vec4(.5f);
+    material.metallic = .5f;
+    material.emissive = glm::vec3(1);
+    material.double_sided = !frame.materials.front().double_sided;
+    for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                            &material.emissive_texture, &material.occlusion_texture})
+        use->texture = add_texture(frame, AddressMode::mirror);
+    frame.materials.push_back(material);
+    Draw draw = frame.draws.front();
+    draw.mesh = static_cast<std::uint32_t>(frame.meshes.size() - 1);
+    draw.material = static_cast<std::uint32_t>(frame.materials.size() - 1);
+    draw.to_world[3] = glm::dvec4(behind_the_camera(frame.view), 1);
+    frame.draws.push_back(draw);
 }
 
 Frame smoke_alone(std::uint32_t samples) {
@@ -80,9 +107,69 @@ TEST(SpecializedEvents, OfMeshesAreThoseOfAFrameWithParticlesToo) {
     }
 }
 
-std::uint32_t addresses(const Frame& frame) {
-    return texture_uses(frame, SceneFacts(frame).lists(), Surfaces::transparent).addresses;
+TEST(SpecializedEvents, OfPlainMaterialsAreThoseOfAFrameWithAllKinds) {
+    for (const std::uint32_t samples : {1u, 4u})
+        for (const AlphaMode mode : {AlphaMode::blend, AlphaMode::premultiplied}) {
+            Frame more = glass_alone(samples);
+            add_unseen_variety(more, mode);
+            expect_same_bits(glass_alone(samples), more);
+        }
 }
+
+TEST(SpecializedSurfaces, OfPlainMaterialsAreThoseOfAFrameWithAllKinds) {
+    for (const char* scenario : {"opaque_only", "glass_and_smoke"})
+        for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask}) {
+            Frame alone = scenario_frames(scenario, 1).front();
+            alone.view.width = 96, alone.view.height = 54;
+            Frame more = alone;
+            add_unseen_variety(more, mode);
+            const auto session = must(Session::open({alone, more}, {.validation = true}));
+            Request first{.outputs = {"gbuffer0", "gbuffer1", "emission", "color"}}, second = first;
+            second.variant.frame = 1;
+            const auto a = must(session->run(first)), b = must(session->run(second));
+            for (const std::string& image : first.outputs)
+                EXPECT_TRUE(a.images.at(image).texels == b.images.at(image).texels) << scenario << ": " << image;
+        }
+}
+
+MaterialUses transparent_uses(const Frame& frame) {
+    return material_uses(frame, SceneFacts(frame).lists(), Surfaces::transparent);
+}
+
+TEST(MaterialUses, AreThoseOfTheDrawnMeshesAndMaterialsAlone) {
+    Frame frame = smoke_alone(1);
+    EXPECT_EQ(transparent_uses(frame).drawn, particles_drawn);
+    EXPECT_EQ(transparent_uses(frame).models, 1u) << "sprites are unlit";
+    EXPECT_EQ(transparent_uses(frame).attributes, 0u);
+    add_unseen_variety(frame, AlphaMode::opaque);
+    EXPECT_EQ(transparent_uses(frame).properties, property_both_sides) << "of opaque draws nothing";
+    add_unseen_variety(frame, AlphaMode::blend);
+    const MaterialUses all = transparent_uses(frame);
+    EXPECT_EQ(all.drawn, meshes_drawn | particles_drawn);
+    EXPECT_EQ(all.models, 1u | 1u << static_cast<std::uint32_t>(LightingModel::ggx));
+    EXPECT_EQ(all.attributes, attribute_normal | attribute_tangent | attribute_uv0 | attribute_uv1 | attribute_color);
+    EXPECT_EQ(all.properties & (property_metallic | property_emissive | property_transmission),
+              property_metallic | property_emissive);
+}
+
+TEST(MaterialUses, HaveNoAttributesThatNothingReads) {
+    Frame frame = glass_alone(1);
+    std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
+    add_unseen_variety(frame, AlphaMode::blend);
+    Material& material = frame.materials.back();
+    for (TextureUse* use : {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+                            &material.emissive_texture, &material.occlusion_texture})
+        use->texture = no_index;
+    EXPECT_EQ(transparent_uses(frame).attributes, attribute_normal | attribute_color) << "tangents and uv are for textures";
+    material.lighting_model = LightingModel::unlit;
+    EXPECT_EQ(transparent_uses(frame).attributes, attribute_color) << "normals are for light";
+    material.distortion = .1f;
+    EXPECT_EQ(transparent_uses(frame).attributes, attribute_normal | attribute_color) << "and for distortion";
+    material.lighting_model = LightingModel::hair;
+    EXPECT_EQ(transparent_uses(frame).attributes, attribute_normal | attribute_tangent | attribute_color) << "fibres";
+}
+
+std::uint32_t addresses(const Frame& frame) { return transparent_uses(frame).addresses; }
 
 TEST(SpecializedEvents, KnowTheAddressModesOfBothDirections) {
     Frame frame = smoke_alone(1);

@@ -128,23 +128,23 @@ TEST(ActKeys, DependOnTheShadersThatReplaceThoseBuiltIn) {
 }
 
 TEST(ActKeys, OfDrawsDependOnTheVertexShaderThatDrawsTheirList) {
-    const auto key = [](bool is_indexed, const ShaderLibrary& shaders) {
+    const auto key = [](bool of_places, const ShaderLibrary& shaders) {
         Graph graph;
         Image color = graph.create("color", {.extent = {8, 8}, .format = Format::rgba16f});
         const Buffer commands = graph.create("commands", 20);
-        const Buffer indices = is_indexed ? graph.create("indices", 4) : Buffer();
+        const Buffer indices = graph.create("indices", 4);
         graph.enter({});
-        graph.draw("some/shade", {commands, indices, 0, 1}).covers(color);
+        graph.draw("some/shade", {commands, indices, 0, 1, of_places}).covers(color);
         const Technique technique{.stage = Stage::gbuffer, .name = "gbuffer/some"};
         return ActKeys(frame_key, run_number, shaders)
             .key(graph, {.technique = &technique, .at = Stage::gbuffer, .scope = 1}, {});
     };
-    for (const bool is_indexed : {false, true})
+    for (const bool of_places : {false, true})
         for (const char* shader : {mesh_vertex_shader, numbered_vertex_shader}) {
             ShaderLibrary replaced(&ShaderLibrary::built_in());
             replaced.add({.name = shader, .hash = 5});
-            const bool draws_it = is_indexed == (shader == std::string_view(mesh_vertex_shader));
-            EXPECT_EQ(key(is_indexed, ShaderLibrary::built_in()) != key(is_indexed, replaced), draws_it) << shader;
+            const bool draws_it = of_places == (shader == std::string_view(numbered_vertex_shader));
+            EXPECT_EQ(key(of_places, ShaderLibrary::built_in()) != key(of_places, replaced), draws_it) << shader;
         }
 }
 

@@ -58,7 +58,7 @@ TEST(ExhaustiveScale, FiveMillionParticlesAddUpInEveryPixel) {
     for (const glm::dvec4& texel : in_double(run.images.at("color")).texels)
         ASSERT_EQ(glm::dvec3(texel), glm::dvec3(per_pixel / 1024.));
     RecordProperty("bytes per particle", fmt::format("{:.1f}", bytes_per(run, empty, particles)));
-    EXPECT_LT(bytes_per(run, empty, particles), 140);  // a record of 84 and 12 indices
+    EXPECT_LT(bytes_per(run, empty, particles), 160);  // a record of 84, 12 indices and 6 places
 }
 
 TEST(ExhaustiveScale, TwentyMillionTrianglesAreOnePlane) {

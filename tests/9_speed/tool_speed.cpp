@@ -1,5 +1,6 @@
-// What the program costs around the rendering: from its start to the first picture, and a report beside single replays. Every
-// figure is a median over processes with its deviation; both sides of a ratio are measured in turn.
+// What the program costs around the rendering: from its start to the first picture, a report beside single replays, and a replay
+// beside that of its own calls by gfxrecon-replay, where GFXReconstruct is installed. Every figure is a median over processes
+// with its deviation; both sides of a ratio are measured in turn.
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,11 +44,15 @@ public:
     }
     std::filesystem::path capture() const { return folder_ / "frame.strata"; }
     /// Milliseconds from the start of the program to its end; throws when it fails.
-    double run(const std::string& arguments) const {
-        const std::string command =
-            fmt::format("cd '{}' && '{}/strata' {} > out.txt 2> err.txt", folder_.string(), STRATA_BINARY_DIR, arguments);
+    double run(const std::string& arguments) const { return run_command(strata(arguments)); }
+    static std::string strata(const std::string& arguments) {
+        return fmt::format("'{}/strata' {}", STRATA_BINARY_DIR, arguments);
+    }
+    /// The same of any command, in the folder.
+    double run_command(const std::string& command) const {
+        const std::string there = fmt::format("cd '{}' && {} > out.txt 2> err.txt", folder_.string(), command);
         HostTimer timer;
-        if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: strata " + arguments);
+        if (std::system(there.c_str()) != 0) throw std::runtime_error("failed: " + command);
         return timer();
     }
 
@@ -98,6 +103,38 @@ BENCHMARK_CAPTURE(start_to_first_picture, city_of_boxes, "city_of_boxes")
 BENCHMARK_CAPTURE(start_to_first_picture, glass_and_smoke, "glass_and_smoke")
     ->UseManualTime()
     ->Iterations(31)
+    ->Unit(benchmark::kMillisecond);
+
+/// The calls of a replay of ours, recorded by the layer of GFXReconstruct, are replayed by its program.
+void replay_beside_gfxrecon(benchmark::State& state, std::string_view scene) {
+    if (std::system("gfxrecon-replay --version > /dev/null 2>&1") != 0)
+        return state.SkipWithError("gfxrecon-replay is not installed");
+    const Scratch scratch(scene);
+    const std::string ours = Scratch::strata("replay frame.strata"), theirs = "gfxrecon-replay frame.gfxr";
+    scratch.run_command(
+        "env VK_INSTANCE_LAYERS=VK_LAYER_LUNARG_gfxreconstruct GFXRECON_CAPTURE_FILE=frame.gfxr "
+        "GFXRECON_CAPTURE_FILE_TIMESTAMP=false " +
+        ours);
+    if (!exists(scratch.capture().parent_path() / "frame.gfxr"))
+        return state.SkipWithError("the layer of GFXReconstruct is not found");
+    scratch.run_command(theirs);  // fills the driver's shader cache with what the layer changed
+    std::vector<double> ratio;
+    for (auto _ : state) {
+        const double by_us = scratch.run_command(ours), by_them = scratch.run_command(theirs);
+        ratio.push_back(by_us / by_them);
+        state.SetIterationTime(by_us / 1000);
+    }
+    const Spread spread = spread_of(ratio);
+    state.counters["to_gfxrecon"] = spread.median;
+    state.counters["mad"] = spread.mad;
+}
+BENCHMARK_CAPTURE(replay_beside_gfxrecon, smoke_grenade, "smoke_grenade")
+    ->UseManualTime()
+    ->Iterations(15)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(replay_beside_gfxrecon, city_of_boxes, "city_of_boxes")
+    ->UseManualTime()
+    ->Iterations(15)
     ->Unit(benchmark::kMillisecond);
 
 /// Twelve settings of transparency: every technique, and one parameter swept to fill up.

@@ -11,16 +11,19 @@ namespace {
 
 void add_color(Graph& graph, FrameImages& frame, const Settings&) {
     frame.color = graph.create("color", {.extent = frame.extent, .format = Format::rgba32f, .layers = frame.samples});
-    sample_edges(sample_gbuffer(graph.compute("combine/hi_lo/combine.comp"), frame), frame)
-        .samples("emission", frame.emission)
-        .samples("light", frame.light)
-        .samples("occlusion", frame.occlusion)
-        .samples("indirect", frame.indirect)
+    // Where nothing opaque is drawn there is a background alone, and nothing to read.
+    const bool has_surfaces = frame.emission && frame.all_opaque.count > 0;
+    const FrameImages read = has_surfaces ? frame : FrameImages{};
+    sample_edges(sample_gbuffer(graph.compute("combine/hi_lo/combine.comp"), read), read)
+        .samples("emission", read.emission)
+        .samples("light", read.light)
+        .samples("occlusion", read.occlusion)
+        .samples("indirect", read.indirect)
         .stores("color", frame.color)
-        .fixes("has_surfaces", frame.emission ? 1u : 0u)
-        .fixes("has_light", frame.light ? 1u : 0u)
-        .fixes("has_occlusion", frame.occlusion ? 1u : 0u)
-        .fixes("has_indirect", frame.indirect ? 1u : 0u)
+        .fixes("has_surfaces", has_surfaces ? 1u : 0u)
+        .fixes("has_light", read.light ? 1u : 0u)
+        .fixes("has_occlusion", read.occlusion ? 1u : 0u)
+        .fixes("has_indirect", read.indirect ? 1u : 0u)
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

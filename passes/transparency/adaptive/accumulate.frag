@@ -4,16 +4,18 @@
 #include "passes/transparency/adaptive/adaptive.shared.h"
 #include "passes/transparency/event.glsl"
 #include "passes/transparency/functions/outputs.glsl"
+#include "passes/transparency/lists/event_lists.shared.h"
+
+layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/lists/event_lists.glsl"
 
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 20, scalar) buffer Counters { FunctionCounters counters; };
 layout(constant_id = 10) const uint curve_nodes = 8u;
-layout(constant_id = 11) const uint samples = 1u;
 layout(set = 0, binding = 1, scalar) readonly buffer Curves { CurveNode curves[]; };
 
-vec3 transmittance(float z) {
-    const uvec2 pixel = texel_under(view.extent);
-    const uint first = ((pixel.y * view.extent.x + pixel.x) * samples + gl_SampleID) * curve_nodes;
+vec3 transmittance(uint cell, float z) {
+    const uint first = cell * curve_nodes;
     vec3 through = vec3(1.0);
     for (uint i = 0u; i < curve_nodes; ++i) {
         const CurveNode node = curves[first + i];
@@ -24,7 +26,8 @@ vec3 transmittance(float z) {
 
 void main() {
     const Event event = transparent_event();
-    if (!event.visible) discard;
+    const uvec2 pixel = texel_under(view.extent);
+    if (!event.visible || !in_band(pixel.y)) discard;
     atomicAdd(counters.drawn, 1u);
-    write_event(event, transmittance(event.z));
+    write_event(event, transmittance(cell_of(pixel, gl_SampleID), event.z));
 }

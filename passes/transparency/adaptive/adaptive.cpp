@@ -15,12 +15,16 @@ constexpr std::string_view node_counts[] = {"4", "8", "16"};
 
 std::uint32_t curve_nodes(const AdaptiveParams& params) { return 4u << params.nodes; }
 
+// Every device binds so much at once.
+constexpr std::uint64_t most_curve_bytes = 128ull << 20;
+
 FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, Offsets offsets) {
     const auto params = settings.as<AdaptiveParams>();
     const std::uint32_t nodes = curve_nodes(params);
-    const std::uint64_t samples = std::uint64_t{images.extent.width} * images.extent.height * images.samples;
-    Buffer curves = graph.create("adaptive curves", samples * nodes * sizeof(CurveNode));
-    EventLists lists = create_lists(graph, images, params.pool);
+    const std::uint64_t bytes_of_curve = nodes * sizeof(CurveNode);
+    EventLists lists = create_lists(graph, images, params.pool, most_curve_bytes / bytes_of_curve);
+    Buffer curves = graph.create("adaptive curves", most_cells(lists) * bytes_of_curve);
+    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
     for (const Band& band : lists.bands) {
         make_lists(graph, images, lists, band, list_order_submission);
         read_lists(graph.compute("transparency/adaptive/compress.comp"), lists, band)
@@ -28,11 +32,13 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
             .fixes("curve_nodes", nodes)
             .fixes("per_turn", fragments_per_turn(lists))
             .over(over(band));
+        draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawPass& draw, Resolution resolution) {
+            draw.loads("Curves", curves)
+                .push(band)
+                .in_rows(rows_of(band, resolution == Resolution::low ? 2 : 1))
+                .fixes("curve_nodes", nodes);
+        });
     }
-    FunctionSums drawn = create_sums(graph, images, {.accumulation = params.accumulation, .offsets = offsets});
-    draw_into(graph, "transparency/adaptive/accumulate", images, drawn, [&](DrawPass& draw, Resolution) {
-        draw.loads("Curves", curves).fixes("curve_nodes", nodes).fixes("samples", images.samples);
-    });
     return drawn;
 }
 

@@ -64,11 +64,11 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const uvec2 pixel = uvec2(at.x, at.y + band.first_row);
-    const uint cell = cell_of(pixel, at.z), start = list_start(cell), count = stored(start, counts[cell]);
+    const uint cell = cell_of(pixel, at.z), start = starts[cell], count = list_count(cell);
     for (uint i = 0u; i < count; i += per_turn)
         [[unroll]] for (uint k = 0u; k < per_turn; ++k)
             if (i + k < count) add(keys[start + i + k]);
     if (!finished(band.width)) atomicAdd(counters.lists.unfinished, 1u);
-    const uint first = ((pixel.y * band.width + pixel.x) * band.samples + at.z) * curve_nodes;
+    const uint first = cell * curve_nodes;
     for (uint i = 0u; i < curve_nodes; ++i) curves[first + i] = i < used ? nodes[i] : CurveNode(far_away, vec3(0.0));
 }

@@ -27,7 +27,7 @@ void main() {
     const Event event = transparent_event();
     const uvec2 pixel = texel_under(view.extent);
     if (!event.visible || !in_band(pixel.y)) discard;
-    const uint cell = cell_of(pixel, gl_SampleID), start = list_start(cell);
+    const uint cell = cell_of(pixel, gl_SampleID);
     atomicAdd(counters.drawn, 1u);
-    write_event(event, transmittance(start, stored(start, counts[cell]), event.z));
+    write_event(event, transmittance(starts[cell], list_count(cell), event.z));
 }

@@ -8,11 +8,10 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/places.glsl"
 #include "passes/transparency/lists/per_turn.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Keys { ListKey keys[]; };
 layout(set = 0, binding = 5, scalar) buffer Events { ListEvent events[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { FunctionCounters counters; };
@@ -28,7 +27,7 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const uint cell = cell_of(uvec2(at.x, at.y + band.first_row), at.z);
-    const uint start = list_start(cell), count = stored(start, counts[cell]);
+    const uint start = starts[cell], count = list_count(cell);
     for (uint i = 0u; i < count; i += per_turn)
         [[unroll]] for (uint k = 0u; k < per_turn; ++k)
             if (i + k < count) multiply(keys[start + i + k].event);

@@ -1,6 +1,6 @@
 #include "passes/transparency/functions/motion.h"
 
-#include "passes/scene/texture_uses.h"
+#include "passes/scene/material_uses.h"
 #include "passes/transparency/event_draw.h"
 
 namespace strata::transparency {
@@ -13,7 +13,7 @@ Image opaque_motion(Graph& graph, const FrameImages& images) {
     graph.clear(motion, {});
     if (images.opaque.count > 0) {
         DrawPass draw = graph.draw("transparency/functions/opaque_motion", images.opaque);
-        fix_textures(draw, images, Surfaces::opaque).tests_depth(images.depth).covers(motion);
+        fix_materials(draw, images, Surfaces::opaque).tests_depth(images.depth).covers(motion);
     }
     return by_sample(graph, motion);
 }

@@ -14,9 +14,9 @@ layout(location = 6) flat in uint in_draw;
 layout(location = 0) out vec4 out_motion;
 
 void main() {
-    const MaterialRecord material = materials[draws[in_draw].material];
+    const MaterialRecord material = material_of(in_draw);
     const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
-    if (!gl_FrontFacing && material.double_sided == 0u) discard;
+    if (!gl_FrontFacing && has_one_side(material.double_sided)) discard;
     if (m.alpha_mode == alpha_mask && m.alpha < material.mask_cutoff) discard;
     out_motion = vec4(pixels_moved(in_position, in_draw), 0.0, 0.0);
 }

@@ -9,10 +9,10 @@ layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/event_lists.glsl"
 
 layout(early_fragment_tests) in;
-layout(set = 0, binding = 1, scalar) buffer Counts { uint counts[]; };
+layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };
 
 void main() {
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
     if (!in_band(pixel.y)) return;
-    atomicAdd(counts[cell_of(pixel, gl_SampleID)], 1u);
+    atomicAdd(ends[cell_of(pixel, gl_SampleID)], 1u);
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "passes/scene/fragment_bounds.h"
+#include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/transparency/event_draw.h"
 #include "passes/transparency/layers_beyond.h"
@@ -16,13 +17,16 @@ namespace {
 std::uint32_t cells(const Band& band) { return band.width * band.rows * band.samples; }
 std::uint32_t groups(const Band& band) { return (cells(band) + cells_per_group - 1) / cells_per_group; }
 
-std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
-    const double limit = double(pool_millions) * 1e6 / images.samples;
-    const std::vector<std::uint64_t>& fragments_by_row = images.facts->fragment_bounds(images.extent).by_row;
+const FragmentBounds& bounds(const FrameImages& images) { return images.facts->fragment_bounds(images.extent, images.samples); }
+
+std::vector<Band> bands_within(const FrameImages& images, float pool_millions, std::uint64_t cell_limit) {
+    const auto limit = static_cast<std::uint64_t>(double(pool_millions) * 1e6);
+    const auto most_rows = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(cell_limit / (std::uint64_t{images.extent.width} * images.samples), images.extent.height));
     std::vector<Band> bands;
     std::uint64_t pool = 1;
-    for (const RowBand& rows : row_bands(fragments_by_row, static_cast<std::uint64_t>(limit))) {
-        pool = std::max(pool, rows.bound * images.samples);
+    for (const RowBand& rows : row_bands(bounds(images).by_row, limit, most_rows)) {
+        pool = std::max(pool, rows.bound);
         bands.push_back({rows.first_row, rows.rows, images.extent.width, images.samples, 0});
     }
     assert(pool <= std::numeric_limits<std::uint32_t>::max());
@@ -30,35 +34,28 @@ std::vector<Band> bands_within(const FrameImages& images, float pool_millions) {
     return bands;
 }
 
-void count_and_scan(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
-    graph.clear(lists.counts, 0);
-    graph.draw("transparency/lists/count", images.transparent)
+void count(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
+    graph.clear(lists.ends, 0);
+    DrawPass draw = graph.draw("transparency/lists/count", images.transparent);
+    fix_positions(draw, images, Surfaces::transparent)
         .tests_depth(images.depth)
         .culls(hidden_side(images))
         .in_rows(rows_of(band))
-        .updates("Counts", lists.counts)
+        .updates("Ends", lists.ends)
         .push(band);
-    graph.compute("transparency/lists/scan_cells.comp")
-        .loads("Counts", lists.counts)
-        .stores("Starts", lists.starts)
-        .stores("GroupStarts", lists.group_starts)
-        .push(band)
-        .groups({groups(band), 1, 1});
-    graph.compute("transparency/lists/scan_groups.comp").updates("GroupStarts", lists.group_starts).push(band).groups({1, 1, 1});
 }
 
 void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band) {
-    graph.clear(lists.counts, 0);
     draw_events(graph, "transparency/lists/fill", images.numbered, images)
         .in_rows(rows_of(band))
-        .updates("Counts", lists.counts)
-        .loads("Starts", lists.starts)
-        .loads("GroupStarts", lists.group_starts)
+        .updates("Ends", lists.ends)
         .stores("Keys", lists.keys)
         .stores("Events", lists.events)
         .stores("Offsets", lists.offsets)
         .push(band);
 }
+
+const Band& largest_band(const EventLists& lists) { return *std::ranges::max_element(lists.bands, {}, &Band::rows); }
 
 bool has_long_lists(const EventLists& lists) { return lists.layers > chunk_keys; }
 
@@ -90,18 +87,20 @@ void sort_long_lists(Graph& graph, EventLists& lists, std::uint32_t order) {
 
 }  // namespace
 
+std::uint64_t most_cells(const EventLists& lists) { return cells(largest_band(lists)); }
+
 void create_keys(Graph& graph, EventLists& lists, std::uint32_t keys) {
     lists.keys = graph.create("list keys", std::uint64_t{keys} * sizeof(ListKey));
     lists.chunks = graph.create("list chunks", bytes_of_chunks(has_long_lists(lists) ? keys : 0));
     if (has_long_lists(lists)) lists.merged_keys = graph.create("list keys merged", std::uint64_t{keys} * sizeof(ListKey));
 }
 
-EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
-    EventLists lists{.bands = bands_within(images, pool), .layers = images.facts->fragment_bounds(images.extent).layers};
-    const Band& largest = *std::ranges::max_element(lists.bands, {}, &Band::rows);
+EventLists create_lists(Graph& graph, const FrameImages& images, float pool, std::uint64_t cell_limit) {
+    EventLists lists{.bands = bands_within(images, pool, cell_limit), .layers = bounds(images).layers};
+    const Band& largest = largest_band(lists);
     const std::uint64_t words = std::uint64_t{cells(largest)} * sizeof(std::uint32_t);
-    lists.counts = graph.create("list counts", words);
     lists.starts = graph.create("list starts", words);
+    lists.ends = graph.create("list ends", words);
     lists.group_starts = graph.create("list group starts", groups(largest) * sizeof(std::uint32_t));
     create_keys(graph, lists, largest.pool);
     lists.events = graph.create("list events", std::uint64_t{largest.pool} * sizeof(ListEvent));
@@ -111,17 +110,32 @@ EventLists create_lists(Graph& graph, const FrameImages& images, float pool) {
 }
 
 void make_lists(Graph& graph, const FrameImages& images, EventLists& lists, const Band& band, std::uint32_t order) {
-    count_and_scan(graph, images, lists, band);
+    count(graph, images, lists, band);
+    place_lists(graph, lists, band);
     fill(graph, images, lists, band);
     sort_lists(graph, lists, band, order);
+}
+
+void place_lists(Graph& graph, EventLists& lists, const Band& band) {
+    graph.compute("transparency/lists/sum_cells.comp")
+        .loads("Ends", lists.ends)
+        .stores("GroupStarts", lists.group_starts)
+        .push(band)
+        .groups({groups(band), 1, 1});
+    graph.compute("transparency/lists/scan_groups.comp").updates("GroupStarts", lists.group_starts).push(band).groups({1, 1, 1});
+    graph.compute("transparency/lists/place_lists.comp")
+        .loads("GroupStarts", lists.group_starts)
+        .updates("Ends", lists.ends)
+        .stores("Starts", lists.starts)
+        .push(band)
+        .groups({groups(band), 1, 1});
 }
 
 void sort_lists(Graph& graph, EventLists& lists, const Band& band, std::uint32_t order) {
     if (has_long_lists(lists)) graph.clear(lists.chunks, 0);
     graph.compute("transparency/lists/sort.comp")
-        .loads("Counts", lists.counts)
         .loads("Starts", lists.starts)
-        .loads("GroupStarts", lists.group_starts)
+        .loads("Ends", lists.ends)
         .updates("Keys", lists.keys)
         .updates("Chunks", lists.chunks)
         .fixes("list_order", order)

@@ -3,6 +3,7 @@
 // invocation after 65,535 turns: long lists are sorted in chunks, and loops over a list take several fragments per turn.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,17 +14,26 @@ namespace strata::transparency {
 
 struct EventLists {
     std::vector<Band> bands;  ///< at least one
-    Buffer counts, starts, group_starts, keys, events;
+    Buffer starts, ends;      ///< of every sample's list; first `ends` are counts
+    Buffer group_starts, keys, events;
     Buffer chunks, merged_keys;  ///< for lists of more than chunk_keys keys
     std::uint64_t layers = 0;    ///< fragments that one list can have
     Buffer offsets;              ///< d of every event, in a frame with materials that distort; else of none
 };
 
-/// Memory for the largest band. pool: million fragments kept at a time.
-EventLists create_lists(Graph&, const FrameImages&, float pool);
+/// Memory for the largest band. pool: million fragments kept at a time; cell_limit: samples of a band, for a technique that keeps
+/// something for each.
+EventLists create_lists(Graph&, const FrameImages&, float pool,
+                        std::uint64_t cell_limit = std::numeric_limits<std::uint64_t>::max());
+
+/// Samples of the largest band.
+std::uint64_t most_cells(const EventLists&);
 
 /// Declares what makes the lists of a band, sorted by `order` (event_lists.shared.h). Counts into ListCounters.
 void make_lists(Graph&, const FrameImages&, EventLists&, const Band&, std::uint32_t order);
+
+/// Parts of make_lists: counts in `ends` become empty lists, one after the other.
+void place_lists(Graph&, EventLists&, const Band&);
 
 /// The parts of create_lists and make_lists that are about keys; lists.layers says how long a list can be.
 void create_keys(Graph&, EventLists&, std::uint32_t keys);
@@ -33,10 +43,10 @@ void sort_lists(Graph&, EventLists&, const Band&, std::uint32_t order);
 /// turns: a shader's specialization constant. 1 for all but very deep frames.
 std::uint32_t fragments_per_turn(const EventLists&);
 
-/// Binds what passes/transparency/lists/event_lists.glsl declares, and pushes the band.
+/// Binds what passes/transparency/lists/places.glsl declares, and pushes the band.
 template <typename Pass>
 Pass& read_places(Pass&& pass, const EventLists& lists, const Band& band) {
-    return pass.loads("Counts", lists.counts).loads("Starts", lists.starts).loads("GroupStarts", lists.group_starts).push(band);
+    return pass.loads("Starts", lists.starts).loads("Ends", lists.ends).push(band);
 }
 
 /// The same, and what events.glsl declares.

@@ -18,7 +18,7 @@ struct Band {
 // A fragment's place in the order, sorted in place; 16 bytes. Later submission is nearer at equal z.
 struct ListKey {
     float z;
-    uint draw;
+    uint draw;  // in the order of submission
     uint primitive;
     uint event;  // index into events
 };
@@ -58,8 +58,9 @@ struct ListCounters {
 const uint list_order_depth = 0u;
 const uint list_order_submission = 1u;
 
-// Cells whose counts one workgroup sums: 256 threads, 4 cells each.
-const uint cells_per_group = 1024u;
+// Cells whose counts one workgroup of 256 threads sums.
+const uint cells_per_thread = 16u;
+const uint cells_per_group = 256u * cells_per_thread;
 
 #ifdef __cplusplus
 }

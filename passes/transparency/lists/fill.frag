@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/transparency/lists/event_lists.glsl"
 
 layout(early_fragment_tests) in;
-layout(set = 0, binding = 1, scalar) buffer Counts { uint counts[]; };
+layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Keys { ListKey keys[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Events { ListEvent events[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; };
@@ -19,13 +19,12 @@ void main() {
     const Event event = transparent_event();
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
     if (!event.visible || !in_band(pixel.y)) return;
-    const uint cell = cell_of(pixel, gl_SampleID);
-    const uint node = list_start(cell) + atomicAdd(counts[cell], 1u);
+    const uint node = atomicAdd(ends[cell_of(pixel, gl_SampleID)], 1u);
     if (node >= band.pool) {
         atomicAdd(counters.dropped, 1u);
         return;
     }
-    keys[node] = ListKey(event.z, draws[in_draw].submission, in_triangle, node);
+    keys[node] = ListKey(event.z, in_draw, in_triangle, node);
     events[node] = ListEvent(event.p, event.t, event.e);
     if (distorts != 0u) offsets[node] = event.d;
 }

@@ -1,6 +1,7 @@
 // Exclusive prefix sum over a workgroup of 256 threads (Hillis and Steele 1986). Integers: the same on every device.
 #ifndef PASSES_TRANSPARENCY_LISTS_SCAN_GLSL
 #define PASSES_TRANSPARENCY_LISTS_SCAN_GLSL
+#include "passes/transparency/lists/event_lists.shared.h"
 
 const uint scan_threads = 256u;
 shared uint scan_sums[scan_threads];
@@ -25,5 +26,8 @@ Scanned scan_group(uint value) {
     barrier();  // before the next call overwrites the sums
     return result;
 }
+
+// The first cell of this invocation, where a workgroup has cells_per_group of them.
+uint first_cell() { return gl_WorkGroupID.x * cells_per_group + gl_LocalInvocationIndex * cells_per_thread; }
 
 #endif

@@ -9,10 +9,9 @@
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/shaders/finished.glsl"
-#include "passes/transparency/lists/event_lists.glsl"
+#include "passes/transparency/lists/places.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 1, scalar) readonly buffer Counts { uint counts[]; };
 layout(constant_id = 1) const uint sorts_chunks = 0u;  // 1: lists can have more than chunk_keys
 layout(set = 0, binding = 4, scalar) buffer Keys { ListKey keys[]; };
 layout(set = 0, binding = 5, scalar) buffer Chunks { ListChunks chunks; ListChunk chunk[]; };
@@ -56,7 +55,7 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const uint cell = cell_of(uvec2(at.x, at.y + band.first_row), at.z);
-    const uint start = list_start(cell), count = stored(start, counts[cell]);
+    const uint start = starts[cell], count = list_count(cell);
     if (sorts_chunks != 0u && count > chunk_keys) append_chunks(start, count);
     else sort_list(start, count);
     if (!finished(band.width)) atomicAdd(counters.unfinished, 1u);

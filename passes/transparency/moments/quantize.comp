@@ -53,7 +53,7 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const uvec2 texel = uvec2(at.x, at.y + band.first_row);
-    const uint cell = cell_of(texel, 0u), start = list_start(cell), count = stored(start, counts[cell]);
+    const uint cell = cell_of(texel, 0u), start = starts[cell], count = list_count(cell);
     for (uint channel = 0u; channel < push.channels; ++channel) {
         float kept[8];
         const float sum = build(start, count, push.channels == 1u ? 3u : channel, kept);

@@ -60,7 +60,7 @@ void main() {
     const uvec3 at = gl_GlobalInvocationID;
     if (at.x >= band.width || at.y >= band.rows) return;
     const ivec3 texel = ivec3(at.x, at.y + band.first_row, at.z);
-    const uint cell = cell_of(texel.xy, at.z), start = list_start(cell), count = stored(start, counts[cell]);
+    const uint cell = cell_of(texel.xy, at.z), start = starts[cell], count = list_count(cell);
     if (count == 0u) return;
 
     vec3 sum = vec3(0.0), through = vec3(1.0);

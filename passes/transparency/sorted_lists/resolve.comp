@@ -33,7 +33,7 @@ void main() {
     if (at.x >= band.width || at.y >= band.rows) return;
     const ivec3 texel = ivec3(at.x, at.y + band.first_row, at.z);
     const uint cell = cell_of(texel.xy, at.z);
-    const uint start = list_start(cell), count = stored(start, counts[cell]);
+    const uint start = starts[cell], count = list_count(cell);
     if (count == 0u) return;
     for (uint i = 0u; i < count; i += per_turn)
         [[unroll]] for (uint k = 0u; k < per_turn; ++k)

@@ -8,6 +8,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include "captures/cards.h"
 #include "passes/scene/fragment_bounds.h"
@@ -119,13 +121,13 @@ TEST(SortedTruth, BlendsCardsInTheirOrderOfDepthPerSample) {
 TEST(RowBounds, CountEveryPixelOfAFullScreenQuadOnce) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, 5}, .size = 20}}});
-    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}).by_row, testing::Each(8u));
+    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}, 1).by_row, testing::Each(8u));
 }
 
 TEST(RowBounds, CountNothingBehindTheEye) {
     Frame frame = frame_of_cards({}, 8);
     frame.emitters.push_back({.name = "smoke", .particles = {{.center = {0, 0, -5}, .size = 20}}});
-    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}).by_row, testing::Each(0u));
+    EXPECT_THAT(fragment_bounds(frame, draw_lists(frame), {8, 8, 1}, 1).by_row, testing::Each(0u));
 }
 
 TEST(RowBounds, AreNeverBelowWhatIsCovered) {
@@ -142,7 +144,7 @@ TEST(RowBounds, AreNeverBelowWhatIsCovered) {
         {.name = "smoke",
          .particles = {{.center = {1, 0, .12}, .size = .3f, .rotation = 1}, {.center = {0, 1, 3}, .size = .01f}}});
     const FragmentLists lists = transparent_fragments(frame, ReferenceImage(32, 32));
-    const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {32, 32, 1});
+    const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {32, 32, 1}, 1);
     std::uint64_t bound = 0;
     std::size_t deepest = 0;
     for (std::uint32_t y = 0; y < 32; ++y) {
@@ -160,6 +162,72 @@ TEST(RowBounds, AreNeverBelowWhatIsCovered) {
     EXPECT_LT(bound, 2 * lists.total()) << "a bound twice too high wastes memory";
 }
 
+/// A sphere of 2 r^2 triangles.
+Mesh globe(std::uint32_t r) {
+    Mesh mesh{.name = "globe"};
+    for (std::uint32_t row = 0; row <= r; ++row)
+        for (std::uint32_t column = 0; column <= r; ++column) {
+            const double polar = row * glm::pi<double>() / r, around = column * 2 * glm::pi<double>() / r;
+            mesh.positions.emplace_back(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
+        }
+    for (std::uint32_t row = 0; row < r; ++row)
+        for (std::uint32_t column = 0; column < r; ++column) {
+            const std::uint32_t a = row * (r + 1) + column, below = a + r + 1;
+            for (const std::uint32_t corner : {a, below, a + 1, a + 1, below, below + 1}) mesh.indices.push_back(corner);
+        }
+    return mesh;
+}
+
+TEST(RowBounds, OfTrianglesBelowAPixelCountTheMiddlesOfPixelsAndNotWhatTheyTouch) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+        Frame frame = frame_of_cards(std::array{Card{.center = {.1, .2, 1.7}, .half = 1, .color = glm::vec4(.5f)}}, 64);
+        frame.meshes.front() = globe(96);
+        frame.materials.front().double_sided = true;
+        frame.view.samples = samples;
+        const FragmentLists lists = transparent_fragments(frame, ReferenceImage(64, 64, samples));
+        ASSERT_GT(lists.total(), 1500u * samples);
+        const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {64, 64, 1}, samples);
+        for (std::uint32_t y = 0; y < 64; ++y) {
+            std::uint64_t covered = 0;
+            for (std::uint32_t x = 0; x < 64; ++x)
+                for (std::uint32_t s = 0; s < samples; ++s) covered += lists.at(x, y, s).size();
+            EXPECT_LE(covered, bounds.by_row[y]) << "row " << y;
+        }
+        const std::uint64_t bound = std::accumulate(bounds.by_row.begin(), bounds.by_row.end(), std::uint64_t{0});
+        if (samples == 1) {
+            EXPECT_LT(double(bound), 3 * double(lists.total()))
+                << "triangles of half a pixel each way and a sixteenth around them";
+        }
+    }
+}
+
+TEST(RowBounds, AreWiderWhereFloatsAreCoarse) {
+    // Seen from where a mesh lies 10 km from its own origin, a device may be off by more than a pixel.
+    const auto bound = [](double away) {
+        Frame frame = frame_of_cards(std::array{Card{.center = {0, 0, 2}, .half = .01f, .color = glm::vec4(.5f)}}, 64);
+        for (glm::vec3& p : frame.meshes.front().positions) p.x += float(away);
+        frame.draws.front().to_world = glm::translate(frame.draws.front().to_world, glm::dvec3(-away, 0, 0));
+        const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {64, 64, 1}, 1);
+        return std::accumulate(bounds.by_row.begin(), bounds.by_row.end(), std::uint64_t{0});
+    };
+    EXPECT_LE(bound(0), 8u);
+    EXPECT_GE(bound(1e5), 2 * bound(0));
+}
+
+TEST(RowBounds, CountWhatADeviceMayTakeToBeInFrontOfTheNearPlane) {
+    // The eye turned by 45 degrees, 100 km from the mesh's own origin: the depth of the card is a difference of large numbers.
+    Frame frame = frame_of_cards(std::array{Card{.center = {0, 0, 1}, .half = 1, .color = glm::vec4(.5f)}}, 16);
+    const double away = 1e5;
+    frame.view.to_view = glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(45.), glm::dvec3(0, 1, 0)));
+    const glm::dmat3 to_world = glm::transpose(glm::dmat3(frame.view.to_view));
+    Mesh& mesh = frame.meshes.front();
+    const double z = double(frame.view.near) - .005;
+    for (glm::vec3& p : mesh.positions) p = to_world * glm::dvec3(double(p.x), double(p.y), 0) + glm::dvec3(away, 0, 0);
+    frame.draws.front().to_world = glm::translate(glm::dmat4(1), to_world * glm::dvec3(0, 0, z) - glm::dvec3(away, 0, 0));
+    const FragmentBounds bounds = fragment_bounds(frame, draw_lists(frame), {16, 16, 1}, 1);
+    EXPECT_THAT(bounds.by_row, testing::Each(testing::Ge(16u)));
+}
+
 TEST(RowBands, HoldEveryRowOnceAndNoMoreThanTheirLimit) {
     const std::array<std::uint64_t, 7> rows{10, 10, 50, 60, 5, 5, 100};
     const std::vector<RowBand> bands = row_bands(rows, 120);
@@ -170,6 +238,15 @@ TEST(RowBands, HoldEveryRowOnceAndNoMoreThanTheirLimit) {
     EXPECT_EQ(bands[1].bound, 120u);
     EXPECT_EQ(bands[2].first_row, 6u);
     EXPECT_EQ(bands[2].rows, 1u);
+}
+
+TEST(RowBands, HaveAtMostSoManyRows) {
+    const std::array<std::uint64_t, 7> rows{1, 1, 1, 1, 1, 1, 1};
+    const std::vector<RowBand> bands = row_bands(rows, 100, 4);
+    ASSERT_EQ(bands.size(), 2u);
+    EXPECT_EQ(bands[0].rows, 4u);
+    EXPECT_EQ(bands[1].rows, 3u);
+    EXPECT_EQ(row_bands(rows, 100, 1).size(), 4u) << "but no fewer than a quad has";
 }
 
 TEST(RowBands, GrowBeyondTheLimitRatherThanSplitAQuadOfPixels) {

@@ -54,7 +54,7 @@ struct Subset {
 Subset subset_of(Event event, uvec2 pixel) {
     const float coverage = coverage_of(event);
     const float alpha = band.params.mode == mode_hashed ? float(coverage > 0.0 && coverage >= hashed_threshold()) : coverage;
-    const uint key = fragment_key(band.params.seed, uvec3(pixel, gl_SampleID), draws[in_draw].submission, in_triangle);
+    const uint key = fragment_key(band.params.seed, uvec3(pixel, gl_SampleID), in_draw, in_triangle);
     const uint fixed_alpha = uint(alpha * 16777216.0);
     return Subset(key, fixed_alpha, subset_size(key, fixed_alpha, band.subsamples));
 }

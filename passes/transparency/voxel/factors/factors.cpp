@@ -17,7 +17,7 @@ void splat_factors(Graph& graph, const FrameImages& low, const VoxelParams& para
     Image factors = graph.create("factors", Shape{.extent = low.extent, .format = format, .layers = push.slices});
     graph.clear(factors, {{1, 1, 1, 1}});
     const bool by_vertex = has(low.capabilities, Capability::shader_output_layer);
-    const DrawList& list = by_vertex ? low.numbered : low.transparent;
+    const DrawList& list = by_vertex ? low.separate : low.transparent;
     DrawPass draw = draw_events_untested(graph, "transparency/voxel/factors/splat_multiply", list, low);
     if (!by_vertex) draw.geometry("transparency/voxel/factors/choose_slice");
     draw.multiplies(factors).loads("DepthWarp", volume.warp).fixes("adaptive", is_adaptive(params) ? 1u : 0u).push(push);

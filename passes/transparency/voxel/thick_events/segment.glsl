@@ -12,7 +12,7 @@ layout(constant_id = 26) const uint rounding = rounding_nearest;
 // Pairs of triangles share a number: the halves of a particle meet without a seam.
 float rounded_up_by(uvec2 texel) {
     if (rounding == rounding_nearest) return 0.5;
-    const uint key = hashed(hashed(0u, uvec3(texel, draws[in_draw].submission)) ^ (in_triangle / 2u));
+    const uint key = hashed(hashed(0u, uvec3(texel, in_draw)) ^ (in_triangle / 2u));
     return float(key >> 8u) / 16777216.0;
 }
 

@@ -1,0 +1,29 @@
+// What of passes/shaders/material.glsl and vertex.glsl a frame calls for: what its meshes, materials and textures really have.
+// The rest is compiled away; a CPU driver executes every branch of a shader, taken or not, and reads buffers lane by lane.
+#pragma once
+
+#include "capture_format/frame.h"
+#include "passes/frame_images.h"
+#include "passes/scene/draw_lists.h"
+
+namespace strata {
+
+enum class Surfaces { opaque, transparent };
+
+/// Bits: textures 1 << a kind of scene.shared.h, formats 1 << TextureFormat, addresses 1 << AddressMode of one direction, models
+/// 1 << LightingModel, alpha_modes 1 << AlphaMode; properties, attributes and drawn as uses.shared.h has them.
+struct MaterialUses {
+    std::uint32_t textures = 0, formats = 0, addresses = 0;
+    std::uint32_t models = 0, alpha_modes = 0, properties = 0;
+    std::uint32_t attributes = 0, drawn = 0;
+};
+
+MaterialUses material_uses(const Frame&, const DrawLists&, Surfaces);
+
+/// Fixes the constants of material.glsl and vertex.glsl in a step whose shaders include both.
+DrawPass& fix_materials(DrawPass&, const FrameImages&, Surfaces);
+
+/// Fixes the constants of vertex.glsl in a step whose fragment shader asks for nothing but where a surface is.
+DrawPass& fix_positions(DrawPass&, const FrameImages&, Surfaces);
+
+}  // namespace strata
