@@ -42,9 +42,11 @@ Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
     return models;
 }
 
-/// "03_lighting_shade.comp_features=0x1f.navi21.compute": the pipeline of that number, in a name without folders.
+/// "03_lighting_shade.comp_features=0x1f.navi21.compute": the pipeline of that number, in a name without folders. File systems
+/// take 255 bytes: constants that are more than fit are in the report.
 std::string file_name(std::size_t number, const std::string& label, const std::string& rest) {
-    std::string made = fmt::format("{:02}_{}.{}", number, label, rest);
+    constexpr std::size_t most = 160;
+    std::string made = fmt::format("{:02}_{}.{}", number, label.substr(0, most), rest);
     std::ranges::replace_if(
         made, [](char c) { return c == '/' || c == ' ' || c == '+'; }, '_');
     return made;
