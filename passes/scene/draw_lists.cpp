@@ -25,12 +25,6 @@ std::uint32_t interface_layer(const Frame& frame, std::uint32_t index) {
     return index < draws ? frame.draws[index].layer : frame.emitters[index - draws].layer;
 }
 
-bool has_lit_surfaces(const Frame& frame, const DrawLists& lists) {
-    return std::ranges::any_of(lists.transparent, [&](std::uint32_t index) {
-        return index < frame.draws.size() && frame.materials[frame.draws[index].material].lighting_model != LightingModel::unlit;
-    });
-}
-
 bool shows_no_backs(const Frame& frame, std::span<const std::uint32_t> indices) {
     return std::ranges::all_of(indices, [&](std::uint32_t index) {
         return index < frame.draws.size() && !frame.materials[frame.draws[index].material].double_sided;

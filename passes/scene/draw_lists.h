@@ -22,9 +22,6 @@ std::uint32_t interface_layer(const Frame&, std::uint32_t index);
 /// Of everything transparent; 0 where no draw or emitter is in an interface layer.
 std::uint32_t highest_interface_layer(const Frame&, const DrawLists&);
 
-/// Whether lights change how some transparent draw looks. Particles are unlit.
-bool has_lit_surfaces(const Frame&, const DrawLists&);
-
 /// Whether these are draws of meshes whose backs do not show. False where an emitter is among them.
 bool shows_no_backs(const Frame&, std::span<const std::uint32_t> indices);
 

@@ -30,7 +30,7 @@ void add(const Frame& frame, const Material& material, MaterialUses& uses) {
     if (material.metallic != 0 || material.metallic_roughness_texture.texture != no_index) uses.properties |= property_metallic;
     if (material.emissive != glm::vec3(0) || material.emissive_texture.texture != no_index) uses.properties |= property_emissive;
     if (material.transmission != glm::vec3(0)) uses.properties |= property_transmission;
-    if (material.distortion != 0) uses.properties |= property_distortion;
+    if (material.distortion != 0) uses.bends = true;
     uses.properties |= material.double_sided ? property_both_sides : property_one_side;
     add(frame, material.base_color_texture.texture, base_color_texture, uses);
     add(frame, material.metallic_roughness_texture.texture, metallic_roughness_texture, uses);
@@ -60,8 +60,7 @@ void add(const Frame& frame, const Emitter& emitter, MaterialUses& uses) {
 /// Attributes that nothing asks for. What is opaque is written with its normal.
 std::uint32_t unread(const MaterialUses& uses, Surfaces surfaces) {
     std::uint32_t attributes = 0;
-    const bool has_light = uses.models != bit(LightingModel::unlit), bends = (uses.properties & property_distortion) != 0;
-    if (surfaces == Surfaces::transparent && !has_light && !bends) attributes |= attribute_normal;
+    if (surfaces == Surfaces::transparent && !uses.is_lit() && !uses.bends) attributes |= attribute_normal;
     const bool reads_tangents = (uses.textures & 1u << normal_texture) != 0 || (uses.models & bit(LightingModel::hair)) != 0;
     if (!reads_tangents) attributes |= attribute_tangent;
     if (uses.textures == 0) attributes |= attribute_uv0 | attribute_uv1;
@@ -94,7 +93,7 @@ DrawPass& fix_materials(DrawPass& pass, const FrameImages& images, Surfaces surf
         .fixes("used_addresses", uses.addresses)
         .fixes("used_models", uses.models)
         .fixes("used_alpha_modes", uses.alpha_modes)
-        .fixes("used_properties", uses.properties & ~property_distortion)  // no shader asks for it
+        .fixes("used_properties", uses.properties)
         .fixes("used_attributes", uses.attributes)
         .fixes("drawn", uses.drawn);
 }

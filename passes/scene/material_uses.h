@@ -16,6 +16,9 @@ struct MaterialUses {
     std::uint32_t textures = 0, formats = 0, addresses = 0;
     std::uint32_t models = 0, alpha_modes = 0, properties = 0;
     std::uint32_t attributes = 0, drawn = 0;
+    bool bends = false;  ///< a material distorts what is behind it, by its normal
+
+    bool is_lit() const { return (models & ~(1u << static_cast<std::uint32_t>(LightingModel::unlit))) != 0; }
 };
 
 MaterialUses material_uses(const Frame&, const DrawLists&, Surfaces);

@@ -21,9 +21,8 @@ const uint attribute_color = 1u << 4;
 const uint property_metallic = 1u << 0;
 const uint property_emissive = 1u << 1;
 const uint property_transmission = 1u << 2;
-const uint property_distortion = 1u << 3;
-const uint property_one_side = 1u << 4;
-const uint property_both_sides = 1u << 5;
+const uint property_one_side = 1u << 3;
+const uint property_both_sides = 1u << 4;
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,6 @@ layout(constant_id = 4) const uint distorts = 0u;        // 1: the frame has mat
 layout(constant_id = 8) const uint has_interfaces = 0u;  // 1: the frame has interface layers
 layout(constant_id = 14) const uint has_fog = 1u;        // 0: the frame has none
 layout(constant_id = 22) const uint light_features = every_light_feature;
-layout(constant_id = 29) const uint has_lights = 1u;  // 0: the frame has none, as it must be where light_count is 0
 layout(set = 0, binding = 0) uniform sampler2DArray depth_layers;
 
 struct Event {
@@ -64,12 +63,8 @@ vec3 lit(MaterialPoint m) {
     if (used_models == 1u << model_unlit) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
-    if (has_lights == 0u) return sum;
-    // The condition last: llvmpipe runs the body once more, without effect, where it is first.
-    uint i = 0u;
-    do {
+    for (uint i = 0u; i < view.light_count; ++i)
         if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
-    } while (++i < view.light_count);
     return sum;
 }
 

@@ -18,7 +18,6 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("has_fog", images.features->has(Feature::fog) ? 1u : 0u)
         .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features())
-        .fixes("has_lights", images.facts->lights().empty() ? 0u : 1u)
         .culls(hidden_side(images));
     return fix_materials(pass, images, Surfaces::transparent);
 }

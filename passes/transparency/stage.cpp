@@ -21,7 +21,7 @@ std::optional<std::string> beyond_device(const FrameImages& images) {
     const std::uint64_t turns = images.facts->light_turns();
     constexpr std::uint64_t other_turns = 1024;  // of the material's textures and the technique
     if (turns + other_turns <= most_short_turns || has(images.capabilities, Capability::long_loops)) return std::nullopt;
-    if (!has_lit_surfaces(*images.recorded, images.facts->lists())) return std::nullopt;
+    if (!images.facts->material_uses(Surfaces::transparent).is_lit()) return std::nullopt;
     return fmt::format(
         "a transparent fragment asks {} lights with their blockers and portals, up to {} turns of a loop, and this device ends "
         "loops after {}",

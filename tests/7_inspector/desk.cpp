@@ -21,6 +21,15 @@ std::vector<const Scenario*> in_order() {
     return order;
 }
 
+std::unique_ptr<Desk> the_desk;
+
+/// At the end of the process the desk would be destroyed after parts of the driver, on which a replay may still run.
+class ClosesTheDesk : public testing::Environment {
+public:
+    void TearDown() override { the_desk.reset(); }
+};
+[[maybe_unused]] testing::Environment* const closes = testing::AddGlobalTestEnvironment(new ClosesTheDesk);
+
 }  // namespace
 
 std::vector<Frame> small_scenarios() {
@@ -43,7 +52,8 @@ Desk::Desk() : layer(must(ImguiLayer::headless({.validation = true}))) {
 }
 
 Desk& Desk::clean() {
-    static Desk desk;
+    if (!the_desk) the_desk.reset(new Desk);
+    Desk& desk = *the_desk;
     Model& model = desk.model();
     model.image = {};
     model.step.reset();

@@ -3,15 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/lists/scan.glsl"
-#include "passes/transparency/lists/event_lists.shared.h"
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { Band band; };
+#include "passes/transparency/lists/event_lists.glsl"
 layout(set = 0, binding = 0, scalar) buffer GroupStarts { uint group_starts[]; };
 
 void main() {
-    const uint cells = band.width * band.rows * band.samples;
-    const uint groups = (cells + cells_per_group - 1u) / cells_per_group;
+    const uint groups = (cells_of_band() + cells_per_group - 1u) / cells_per_group;
     uint before = 0u;
     for (uint first = 0u; first < groups; first += scan_threads) {
         const uint i = first + gl_LocalInvocationIndex;
