@@ -116,6 +116,57 @@ TEST(SpecializedEvents, OfPlainMaterialsAreThoseOfAFrameWithAllKinds) {
         }
 }
 
+/// Glass that colors what is behind it, or hair, whose fibres run along tangents: what the variety lacks.
+Frame glass_like(LightingModel model, glm::vec3 transmission) {
+    Frame frame = glass_alone(1);
+    for (Mesh& mesh : frame.meshes) mesh.tangents.assign(mesh.positions.size(), {.6f, .8f, 0, 1});
+    for (Material& material : frame.materials) {
+        if (!is_transparent(material.alpha_mode)) continue;
+        material.lighting_model = model;
+        material.transmission = transmission;
+    }
+    return frame;
+}
+
+TEST(SpecializedEvents, OfHairAndColoredGlassAreThoseOfAFrameWithAllKinds) {
+    for (const Frame& alone : {glass_like(LightingModel::hair, glm::vec3(0)), glass_like(LightingModel::ggx, {.2f, .5f, .9f})}) {
+        Frame more = alone;
+        add_unseen_variety(more, AlphaMode::blend);
+        expect_same_bits(alone, more);
+    }
+}
+
+/// A spot light's box with holes, of which shadows know through the material's texture.
+Frame box_with_holes() {
+    Frame frame = scenario_frames("spot_and_box", 1).front();
+    frame.view.width = 96, frame.view.height = 54;
+    Texture holes{.name = "holes", .format = TextureFormat::rgba8_unorm, .width = 2, .height = 2};
+    for (const int alpha : {255, 0, 0, 255})
+        holes.texels.insert(holes.texels.end(), {std::byte{255}, std::byte{255}, std::byte{255}, std::byte(alpha)});
+    frame.textures.push_back(holes);
+    for (Mesh& mesh : frame.meshes)
+        for (const glm::vec3& p : mesh.positions) mesh.uv0.emplace_back(p.x + p.z, p.y + p.z);
+    for (Material& material : frame.materials) {
+        material.alpha_mode = AlphaMode::mask;
+        material.base_color_texture.texture = static_cast<std::uint32_t>(frame.textures.size() - 1);
+    }
+    return frame;
+}
+
+TEST(SpecializedSurfaces, CastTheShadowsOfAFrameWithAllKinds) {
+    const Frame alone = box_with_holes();
+    Frame whole = alone, more = alone;
+    for (Material& material : whole.materials) material.base_color_texture.texture = no_index;
+    add_unseen_variety(more, AlphaMode::opaque);
+    const auto session = must(Session::open({alone, more, whole}, {.validation = true}));
+    std::vector<HostImage> visible;
+    for (const std::size_t frame : {0, 1, 2})
+        visible.push_back(
+            must(session->run(Request{.variant = {.frame = frame}, .outputs = {"visibility"}})).images.at("visibility"));
+    EXPECT_TRUE(visible[0].texels == visible[1].texels);
+    EXPECT_FALSE(visible[0].texels == visible[2].texels) << "light falls through the holes";
+}
+
 TEST(SpecializedSurfaces, OfPlainMaterialsAreThoseOfAFrameWithAllKinds) {
     for (const char* scenario : {"opaque_only", "glass_and_smoke"})
         for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask}) {

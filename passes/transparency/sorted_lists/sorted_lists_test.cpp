@@ -201,6 +201,20 @@ TEST(RowBounds, OfTrianglesBelowAPixelCountTheMiddlesOfPixelsAndNotWhatTheyTouch
     }
 }
 
+TEST(RowBounds, CountPixelsWhoseMiddlesAreASixteenthOfAPixelAway) {
+    // A square of so many pixels each way from the middle of the image, where pixel 32 begins.
+    const auto rows = [](double pixels) {
+        const Card square{.center = {0, 0, 2}, .half = float(pixels / 32 * 2), .color = glm::vec4(.5f)};
+        const Frame frame = frame_of_cards(std::array{square}, 64);
+        return fragment_bounds(frame, draw_lists(frame), {64, 64, 1}, 1).by_row;
+    };
+    // Two triangles, which share the diagonal.
+    EXPECT_GE(rows(8.5 - 1. / 32)[23], 18u) << "a device may snap the edge to the middles of pixels 23 and 40";
+    EXPECT_GE(rows(8.5 - 1. / 32)[40], 18u);
+    EXPECT_EQ(rows(8.5 - 1. / 8)[23], 0u) << "but not from here";
+    EXPECT_EQ(rows(8.5 - 1. / 8)[40], 0u);
+}
+
 TEST(RowBounds, AreWiderWhereFloatsAreCoarse) {
     // Seen from where a mesh lies 10 km from its own origin, a device may be off by more than a pixel.
     const auto bound = [](double away) {
