@@ -201,6 +201,8 @@ TEST(MaterialUses, AreThoseOfTheDrawnMeshesAndMaterialsAlone) {
     EXPECT_EQ(all.attributes, attribute_normal | attribute_tangent | attribute_uv0 | attribute_uv1 | attribute_color);
     EXPECT_EQ(all.properties & (property_metallic | property_emissive | property_transmission),
               property_metallic | property_emissive);
+    frame.materials.back().transmission.y = .5f;
+    EXPECT_TRUE(transparent_uses(frame).properties & property_transmission);
 }
 
 TEST(MaterialUses, HaveNoAttributesThatNothingReads) {
