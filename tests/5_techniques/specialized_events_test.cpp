@@ -136,12 +136,13 @@ TEST(SpecializedEvents, OfHairAndColoredGlassAreThoseOfAFrameWithAllKinds) {
     }
 }
 
-/// A spot light's box with holes, of which shadows know through the material's texture.
+/// A spot light's box with holes, of which shadows know through the material's texture; at (0, 0), the mean of its texels, it has
+/// none.
 Frame box_with_holes() {
     Frame frame = scenario_frames("spot_and_box", 1).front();
     frame.view.width = 96, frame.view.height = 54;
     Texture holes{.name = "holes", .format = TextureFormat::rgba8_unorm, .width = 2, .height = 2};
-    for (const int alpha : {255, 0, 0, 255})
+    for (const int alpha : {255, 0, 255, 255})
         holes.texels.insert(holes.texels.end(), {std::byte{255}, std::byte{255}, std::byte{255}, std::byte(alpha)});
     frame.textures.push_back(holes);
     for (Mesh& mesh : frame.meshes)
