@@ -21,6 +21,7 @@ namespace {
 using transparency::Band;
 using transparency::cells_per_group;
 using transparency::ListKey;
+using transparency::ListSubmission;
 
 template <typename T>
 std::vector<T> values_of(const std::vector<std::byte>& bytes) {
@@ -28,6 +29,11 @@ std::vector<T> values_of(const std::vector<std::byte>& bytes) {
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
     return values;
 }
+
+struct Unsorted {
+    std::vector<ListKey> keys;
+    std::vector<ListSubmission> submissions;  ///< by ListKey::event
+};
 
 class ListsOnDevice : public testing::Test {
 protected:
@@ -60,10 +66,9 @@ protected:
         return values_of<std::uint32_t>(run(graph, lists.starts));
     }
 
-    /// Lists of these lengths lie one after the other in `keys`, one per cell.
-    std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const std::vector<ListKey>& keys,
-                                std::uint32_t order) {
-        const Band band{0, 1, static_cast<std::uint32_t>(lengths.size()), 1, static_cast<std::uint32_t>(keys.size())};
+    /// Lists of these lengths lie one after the other, one per cell.
+    std::vector<ListKey> sorted(const std::vector<std::uint32_t>& lengths, const Unsorted& unsorted, std::uint32_t order) {
+        const Band band{0, 1, static_cast<std::uint32_t>(lengths.size()), 1, static_cast<std::uint32_t>(unsorted.keys.size())};
         std::vector<std::uint32_t> starts, ends;
         for (const std::uint32_t length : lengths) {
             starts.push_back(ends.empty() ? 0 : ends.back());
@@ -73,7 +78,8 @@ protected:
         transparency::EventLists lists{
             .starts = import(graph, "starts", starts), .ends = import(graph, "ends", ends), .layers = std::ranges::max(lengths)};
         transparency::create_keys(graph, lists, band.pool);
-        graph.copy(import(graph, "keys", keys), lists.keys);
+        graph.copy(import(graph, "keys", unsorted.keys), lists.keys);
+        graph.copy(import(graph, "submissions", unsorted.submissions), lists.submissions);
         Buffer counters = graph.create("counters", sizeof(transparency::ListCounters));
         graph.clear(counters, 0);
         graph.offer("Counters", counters);
@@ -82,52 +88,57 @@ protected:
         return values_of<ListKey>(run(graph, lists.keys));
     }
 
-    void expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t order);
+    /// Of so many different depths: few, so that submission decides, too.
+    void expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t depths);
 
 private:
     std::uint64_t imports_ = 5000;  // ids are the device's: away from those of scenes
 };
 
-/// Seeded keys with many equal depths, so that every part of the key decides somewhere.
-std::vector<ListKey> random_keys(std::size_t count) {
+/// Seeded keys of so many different depths, in an order of their own.
+Unsorted random_keys(std::size_t count, std::uint32_t depths) {
     std::mt19937 random(7);
     const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
-    std::vector<ListKey> keys;
+    Unsorted made;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t depth = below(40), draw = below(3);
-        keys.push_back({.z = .25f * float(depth), .draw = draw, .primitive = i ^ 0x55u, .event = i});
+        const std::uint32_t depth = below(depths), draw = below(3);
+        made.keys.push_back({.z = .25f * float(depth), .event = i});
+        made.submissions.push_back({.draw = draw, .primitive = i ^ 0x55u});
     }
-    return keys;
+    return made;
 }
 
-std::tuple<float, std::int64_t, std::int64_t> rank(const ListKey& key, std::uint32_t order) {
-    if (order == transparency::list_order_submission) return {0, key.draw, key.primitive};
-    return {key.z, -std::int64_t{key.draw}, -std::int64_t{key.primitive}};
+std::tuple<float, std::int64_t, std::int64_t> rank(const ListKey& key, const ListSubmission& s, std::uint32_t order) {
+    if (order == transparency::list_order_submission) return {0, s.draw, s.primitive};
+    return {key.z, -std::int64_t{s.draw}, -std::int64_t{s.primitive}};
 }
 
-void ListsOnDevice::expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t order) {
-    std::vector<ListKey> wanted = random_keys(std::accumulate(lengths.begin(), lengths.end(), std::size_t{0}));
-    const std::vector<ListKey> got = sorted(lengths, wanted, order);
-    std::size_t first = 0;
-    for (const std::uint32_t length : lengths) {
-        std::ranges::sort(std::span(wanted).subspan(first, length), {}, [&](const ListKey& key) { return rank(key, order); });
-        for (std::size_t i = first; i < first + length; ++i)
-            ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i - first << " of a list of " << length;
-        first += length;
+void ListsOnDevice::expect_all_sorted(const std::vector<std::uint32_t>& lengths, std::uint32_t depths) {
+    const Unsorted unsorted = random_keys(std::accumulate(lengths.begin(), lengths.end(), std::size_t{0}), depths);
+    for (const std::uint32_t order : {transparency::list_order_depth, transparency::list_order_submission}) {
+        std::vector<ListKey> wanted = unsorted.keys;
+        const std::vector<ListKey> got = sorted(lengths, unsorted, order);
+        std::size_t first = 0;
+        for (const std::uint32_t length : lengths) {
+            std::ranges::sort(std::span(wanted).subspan(first, length), {},
+                              [&](const ListKey& key) { return rank(key, unsorted.submissions[key.event], order); });
+            for (std::size_t i = first; i < first + length; ++i)
+                ASSERT_EQ(got[i].event, wanted[i].event) << "at " << i - first << " of a list of " << length;
+            first += length;
+        }
     }
 }
 
 TEST_F(ListsOnDevice, AreSortedAtEveryLength) {
     const std::vector<std::uint32_t> lengths{0, 1, 2, 3, 8, 12, 13, 16, 31, 32, 33, 64, 0, 300, 511, 512};
-    expect_all_sorted(lengths, transparency::list_order_depth);
-    expect_all_sorted(lengths, transparency::list_order_submission);
+    for (const std::uint32_t depths : {1u, 2u, 40u, 1'000'000u}) expect_all_sorted(lengths, depths);
 }
 
 TEST_F(ListsOnDevice, AreSortedInChunksWhereTheyAreLong) {
     const std::vector<std::uint32_t> lengths{5,    513,  1,   1023,   1024,    1025,      0, 2048,
                                              2049, 4097, 512, 20'000, 100'000, 1'000'000, 3};
-    expect_all_sorted(lengths, transparency::list_order_depth);
-    expect_all_sorted(lengths, transparency::list_order_submission);
+    expect_all_sorted(lengths, 40);
+    expect_all_sorted({513, 2049, 20'000}, 1'000'000);
 }
 
 TEST_F(ListsOnDevice, StartWhereTheListsBeforeThemEnd) {

@@ -50,6 +50,7 @@ void fill(Graph& graph, const FrameImages& images, EventLists& lists, const Band
         .in_rows(rows_of(band))
         .updates("Ends", lists.ends)
         .stores("Keys", lists.keys)
+        .stores("Submissions", lists.submissions)
         .stores("Events", lists.events)
         .stores("Offsets", lists.offsets)
         .push(band);
@@ -62,22 +63,25 @@ bool has_long_lists(const EventLists& lists) { return lists.layers > chunk_keys;
 /// A list of more than chunk_keys keys fills its chunks by more than a half.
 std::uint64_t bytes_of_chunks(std::uint64_t keys) { return sizeof(ListChunks) + (2 * keys / chunk_keys + 1) * sizeof(ListChunk); }
 
+/// Binds and fixes what passes/transparency/lists/order.glsl declares.
+ComputePass order_lists(ComputePass pass, const EventLists& lists, std::uint32_t order) {
+    return pass.loads("Submissions", lists.submissions).fixes("list_order", order);
+}
+
 void merge_runs(Graph& graph, EventLists& lists, Buffer& from, Buffer& to, std::uint32_t run, std::uint32_t order) {
-    graph.compute("transparency/lists/merge_chunks.comp")
+    order_lists(graph.compute("transparency/lists/merge_chunks.comp"), lists, order)
         .loads("Chunks", lists.chunks)
         .loads("From", from)
         .updates("To", to)
-        .fixes("list_order", order)
         .push(run)
         .indirect(lists.chunks);
 }
 
 /// Sorts what sort.comp left. Runs are merged in pairs of steps, so that the keys end where they began.
 void sort_long_lists(Graph& graph, EventLists& lists, std::uint32_t order) {
-    graph.compute("transparency/lists/sort_chunks.comp")
+    order_lists(graph.compute("transparency/lists/sort_chunks.comp"), lists, order)
         .loads("Chunks", lists.chunks)
         .updates("Keys", lists.keys)
-        .fixes("list_order", order)
         .indirect(lists.chunks);
     for (std::uint32_t run = chunk_keys; run < lists.layers; run *= 4) {
         merge_runs(graph, lists, lists.keys, lists.merged_keys, run, order);
@@ -91,6 +95,7 @@ std::uint64_t most_cells(const EventLists& lists) { return cells(largest_band(li
 
 void create_keys(Graph& graph, EventLists& lists, std::uint32_t keys) {
     lists.keys = graph.create("list keys", std::uint64_t{keys} * sizeof(ListKey));
+    lists.submissions = graph.create("list submissions", std::uint64_t{keys} * sizeof(ListSubmission));
     lists.chunks = graph.create("list chunks", bytes_of_chunks(has_long_lists(lists) ? keys : 0));
     if (has_long_lists(lists)) lists.merged_keys = graph.create("list keys merged", std::uint64_t{keys} * sizeof(ListKey));
 }
@@ -133,12 +138,11 @@ void place_lists(Graph& graph, EventLists& lists, const Band& band) {
 
 void sort_lists(Graph& graph, EventLists& lists, const Band& band, std::uint32_t order) {
     if (has_long_lists(lists)) graph.clear(lists.chunks, 0);
-    graph.compute("transparency/lists/sort.comp")
+    order_lists(graph.compute("transparency/lists/sort.comp"), lists, order)
         .loads("Starts", lists.starts)
         .loads("Ends", lists.ends)
         .updates("Keys", lists.keys)
         .updates("Chunks", lists.chunks)
-        .fixes("list_order", order)
         .fixes("sorts_chunks", has_long_lists(lists) ? 1u : 0u)
         .push(band)
         .over(over(band));

@@ -15,7 +15,7 @@ namespace strata::transparency {
 struct EventLists {
     std::vector<Band> bands;  ///< at least one
     Buffer starts, ends;      ///< of every sample's list; first `ends` are counts
-    Buffer group_starts, keys, events;
+    Buffer group_starts, keys, submissions, events;
     Buffer chunks, merged_keys;  ///< for lists of more than chunk_keys keys
     std::uint64_t layers = 0;    ///< fragments that one list can have
     Buffer offsets;              ///< d of every event, in a frame with materials that distort; else of none
@@ -70,7 +70,7 @@ inline constexpr Param pool_row = {
     .high = 64,
     .fallback = 2,
     .help =
-        "million fragments kept at a time (52 bytes each, 68 where a list can have more than 512); a frame that can have more "
+        "million fragments kept at a time (52 bytes each, 60 where a list can have more than 512); a frame that can have more "
         "is done in bands of rows",
     .scale = Scale::logarithmic};
 

@@ -15,12 +15,16 @@ struct Band {
     uint pool;  // nodes there are
 };
 
-// A fragment's place in the order, sorted in place; 16 bytes. Later submission is nearer at equal z.
+// A fragment's place in the order, sorted in place. Small, because llvmpipe moves it lane by lane and word by word.
 struct ListKey {
     float z;
+    uint event;  // index into events and submissions
+};
+
+// Later is nearer at equal z.
+struct ListSubmission {
     uint draw;  // in the order of submission
     uint primitive;
-    uint event;  // index into events
 };
 
 // A list of more keys is sorted in chunks of so many, which are merged then: a driver may end loops that turn too often.

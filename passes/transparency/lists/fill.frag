@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push { Band band; };
 layout(early_fragment_tests) in;
 layout(set = 0, binding = 1, scalar) buffer Ends { uint ends[]; };
 layout(set = 0, binding = 4, scalar) writeonly buffer Keys { ListKey keys[]; };
+layout(set = 0, binding = 8, scalar) writeonly buffer Submissions { ListSubmission submissions[]; };
 layout(set = 0, binding = 5, scalar) writeonly buffer Events { ListEvent events[]; };
 layout(set = 0, binding = 7, scalar) writeonly buffer Offsets { vec2 offsets[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
@@ -24,7 +25,8 @@ void main() {
         atomicAdd(counters.dropped, 1u);
         return;
     }
-    keys[node] = ListKey(event.z, in_draw, in_triangle, node);
+    keys[node] = ListKey(event.z, node);
+    submissions[node] = ListSubmission(in_draw, in_triangle);
     events[node] = ListEvent(event.p, event.t, event.e);
     if (distorts != 0u) offsets[node] = event.d;
 }

@@ -32,14 +32,42 @@ void sort_gapped(uint first, uint count, uint gap) {
     }
 }
 
-void sort_list(uint first, uint count) {
-    // Up to 12 keys plain insertion moves less than a first gapped round would save.
-    uint gap = count > 12u ? count * 5u / 11u : 1u;
-    while (gap > 1u) {
-        sort_gapped(first, count, gap);
-        gap = gap * 5u / 11u;
+// The same by depth alone. Whether two keys are equally deep: with a gap of 1 every such pair meets.
+bool sort_gapped_by_depth(uint first, uint count, uint gap) {
+    bool ties = false;
+    for (uint i = gap; i < count; ++i) {
+        const ListKey key = keys[first + i];
+        uint at = i;
+        while (at >= gap) {
+            const ListKey other = keys[first + at - gap];
+            ties = ties || key.z == other.z;
+            if (key.z >= other.z) break;
+            keys[first + at] = other;
+            at -= gap;
+        }
+        keys[first + at] = key;
     }
+    return ties;
+}
+
+// Up to 12 keys plain insertion moves less than a first gapped round would save.
+uint first_gap(uint count) { return count > 12u ? count * 5u / 11u : 1u; }
+
+void sort_by_order(uint first, uint count) {
+    for (uint gap = first_gap(count); gap > 1u; gap = gap * 5u / 11u) sort_gapped(first, count, gap);
     sort_gapped(first, count, 1u);
+}
+
+bool sort_by_depth(uint first, uint count) {
+    for (uint gap = first_gap(count); gap > 1u; gap = gap * 5u / 11u) sort_gapped_by_depth(first, count, gap);
+    return sort_gapped_by_depth(first, count, 1u);
+}
+
+// Submissions, two words more of every key, are looked at only where depths are equal: all is sorted again then, and little moves.
+void sort_list(uint first, uint count) {
+    const bool by_depth = list_order == list_order_depth;
+    const bool again = by_depth ? sort_by_depth(first, count) : true;
+    sort_by_order(first, again ? count : 0u);
 }
 
 void append_chunks(uint first, uint count) {

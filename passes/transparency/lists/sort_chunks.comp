@@ -1,5 +1,6 @@
 // Sorts the chunks of the lists that sort.comp left as they are, one workgroup per chunk: a bitonic sort (Batcher 1968) in shared
-// memory. Its turns do not depend on the data.
+// memory. Its turns do not depend on the data. Every comparison puts the later key higher, the first of a run between mirrored places:
+// so what lies beyond the last key need not be there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,32 +13,37 @@ layout(set = 0, binding = 1, scalar) buffer Keys { ListKey keys[]; };
 const uint threads = chunk_keys / 2u;
 shared ListKey sorted[chunk_keys];
 
-// Comes after every key, in both orders.
-ListKey padding() {
-    const uint last = list_order == list_order_submission ? 0xffffffffu : 0u;
-    return ListKey(uintBitsToFloat(0x7f800000u), last, last, 0u);
-}
-
-void order_pair(uint pair, uint run, uint apart) {
-    const uint i = 2u * pair - (pair & (apart - 1u)), j = i + apart;
+// i < j.
+void order_pair(uint i, uint j, uint count) {
+    if (j >= count) return;
     const ListKey a = sorted[i], b = sorted[j];
-    if (comes_first(b, a) != ((i & run) == 0u)) return;
+    if (!comes_first(b, a)) return;
     sorted[i] = b;
     sorted[j] = a;
 }
 
+void order_mirrored(uint pair, uint run, uint count) {
+    const uint half_run = run / 2u, begin = pair / half_run * run, place = pair % half_run;
+    order_pair(begin + place, begin + run - 1u - place, count);
+}
+
+void order_apart(uint pair, uint apart, uint count) {
+    const uint i = 2u * pair - (pair & (apart - 1u));
+    order_pair(i, i + apart, count);
+}
+
 void sort_chunk(uint first, uint count) {
     const uint thread = gl_LocalInvocationIndex;
-    for (uint i = thread; i < chunk_keys; i += threads) {
-        if (i < count) sorted[i] = keys[first + i];
-        else sorted[i] = padding();
-    }
+    for (uint i = thread; i < min(count, chunk_keys); i += threads) sorted[i] = keys[first + i];
     barrier();
-    for (uint run = 2u; run <= chunk_keys; run *= 2u)
-        for (uint apart = run / 2u; apart > 0u; apart /= 2u) {
-            order_pair(thread, run, apart);
+    for (uint run = 2u; run <= chunk_keys; run *= 2u) {
+        order_mirrored(thread, run, count);
+        barrier();
+        for (uint apart = run / 4u; apart > 0u; apart /= 2u) {
+            order_apart(thread, apart, count);
             barrier();
         }
+    }
     for (uint i = thread; i < min(count, chunk_keys); i += threads) keys[first + i] = sorted[i];
     barrier();
 }
