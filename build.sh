@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds Strata on Debian 12 and runs it. Installs what is missing with apt.
 #   ./build.sh          set up and build build/strata
-#   ./build.sh demo     record a scenario, replay it with several techniques, print error against time
+#   ./build.sh demo     record a scenario, replay it with several techniques, print error against time at default settings
 #   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and choices
 #   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers;
 #                       ./build.sh sanitize all: every test that needs no device
@@ -57,7 +57,8 @@ demo() {
     for technique in $(build/strata list transparency --names); do
         build/strata replay "$out/smoke.strata" --use "$technique" -o "$out/${technique#*/}"
     done
-    build/strata report "$out/smoke.strata" --stage transparency
+    build/strata report "$out/smoke.strata" --defaults
+    echo "each technique is measured at its default settings; to include their other settings: build/strata report $out/smoke.strata"
     echo "images:"
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }

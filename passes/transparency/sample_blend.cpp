@@ -30,6 +30,12 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
     return found != before.end() ? found->second : ReferenceImage(color.width, color.height, color.layers);
 }
 
+const FragmentLists& fragments_of(const StageInput& input, const ReferenceImage& color, std::optional<FragmentLists>& own) {
+    std::optional<FragmentLists>& kept = input.fragments ? *input.fragments : own;
+    if (!kept) kept = transparent_fragments(input.frame, opaque_depth(input.before, color));
+    return *kept;
+}
+
 ReferenceImage blended(ReferenceImage color, const StageInput& input, const SampleBlend& blend) {
     return blended(std::move(color), input, [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3) {
         return BlendedSample{blend(fragments, behind)};
@@ -38,12 +44,10 @@ ReferenceImage blended(ReferenceImage color, const StageInput& input, const Samp
 
 ReferenceImage blended(ReferenceImage color, const StageInput& input, const PlacedBlend& blend) {
     std::optional<FragmentLists> own;
-    std::optional<FragmentLists>& kept = input.fragments ? *input.fragments : own;
-    if (!kept) kept = transparent_fragments(input.frame, opaque_depth(input.before, color));
-    const FragmentLists& lists = *kept;
+    const FragmentLists& lists = fragments_of(input, color, own);
     if (color.undecided.empty()) color.undecided.assign(color.texels.size(), false);
-    for (std::uint32_t s = 0; s < color.layers; ++s) {
-        for (std::uint32_t y = 0; y < color.height; ++y) {
+    for (std::uint32_t y = 0; y < color.height; ++y) {
+        for (std::uint32_t s = 0; s < color.layers; ++s) {
             for (std::uint32_t x = 0; x < color.width; ++x) {
                 glm::dvec4& texel = color.at(x, y, s);
                 const BlendedSample result = blend(lists.at(x, y, s), glm::dvec3(texel), {x, y, s});

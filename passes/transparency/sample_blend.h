@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,8 +26,13 @@ using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::
 /// Opaque depth per sample of `color`; nothing is in front of anything where the frame has none.
 ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color);
 
+/// The frame's transparent fragments in front of opaque_depth(): those of StageInput::fragments, made if there are none yet, or
+/// those of `own` where the input keeps none.
+const FragmentLists& fragments_of(const StageInput&, const ReferenceImage& color, std::optional<FragmentLists>& own);
+
 /// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth before the stage. Samples
-/// whose fragments are undecided become so in the image.
+/// whose fragments are undecided become so in the image. Rows of pixels come from the top to the bottom, each with all its
+/// samples.
 ReferenceImage blended(ReferenceImage color, const StageInput&, const SampleBlend&);
 ReferenceImage blended(ReferenceImage color, const StageInput&, const PlacedBlend&);
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include <xxhash.h>
+
 #include "passes/reference/ltc_table.h"
 
 namespace strata {
@@ -83,11 +85,20 @@ void DeviceScene::describe(const SceneRecords& scene) {
 
 void DeviceScene::upload(const SceneRecords& scene) {
     describe(scene);
-    for (std::size_t i = 0; i < std::size(rows); ++i) executor_->upload({i + 1}, contents(rows[i], scene));
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        const std::span<const std::byte> bytes = contents(rows[i], scene);
+        const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+        const std::array<std::uint64_t, 2> now{hash.low64, hash.high64};
+        if (const auto before = uploaded_.find(i); before != uploaded_.end() && before->second == now) continue;
+        uploaded_.erase(i);  // of an upload that fails nothing is known
+        executor_->upload({i + 1}, bytes);
+        uploaded_.emplace(i, now);
+    }
 }
 
 void DeviceScene::forget() {
     for (std::size_t i = 0; i < std::size(rows); ++i) executor_->forget({i + 1});
+    uploaded_.clear();
 }
 
 void DeviceScene::import_into(Graph& graph, FrameImages& images) const {

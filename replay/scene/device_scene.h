@@ -1,6 +1,9 @@
 // The scene's buffers on the device, and how a graph gets at them.
 #pragma once
 
+#include <array>
+#include <map>
+
 #include "passes/frame_images.h"
 #include "replay/gpu/executor.h"
 #include "replay/scene/scene_records.h"
@@ -13,7 +16,7 @@ public:
 
     /// What import_into() speaks of, before any of it is on the device.
     void describe(const SceneRecords&);
-    /// Describes it and puts it on the device, in the place of what was there.
+    /// Describes it and puts those of its buffers on the device that are not there as they are, in the place of what was there.
     void upload(const SceneRecords&);
     /// Takes everything off the device.
     void forget();
@@ -25,6 +28,8 @@ public:
 private:
     Executor* executor_;
     std::vector<std::uint64_t> bytes_;  ///< by row of the buffer table
+    /// XXH3-128 of what is on the device, by row of the buffer table: meshes and textures of a recording seldom change.
+    std::map<std::size_t, std::array<std::uint64_t, 2>> uploaded_;
     CommandRange opaque_, casters_, transparent_, numbered_, separate_, back_to_front_;
 };
 

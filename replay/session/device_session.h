@@ -95,6 +95,8 @@ private:
         return shader_sets_.empty() ? ShaderLibrary::built_in() : shader_sets_.back()->library;
     }
     Result<Inspected> inspect(const Request&, Stage);
+    /// Frees found_->fragments where the memo's budget does not cover them.
+    void drop_large_fragments();
     /// What the loaded frame's technique of the stage needs of a device and this one does not have, or nothing.
     std::optional<std::string> lacking(const Request&, Stage) const;
     /// What is known of a run that executes everything, before any run.

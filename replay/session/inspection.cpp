@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "replay/measure/host_memory.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 #include "replay/session/judgement.h"
@@ -253,12 +254,19 @@ Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std
     return strata::draw_cover(frame, draw, &layers);
 }
 
+void DeviceSession::drop_large_fragments() {
+    if (!found_->fragments || found_->fragments->total() * sizeof(Fragment) <= memo_.budget()) return;
+    found_->fragments.reset();
+    release_freed_memory();
+}
+
 Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
     if (const auto on = check_going(); !on) return on.error();
     ImageSet images = info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
     leave_out_sides(loaded_->frame, device().snap_steps, images);
+    drop_large_fragments();
     return images;
 }
 
@@ -294,6 +302,7 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                                      .rounding = *rounding,
                                      .snap_steps = device().snap_steps,
                                      .stop = stop_});
+    drop_large_fragments();
     if (const auto on = check_going(); !on) return on.error();
     return accuracy;
 }

@@ -38,6 +38,7 @@ public:
 
     /// Keeps at most so much from here on; the oldest go first.
     void limit(std::uint64_t budget_bytes);
+    std::uint64_t budget() const { return budget_; }
     std::uint64_t held() const { return held_; }
     /// What is used from here on stays until the next call.
     void begin_run() {

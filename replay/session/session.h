@@ -221,7 +221,8 @@ public:
     /// frame, compile a pipeline, submit to the device, compute a truth, a row of a model. A new token lets it go on.
     virtual void stop_when(std::stop_token) = 0;
 
-    /// Keeps at most so much of stage outputs from here on, and as much as one run uses.
+    /// Keeps at most so much of stage outputs from here on, and as much as one run uses. Transparent fragments that take more
+    /// than this are not kept from one judge() or truth() to the next.
     virtual void limit_memo(std::uint64_t /*bytes*/) {}
     /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;

@@ -52,7 +52,7 @@ struct PrepassModel {
     enum class Tested { against_opaque, against_nothing } tested = Tested::against_opaque;
     Unseen unseen = Unseen::counts;
     std::uint32_t tint = tint_total;
-    /// What the prepass keeps of a texel's fragments.
+    /// What the prepass keeps of a texel's fragments. Called for a texel when it is read; again if it is read again much later.
     std::function<std::vector<double>(std::span<const Fragment>, glm::uvec2 texel)> project;
     /// Adds a texel's share to what is read.
     std::function<void(std::vector<double>& sum, std::span<const double> numbers, double share)> add = add_numbers;
