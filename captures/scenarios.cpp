@@ -68,6 +68,10 @@ constexpr auto scenario_table = std::to_array<Scenario>({
     {"hall_of_lights_4096", "Does culling itself stay cheap at 4096 lights?", 96, 54, scenario::hall_of_lights_4096},
     {"pair_overflow", "Are 272 pairs of lights and blockers in a tile that keeps 256 the same picture?", 96, 54,
      scenario::pair_overflow},
+    {"cornell_box", "Is white paint as red and as green beside the colored walls of a measured room as it should be?", 64, 64,
+     scenario::cornell_box},
+    {"two_rooms", "How much of a room's bounced light passes a thin wall with a closed door, and how much an open one?", 80, 45,
+     scenario::two_rooms},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

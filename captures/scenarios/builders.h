@@ -54,6 +54,9 @@ Frame hall_of_lights_4096(std::uint32_t frame, const ScenarioOptions&);
 Frame pair_overflow(std::uint32_t frame, const ScenarioOptions&);
 // light_types.cpp
 Frame light_types(std::uint32_t frame, const ScenarioOptions&);
+// light_volumes.cpp
+Frame cornell_box(std::uint32_t frame, const ScenarioOptions&);
+Frame two_rooms(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

@@ -1,4 +1,6 @@
 // The stage indirect: what it writes, and when a frame does not need it.
+#include "passes/indirect/judge.h"
+#include "passes/indirect/truth.h"
 #include "passes/stages.h"
 
 namespace strata::indirect {
@@ -12,7 +14,12 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.purpose = "adds light that other surfaces reflect", .unwanted = unwanted, .outputs = {"indirect"}, .scenarios = {}};
+    return {.purpose = "adds light that other surfaces reflect",
+            .unwanted = unwanted,
+            .outputs = {"indirect"},
+            .truth = indirect_truth,
+            .judge = indirect_judge,
+            .scenarios = {"cornell_box", "two_rooms"}};
 }
 
 }  // namespace strata::indirect

@@ -44,7 +44,8 @@ BlockerPlace place_of(const Frame& frame, const Blocker& blocker) {
     const glm::dvec3 u = glm::normalize(glm::dvec3(blocker.u)), n = glm::normalize(glm::cross(u, glm::dvec3(blocker.v)));
     const glm::dvec3 view_u = frame.view.to_view * u, view_n = frame.view.to_view * n;
     const double half_u = blocker.half_u, half_v = blocker.half_v;
-    const double growth = blocker_growth * std::max(half_u, half_v) + blocker_growth;
+    const bool has_area = half_u > 0 && half_v > 0;  // what has none stops nothing
+    const double growth = has_area ? blocker_growth * std::max(half_u, half_v) + blocker_growth : -1 - std::max(half_u, half_v);
     return {.center = in_view_space(frame.view, blocker.center),
             .normal = view_n,
             .u = view_u,
@@ -148,6 +149,7 @@ bool opens(const PortalPlace& portal, const BlockerPlace& blocker) {
 
 /// Whether two portals of one blocker share an edge, or part of one.
 bool abut(const PortalPlace& a, const PortalPlace& b) {
+    if (std::min({a.half_extent.x, a.half_extent.y, b.half_extent.x, b.half_extent.y}) <= 0) return false;
     if (a.blocker != b.blocker || glm::length(a.turn - b.turn) > same_turn) return false;
     const glm::dvec2 gap = glm::abs(turned(a, b.center - a.center)) - a.half_extent - b.half_extent;
     return std::max(gap.x, gap.y) <= portal_growth && std::max(gap.x, gap.y) >= -portal_growth && std::min(gap.x, gap.y) < 0;
@@ -180,6 +182,15 @@ std::vector<PortalPlace> cut_portals(const Frame& frame, const Light& light, std
     return portals;
 }
 
+BlockerPortalRecord record(const PortalPlace& place) {
+    return {
+        .center = glm::vec2(place.center),
+        .half_extent = glm::vec2(place.half_extent),
+        .turn = glm::vec2(place.turn),
+        .blocker = place.blocker,
+    };
+}
+
 }  // namespace
 
 std::vector<BlockerRecord> blocker_records(const Frame& frame) {
@@ -198,17 +209,20 @@ std::vector<BlockerRecord> blocker_records(const Frame& frame) {
     return records;
 }
 
+std::vector<BlockerPortalRecord> portal_records(const Frame& frame) {
+    std::vector<PortalPlace> portals;
+    for (const Portal& portal : frame.portals)
+        portals.push_back(place_of(frame, portal, place_of(frame, frame.blockers[portal.blocker])));
+    join(portals);
+    std::vector<BlockerPortalRecord> records;
+    for (const PortalPlace& place : portals) records.push_back(record(place));
+    return records;
+}
+
 LightBlockerRecords light_blocker_records(const Frame& frame, const Light& light) {
     std::vector<BlockerUse> uses = blockers_of(frame, light);
     LightBlockerRecords records;
-    for (const PortalPlace& place : cut_portals(frame, light, uses)) {
-        records.portals.push_back({
-            .center = glm::vec2(place.center),
-            .half_extent = glm::vec2(place.half_extent),
-            .turn = glm::vec2(place.turn),
-            .blocker = place.blocker,
-        });
-    }
+    for (const PortalPlace& place : cut_portals(frame, light, uses)) records.portals.push_back(record(place));
     for (const BlockerUse& use : uses) records.blockers.push_back({use.blocker, use.portals});
     return records;
 }

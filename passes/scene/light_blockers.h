@@ -13,6 +13,10 @@ namespace strata {
 /// so that a rounded position between two blockers that share an edge is inside one of them.
 std::vector<BlockerRecord> blocker_records(const Frame&);
 
+/// One record per portal, in the order of Frame::portals: what whoever asks about any way between two points reads, while lights
+/// have their own lists. Portals of one blocker that share an edge are made 1e-4 m wider, so that no line is left between them.
+std::vector<BlockerPortalRecord> portal_records(const Frame&);
+
 /// What can stop one light, in the order in which the light lists it.
 struct LightBlockerRecords {
     std::vector<LightBlockerRecord> blockers;  ///< at most 32
@@ -21,7 +25,7 @@ struct LightBlockerRecords {
 
 /// Blockers within the light's range that face it and whose plane it is not in. Of more than 32 those with the greatest solid
 /// angle seen from the light are kept, of equal ones the earlier. Portals without area and portals beside their blocker are left
-/// out. Portals of one blocker that share an edge are made 1e-4 m wider, so that no line is left between them.
+/// out. Portals of one blocker that share an edge are wider, as those of portal_records().
 LightBlockerRecords light_blocker_records(const Frame&, const Light&);
 
 }  // namespace strata

@@ -65,6 +65,7 @@ void add_blockers(const LightBlockerRecords& found, LightRecords& made) {
 LightRecords light_records(const Frame& frame) {
     LightRecords made;
     made.blockers = blocker_records(frame);
+    made.portals = portal_records(frame);
     for (const Light& light : light_list(frame)) {
         made.lights.push_back(record(frame, light));
         add_clip_planes(frame, light, made);

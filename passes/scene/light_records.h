@@ -12,7 +12,8 @@ namespace strata {
 /// blockers, portals and clip planes lie one light's after the other's.
 struct LightRecords {
     std::vector<LightRecord> lights;
-    std::vector<BlockerRecord> blockers;  ///< as Frame::blockers
+    std::vector<BlockerRecord> blockers;       ///< as Frame::blockers
+    std::vector<BlockerPortalRecord> portals;  ///< as Frame::portals
     std::vector<LightBlockerRecord> light_blockers;
     std::vector<BlockerPortalRecord> blocker_portals;
     std::vector<ClipPlaneRecord> clip_planes;

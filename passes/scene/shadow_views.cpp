@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "passes/scene/draw_lists.h"
+#include "passes/scene/light_pyramids.h"
 #include "passes/scene/map_places.h"
 #include "passes/scene/view_space.h"
 
@@ -17,8 +18,6 @@ namespace {
 constexpr double margin_texels = 8;
 // Origins move in steps of 4 texels, so that grids of 4 x 4 blocks over the map are stable too (docs/algorithms/deferred.md 5.8).
 constexpr double snap_texels = 4;
-// Half angle from which a perspective map is useless: tan 85 degrees is 11.4.
-constexpr double widest_half_angle = 85 * 3.14159265358979323846 / 180;
 
 double margin(std::uint32_t size) { return std::min(margin_texels, size / 8.0); }
 
@@ -39,22 +38,10 @@ BoundingSphere slice_sphere(const View& view, double begin, double end) {
     return {{0, 0, center}, std::max(corner(begin), corner(end))};
 }
 
-// The sun's axes in the world: fixed by its direction alone, so that texels stay where they are when the camera moves.
-struct SunAxes {
-    glm::dvec3 along, u, v;
-};
-
-SunAxes sun_axes(const Sun& sun) {
-    const glm::dvec3 along = glm::normalize(glm::dvec3(sun.direction));
-    const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(helper, along));
-    return {along, u, glm::cross(along, u)};
-}
-
 ShadowView sun_view(const Frame& frame, const BoundingSphere& slice, std::span<const BoundingSphere> casters) {
     const std::uint32_t size = std::max(frame.sun.shadow.map_size, 1u);
     const double texel = 2 * slice.radius / (size - 2 * margin(size));
-    const SunAxes axes = sun_axes(frame.sun);
+    const ParallelAxes axes = parallel_axes(glm::dvec3(frame.sun.direction));
     // Map coordinate along an axis: (world . axis - corner) / (size * texel), the corner on a grid fixed in the world.
     const auto row = [&](const glm::dvec3& axis) {
         const glm::dvec3 in_view = frame.view.to_view * axis;
@@ -94,21 +81,14 @@ void add_cascades(const Frame& frame, std::span<const BoundingSphere> casters, s
     }
 }
 
-// A pyramid of a light's rays: where it looks in view space, and the slopes of its sides.
-struct Pyramid {
-    glm::dvec3 along, u;
-    glm::dvec2 slopes;
-};
-
 // Wider than the pyramid by the margin, so that kernels at its rim find their texels.
-ShadowView local_view(const Frame& frame, const Light& light, const Pyramid& pyramid, std::uint32_t size) {
+ShadowView local_view(const Frame& frame, const Light& light, const LightPyramid& pyramid, std::uint32_t size) {
     const glm::dvec2 slopes = pyramid.slopes * (size / (size - 2 * margin(size)));
     const glm::dvec3 position = in_view_space(frame.view, light.position);
     const auto row = [&](const glm::dvec3& axis) { return glm::dvec4(axis, -glm::dot(axis, position)); };
     const glm::dvec4 w = row(pyramid.along);
-    const glm::dvec3 v = glm::cross(pyramid.along, pyramid.u);
     ShadowView view;
-    view.view_to_map = from_rows(0.5 * (w + row(pyramid.u) / slopes.x), 0.5 * (w + row(v) / slopes.y),
+    view.view_to_map = from_rows(0.5 * (w + row(pyramid.u) / slopes.x), 0.5 * (w + row(pyramid.v()) / slopes.y),
                                  {0, 0, 0, std::max(0.05, 0.01 * double(light.range))}, w);
     view.size = size;
     view.bias = double(light.shadow.bias);
@@ -119,24 +99,6 @@ ShadowView local_view(const Frame& frame, const Light& light, const Pyramid& pyr
     return view;
 }
 
-Pyramid spot_pyramid(const Frame& frame, const Light& light) {
-    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
-    const glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
-    const auto slope = [](float half_angle) { return std::tan(std::min(double(half_angle), widest_half_angle)); };
-    const double slope_u = slope(light.outer_angle);
-    return {.along = along,
-            .u = glm::normalize(u - along * glm::dot(u, along)),
-            .slopes = {slope_u, light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u}};
-}
-
-Pyramid face_pyramid(const Frame& frame, std::uint32_t face) {
-    const int axis = static_cast<int>(face / 2);
-    glm::dvec3 along(0), u(0);
-    along[axis] = face % 2 == 0 ? 1 : -1;
-    u[(axis + 1) % 3] = 1;
-    return {.along = frame.view.to_view * along, .u = frame.view.to_view * u, .slopes = {1, 1}};
-}
-
 bool has_map(const Light& light) {
     const bool can = light.type == LightType::round_spot || light.type == LightType::square_spot || has_faces(light);
     return can && light.shadow.casts && light.range > 0 && light.intensity != glm::vec3(0);
@@ -145,10 +107,7 @@ bool has_map(const Light& light) {
 void add_local(const Frame& frame, const Light& light, Allocation allocation, std::vector<ShadowView>& views) {
     const std::uint32_t own = std::max(light.shadow.map_size, 1u);
     const std::uint32_t size = allocation == Allocation::need ? needed_size(frame, light) : own;
-    if (!has_faces(light)) return views.push_back(local_view(frame, light, spot_pyramid(frame, light), size));
-    for (std::uint32_t face = 0; face < 6; ++face) {
-        views.push_back(local_view(frame, light, face_pyramid(frame, face), size));
-    }
+    for (const LightPyramid& pyramid : light_pyramids(frame, light)) views.push_back(local_view(frame, light, pyramid, size));
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ constexpr BufferRow rows[] = {
     {"Blockers", bytes_of<&SceneRecords::blockers>},
     {"LightBlockers", bytes_of<&SceneRecords::light_blockers>},
     {"BlockerPortals", bytes_of<&SceneRecords::blocker_portals>},
+    {"Portals", bytes_of<&SceneRecords::portals>},
     {"ClipPlanes", bytes_of<&SceneRecords::clip_planes>},
     {"LtcTable", ltc_bytes},
     // The sources of every draw list; of these, Indices alone is offered to shaders.

@@ -235,13 +235,14 @@ TEST(Layout, ArraysOfSceneRecordsHaveTheirSizeAsStride) {
         {"blockers", sizeof(BlockerRecord)},
         {"light_blockers", sizeof(LightBlockerRecord)},
         {"blocker_portals", sizeof(BlockerPortalRecord)},
+        {"portals", sizeof(BlockerPortalRecord)},
         {"clip_planes", sizeof(ClipPlaneRecord)},
         {"ltc_table", sizeof(LtcRecord)},
     };
     const std::set<std::string> scene_blocks = {
         "VertexPositions", "VertexNormals", "VertexTangents", "VertexUvs",      "VertexColors", "ParticleBottoms", "ParticleTops",
         "ParticleDepths",  "ParticleUvs",   "ParticleGlows",  "Draws",          "Materials",    "Textures",        "Lights",
-        "Shadows",         "Blockers",      "LightBlockers",  "BlockerPortals", "ClipPlanes",   "LtcTable"};
+        "Shadows",         "Blockers",      "LightBlockers",  "BlockerPortals", "ClipPlanes",   "LtcTable",        "Portals"};
     for (const Shader* shader : built_in_shaders()) {
         for (const BlockMember& member : shader->members) {
             if (!scene_blocks.contains(member.block) || member.holder != member.block) continue;

@@ -52,6 +52,11 @@ constexpr std::array divergences = {
                "every sample has the depth of the pixel's center, see below: another slice or rank (voxel: .0012 and .027)"},
     Divergence{"pane_at_the_lens", 4, .0045, .09, "the same (moments: .0022 and .044)"},
     Divergence{"particle_storm", 4, .005, .25, "the same (voxel: .0025 and .12)"},
+    Divergence{"cornell_box", 1, .02, .42,
+               "what lights see moves by what it changes in 1/16 pixel: other cells are lit (lpv: .0099 and .21)"},
+    Divergence{"cornell_box", 4, .02, .42, "the same (lpv: .0087 and .20)"},
+    Divergence{"two_rooms", 1, .004, .055, "the same (lpv: .0262)"},
+    Divergence{"two_rooms", 4, .004, .055, "the same (lpv: .0264)"},
     Divergence{"spheres_125", 4, .002, .055, "the same (wavelet and voxel: .027)"},
 };
 /// SwiftShader gives all four samples of a pixel one gl_FragCoord.z and one value of a varying that is `sample`, so that every

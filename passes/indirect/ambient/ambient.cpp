@@ -1,0 +1,31 @@
+// No bounced light: the hemisphere, which combine adds itself, is all that surfaces get beside the lights.
+#include "passes/technique.h"
+
+namespace strata::indirect {
+
+ImageSet ambient_model(const StageInput&, const Settings&);
+
+namespace {
+
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
+    frame.indirect = graph.create("indirect", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
+    graph.clear(frame.indirect, {});
+}
+
+}  // namespace
+
+Technique ambient() {
+    return {.stage = Stage::indirect,
+            .name = "indirect/ambient",
+            .title = "Ambient light",
+            .source = "the baseline: no light bounces",
+            .summary =
+                "Adds no bounced light, so that the sky and the ground alone light what no light reaches; its error is all "
+                "bounced light.",
+            .abilities = {.is_time_unit = true},
+            .declare = declare,
+            .model = ambient_model,
+            .tolerance = {.rmse = 0, .worst = 0, .because = "a cleared image is exact"}};
+}
+
+}  // namespace strata::indirect

@@ -1,0 +1,15 @@
+// How far the bounced light of a technique is from what is gathered, and how much of it is where none can be.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// Root mean square error of irradiance / pi, the same relative to the truth's root mean square, the worst channel, and the leak:
+/// the mean of the result over surfaces to which the truth gives exactly 0, relative to the mean of the truth over all other
+/// surfaces. 0 where no surface is dark.
+std::vector<Figure> indirect_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

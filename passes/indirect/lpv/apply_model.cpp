@@ -1,0 +1,85 @@
+#include "passes/indirect/lpv/apply_model.h"
+
+#include <algorithm>
+
+namespace strata::indirect::in_double {
+namespace {
+
+// docs/algorithms/lighting.md 5.8: where segments to the taps start, metres above the surface, and the least sum of weights.
+constexpr double tap_start = 0.02, least_weight = 0.02;
+
+// docs/algorithms/lighting.md 5.8: the area of a unit cube seen from anywhere, in the mean.
+constexpr double mean_section = 1.5;
+
+/// The eight cells around a place, with weights that are 0 where a tap is hidden.
+struct Taps {
+    std::array<glm::ivec3, 8> cells;
+    std::array<double, 8> weights;
+    double sum = 0;
+};
+
+Taps taps_of(const LitGrid& lit, const Receiver& at) {
+    const double size = lit.grid.cell_size;
+    const glm::dvec3 place = in_cells(lit.grid, at.position + at.normal * (size / 2)) - 0.5, low = glm::floor(place);
+    const glm::dvec3 part = place - low, start = at.position + at.normal * tap_start;
+    Taps taps;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::ivec3 step(i & 1, i >> 1 & 1, i >> 2);
+        const glm::dvec3 w = glm::mix(1.0 - part, part, glm::dvec3(step));
+        taps.cells[i] = glm::ivec3(low) + step;
+        const Segment way{start, cell_middle(lit.grid, taps.cells[i])};
+        taps.weights[i] = is_blocked(lit.tap_barriers, way, slack_of(size)) ? 0 : w.x * w.y * w.z;
+        taps.sum += taps.weights[i];
+    }
+    return taps;
+}
+
+glm::dvec4 weighted(const LitGrid& lit, const Taps& taps, std::size_t channel) {
+    if (taps.sum < least_weight) return glm::dvec4(0);
+    glm::dvec4 sum(0);
+    for (std::size_t i = 0; i < 8; ++i)
+        if (is_inside(lit.grid, taps.cells[i]))
+            sum += taps.weights[i] * lit.light[channel][cell_index(lit.grid.cells, glm::uvec3(taps.cells[i]))];
+    return sum / taps.sum;
+}
+
+}  // namespace
+
+glm::dvec4 sampled(const LitGrid& lit, std::size_t channel, const Receiver& at) {
+    return weighted(lit, taps_of(lit, at), channel);
+}
+
+glm::dvec3 irradiance(const LitGrid& lit, const Receiver& at) {
+    const Taps taps = taps_of(lit, at);
+    glm::dvec3 result;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        // Cells hold what leaves them: what arrives at the surface travels against its normal.
+        const glm::dvec4 c = weighted(lit, taps, channel);
+        const glm::dvec3 flow(c.y, c.z, c.w);
+        const double area = lit.grid.cell_size * lit.grid.cell_size;
+        const double intensity = harmonic0 * c.x - harmonic1 * glm::dot(flow, at.normal);
+        const glm::dvec4 lobe = cosine_lobe(-at.normal);
+        const double received = glm::dot(lobe, c) / mean_section;
+        result[glm::length_t(channel)] = std::max(0.0, lit.irradiance == irradiance_face ? 4 * intensity : received) / area;
+    }
+    return result;
+}
+
+double grid_share(const Grid& grid, const glm::dvec3& position) {
+    const glm::dvec3 place = in_cells(grid, position), inside = glm::min(place, glm::dvec3(grid.cells) - place);
+    return std::clamp(std::min({inside.x, inside.y, inside.z}) / grid.fade_cells, 0.0, 1.0);
+}
+
+glm::dvec3 blended_irradiance(std::span<const LitGrid> all, const Receiver& at) {
+    glm::dvec3 sum(0);
+    double remaining = 1;
+    for (const LitGrid& lit : all) {
+        const double share = grid_share(lit.grid, at.position);
+        if (share == 0) continue;
+        sum += remaining * share * irradiance(lit, at);
+        remaining *= 1 - share;
+    }
+    return sum;
+}
+
+}  // namespace strata::indirect::in_double

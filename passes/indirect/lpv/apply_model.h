@@ -1,0 +1,36 @@
+// What a surface receives of the light in grids, in double (docs/algorithms/lighting.md 5.8).
+#pragma once
+
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "passes/indirect/lpv/barriers_model.h"
+#include "passes/indirect/lpv/grids_model.h"
+#include "passes/indirect/lpv/injection_model.h"
+
+namespace strata::indirect::in_double {
+
+/// A grid after propagation.
+struct LitGrid {
+    Grid grid;
+    Field light;
+    std::span<const Barrier> tap_barriers = {};  ///< that hide taps from a surface; none: all eight taps count
+    std::uint32_t irradiance = irradiance_face;
+};
+
+/// World space.
+struct Receiver {
+    glm::dvec3 position{0}, normal{0, 1, 0};
+};
+
+/// One channel's coefficients half a cell above a receiver, of the eight cells around that place. Cells outside hold 0.
+glm::dvec4 sampled(const LitGrid&, std::size_t channel, const Receiver&);
+/// W/m^2 of one grid alone.
+glm::dvec3 irradiance(const LitGrid&, const Receiver&);
+/// Share of a grid at a position: 0 outside, rising to 1 over its border.
+double grid_share(const Grid&, const glm::dvec3& position);
+/// W/m^2: each grid takes its share of what the grids before it left.
+glm::dvec3 blended_irradiance(std::span<const LitGrid>, const Receiver&);
+
+}  // namespace strata::indirect::in_double

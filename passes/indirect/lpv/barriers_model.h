@@ -1,0 +1,45 @@
+// Blockers and portals as light propagation volumes see them, in double: a segment is blocked where it crosses the rectangle of a
+// blocker outside that blocker's portals. Unlike blockers of single lights (passes/reference/blockers.h) there are no distances
+// from the plane below which nothing is blocked: a cell's middle on the plane would see both sides (docs/algorithms/lighting.md
+// 5.8). Every blocker stops light from both sides.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+
+namespace strata::indirect::in_double {
+
+/// A portal in the plane of its blocker. The set is open: a segment through its edge is blocked.
+struct Hole {
+    glm::dvec2 center{0}, half_extent{0};
+    glm::dvec2 turn{1, 0};  ///< cosine and sine of the angle from the blocker's u to the portal's
+};
+
+/// A blocker in world space. The set is closed.
+struct Barrier {
+    glm::dvec3 center{0}, normal{0, 0, 1}, u{1, 0, 0}, v{0, 1, 0};
+    glm::dvec2 half_extent{0};
+    std::vector<Hole> holes;
+};
+
+/// All blockers of a frame that have an area, each with its own portals.
+std::vector<Barrier> barriers(const Frame&);
+
+struct Segment {
+    glm::dvec3 from{0}, to{0};
+};
+
+enum class Meeting { misses, passes_hole, is_stopped };
+
+/// Rectangles are `slack` metres wider than recorded, so that nothing passes between two that share an edge.
+Meeting meets(const Barrier&, const Segment&, double slack);
+bool is_blocked(std::span<const Barrier>, const Segment&, double slack);
+
+/// Width of the slack in a grid with cells of this size: 1e-6 of it (docs/algorithms/lighting.md 5.6).
+constexpr double slack_of(double cell_size) { return 1e-6 * cell_size; }
+
+}  // namespace strata::indirect::in_double

@@ -1,0 +1,56 @@
+// A row of the table of energy: what the cells hold before a step, and what was lost up to it, at blockers and over the border. Each is a
+// sum of its own, so that they prove each other.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/indirect/lpv/links.glsl"
+#include "passes/shaders/finished.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(push_constant, scalar) uniform Push { EnergyPush push; };
+layout(set = 0, binding = 0, scalar) readonly buffer Before { StepCell before[]; };
+layout(set = 0, binding = 2, rgba32f) uniform image2D numbers;
+layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
+
+shared vec3 sums[256];
+
+// W of all channels that a cell sends along an axis.
+float sent_all(StepCell cell, uint axis, float direction) {
+    return (sent(cell.light.red, cell.share.r, axis, direction).x + sent(cell.light.green, cell.share.g, axis, direction).x +
+            sent(cell.light.blue, cell.share.b, axis, direction).x) / watt0;
+}
+
+// Held, absorbed by the step to come, escaping in it.
+vec3 energy(ivec3 at) {
+    const StepCell cell = before[cell_index(push.grid, at)];
+    vec3 sum = vec3((cell.light.red.x + cell.light.green.x + cell.light.blue.x) / watt0, 0.0, 0.0);
+    for (uint i = 0u; i < 6u; ++i) {
+        const uint axis = i / 2u;
+        const int direction = i % 2u == 0u ? 1 : -1;
+        ivec3 next = at;
+        next[axis] += direction;
+        const float flux = sent_all(cell, axis, float(direction));
+        if (in_grid(push.grid, next)) sum.y += (1.0 - transmitted(push.grid, direction > 0 ? at : next, axis)) * flux;
+        else sum.z += flux;
+    }
+    return sum;
+}
+
+void main() {
+    const uint thread = gl_LocalInvocationIndex;
+    const uvec3 cells = push.grid.cells;
+    vec3 sum = vec3(0.0);
+    for (uint i = thread; i < cells.x * cells.y * cells.z; i += 256u)
+        sum += energy(ivec3(i % cells.x, i / cells.x % cells.y, i / (cells.x * cells.y)));
+    sums[thread] = sum;
+    for (uint reach = 128u; reach > 0u; reach /= 2u) {
+        barrier();
+        if (thread < reach) sums[thread] += sums[thread + reach];
+    }
+    if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
+    if (thread > 0u) return;
+    const int row = int(push.step);
+    const vec2 lost = row == 0 ? vec2(0.0) : imageLoad(numbers, ivec2(0, row)).zw;
+    imageStore(numbers, ivec2(0, row), vec4(float(row), sums[0].x, lost));
+    if (row + 1 < imageSize(numbers).y) imageStore(numbers, ivec2(0, row + 1), vec4(0.0, 0.0, lost + sums[0].yz));
+}

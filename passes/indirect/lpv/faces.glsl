@@ -1,0 +1,69 @@
+// What a cell sends through the faces of its neighbors (docs/algorithms/lighting.md 5.4).
+#ifndef PASSES_INDIRECT_LPV_FACES_GLSL
+#define PASSES_INDIRECT_LPV_FACES_GLSL
+#include "passes/indirect/lpv/harmonics.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+
+layout(constant_id = 1) const uint propagation = propagation_linear;
+layout(constant_id = 2) const uint faces = faces_centre;
+
+// Of a neighbor's face ahead and one beside it: the solid angle, and the mean direction times it, ahead and aside.
+const float angle_ahead = 0.400669684646, angle_aside = 0.423431354437;
+// By statements: lavapipe 22.3 takes the wrong side of a `?:` between two vectors that a specialization constant chooses from.
+float moment_ahead() {
+    if (faces == faces_centre) return angle_ahead;
+    return 0.3874136329;
+}
+vec2 moment_aside() {
+    if (faces == faces_centre) return angle_aside * vec2(0.8944271910, 0.4472135955);
+    return vec2(0.3383564674, 0.2193731309);
+}
+
+vec3 aside_of(vec3 d, vec3 f) { return moment_aside().x * d + moment_aside().y * f; }
+
+// W through a face of the neighbor in direction `moment`, which has the length of the face's moment.
+float flux(vec4 light, float angle, vec3 moment) {
+    const float through = angle * y0 * light.x + y1 * dot(light.yzw, moment);
+    return propagation == propagation_linear ? through : max(through, 0.0);
+}
+
+vec3 unit(uint axis, float direction) {
+    vec3 d = vec3(0.0);
+    d[axis] = direction;
+    return d;
+}
+
+// What all thirty faces would take of a cell where none takes less than nothing, and so what they are multiplied by to take what it holds.
+float share_sent(vec4 light) {
+    if (propagation != propagation_energy_true) return 1.0;
+    float sum = 0.0;
+    for (uint i = 0u; i < 6u; ++i) {
+        const uint axis = i / 2u;
+        const vec3 d = unit(axis, i % 2u == 0u ? 1.0 : -1.0);
+        sum += flux(light, angle_ahead, moment_ahead() * d);
+        for (uint k = 0u; k < 4u; ++k) {
+            const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
+            sum += flux(light, angle_aside, aside_of(d, f));
+        }
+    }
+    return sum > 0.0 ? light.x / (y0 * sum) : 0.0;
+}
+
+// What a cell sends along an axis, as the cell there takes it.
+vec4 sent(vec4 light, float share, uint axis, float direction) {
+    const vec3 d = unit(axis, direction);
+    const float ahead = flux(light, angle_ahead, moment_ahead() * d);
+    float sum = ahead;
+    vec3 towards = ahead * d;
+    for (uint k = 0u; k < 4u; ++k) {
+        const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
+        const float aside = flux(light, angle_aside, aside_of(d, f));
+        sum += aside;
+        towards += aside * f;
+    }
+    return vec4(watt0 * sum, watt1 * towards) * share;
+}
+
+StepCell with_share(LightCell light) { return StepCell(light, vec3(share_sent(light.red), share_sent(light.green), share_sent(light.blue))); }
+
+#endif

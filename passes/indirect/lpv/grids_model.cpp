@@ -1,0 +1,74 @@
+#include "passes/indirect/lpv/grids_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::indirect::in_double {
+namespace {
+
+// Widths of the fading borders in cells: docs/algorithms/lighting.md 5.7, "Blend between cascades" and "Local volume".
+constexpr double local_fade = 1, cascade_fade = 2;
+
+double finest_cell(const LightVolume& volume) {
+    const glm::dvec3 sizes = 2.0 * glm::dvec3(volume.half_extent) / glm::dvec3(volume.cells);
+    return std::max({sizes.x, sizes.y, sizes.z});
+}
+
+Grid local_grid(const LightVolume& volume) {
+    const double size = finest_cell(volume);
+    return {.cells = volume.cells,
+            .cell_size = size,
+            .origin = volume.center - size * glm::dvec3(volume.cells) / 2.0,
+            .fade_cells = local_fade,
+            .iterations = volume.iterations,
+            .occlusion = volume.occlusion};
+}
+
+/// Snapped to whole cells, so that the grid does not move against the world while the eye moves within a cell.
+Grid cascade_grid(const LightVolume& volume, std::uint32_t cascade, const glm::dvec3& eye) {
+    const double size = std::ldexp(finest_cell(volume), static_cast<int>(cascade));
+    return {.cells = volume.cells,
+            .cell_size = size,
+            .origin = size * (glm::floor(eye / size) - glm::dvec3(volume.cells / 2u)),
+            .fade_cells = cascade_fade,
+            .iterations = volume.iterations,
+            .occlusion = volume.occlusion};
+}
+
+}  // namespace
+
+std::vector<Grid> grids(const Frame& frame) {
+    std::vector<Grid> result;
+    for (const LightVolume& volume : frame.light_volumes)
+        if (volume.kind == VolumeKind::fixed_local) result.push_back(local_grid(volume));
+    for (const LightVolume& volume : frame.light_volumes) {
+        if (volume.kind != VolumeKind::cascaded_global) continue;
+        for (std::uint32_t k = 0; k < volume.cascades; ++k) result.push_back(cascade_grid(volume, k, frame.view.origin));
+    }
+    return result;
+}
+
+std::size_t cell_count(const Grid& grid) { return std::size_t{grid.cells.x} * grid.cells.y * grid.cells.z; }
+
+std::size_t cell_index(const glm::uvec3& cells, const glm::uvec3& cell) {
+    return (std::size_t{cell.z} * cells.y + cell.y) * cells.x + cell.x;
+}
+
+glm::dvec3 in_cells(const Grid& grid, const glm::dvec3& world) { return (world - grid.origin) / grid.cell_size; }
+
+glm::ivec3 cell_at(const Grid& grid, const glm::dvec3& world) {
+    // Positions far outside would not fit an int.
+    const glm::dvec3 cells(grid.cells);
+    return glm::ivec3(glm::clamp(glm::floor(in_cells(grid, world)), glm::dvec3(-1), cells));
+}
+
+bool is_inside(const Grid& grid, const glm::ivec3& cell) {
+    const glm::ivec3 cells(grid.cells);
+    return glm::all(glm::greaterThanEqual(cell, glm::ivec3(0))) && glm::all(glm::lessThan(cell, cells));
+}
+
+glm::dvec3 cell_middle(const Grid& grid, const glm::ivec3& cell) {
+    return grid.origin + grid.cell_size * (glm::dvec3(cell) + 0.5);
+}
+
+}  // namespace strata::indirect::in_double

@@ -1,0 +1,119 @@
+// Every texel of a light's reflective shadow maps becomes a virtual point light: a lobe in the cell before its surface, in fixed
+// point, so that the order of the sums does not matter (docs/algorithms/lighting.md 5.2 and 5.3).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "passes/indirect/lpv/grid.glsl"
+#include "passes/indirect/lpv/ways.glsl"
+#include "passes/shaders/finished.glsl"
+#include "passes/shaders/lights.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant, scalar) uniform Push { InjectPush push; };
+layout(constant_id = 3) const uint guards = 0u;  // 1: not into cells that a blocker hides from the surface
+layout(constant_id = 22) const uint light_features = every_light_feature;
+
+layout(set = 0, binding = 0) uniform sampler2DArray position;
+layout(set = 0, binding = 1) uniform sampler2DArray normal;
+layout(set = 0, binding = 2) uniform sampler2DArray albedo;
+layout(set = 0, binding = 3, scalar) buffer Sums { int sums[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
+
+// W/sr of a light of some size, from its middle.
+vec3 size_share(LightRecord light, vec3 towards) {
+    const float facing = max(0.0, dot(towards, light.direction)), r = light.source_radius;
+    if (light.type == light_sphere) return light.intensity * (pi * r * r);
+    if (light.type == light_disc) return light.intensity * (pi * r * r * facing);
+    if (light.type == light_rectangle) return light.intensity * (4.0 * light.half_extent.x * light.half_extent.y * facing);
+    const float along = dot(towards, light.axis_u);
+    return light.intensity * (4.0 * r * light.half_extent.x * sqrt(max(0.0, 1.0 - along * along)) + pi * r * r);
+}
+
+// W/sr towards a place, the range's window in it.
+vec3 sent_towards(LightRecord light, vec3 place) {
+    const vec3 offset = place - light.position;
+    const float squared = dot(offset, offset);
+    if (light.type >= light_tube) return size_share(light, normalize(offset)) * range_window(sqrt(squared), light.range);
+    MaterialPoint m;
+    m.position = place;
+    return incident_light(light, m, light_features & ~feature_projected_texture).irradiance * max(squared, nearest_light * nearest_light);
+}
+
+// W that arrive at a texel's surface.
+vec3 arriving(LightRecord light, vec3 place, uvec2 texel) {
+    if (light.type == light_directional) return light.intensity * push.texel_area;
+    const vec2 size = vec2(textureSize(position, 0).xy);
+    const vec2 t = ((vec2(texel) + 0.5) / size * 2.0 - 1.0) * push.slopes;
+    const float along = 1.0 + dot(t, t);
+    const float solid_angle = 4.0 * push.slopes.x * push.slopes.y / (size.x * size.y) / (along * sqrt(along));
+    return sent_towards(light, place) * solid_angle;
+}
+
+// The cell before the surface; where a blocker hides it, the one a whole cell before, then neighbors by their distance. None: x < 0.
+ivec3 guarded_cell(vec3 surface, vec3 n, ivec3 first, vec3 biased) {
+    const vec3 from = in_view(surface + 0.01 * n);
+    if (!is_stopped(from, in_view(middle_of(push.grid, first)))) return first;
+    const ivec3 farther = cell_of(push.grid, surface + n * push.grid.cell);
+    if (in_grid(push.grid, farther) && !is_stopped(from, in_view(middle_of(push.grid, farther)))) return farther;
+    uint tried = 0u;
+    for (uint turn = 0u; turn < 6u; ++turn) {
+        uint next = 0u;
+        float nearest = 1e30;
+        for (uint i = 0u; i < 6u; ++i) {
+            ivec3 cell = first;
+            cell[i / 2u] += i % 2u == 0u ? 1 : -1;
+            const float away = distance(middle_of(push.grid, cell), biased);
+            if ((tried & (1u << i)) == 0u && away < nearest) next = i, nearest = away;
+        }
+        tried |= 1u << next;
+        ivec3 cell = first;
+        cell[next / 2u] += next % 2u == 0u ? 1 : -1;
+        if (in_grid(push.grid, cell) && !is_stopped(from, in_view(middle_of(push.grid, cell)))) return cell;
+    }
+    return ivec3(-1);
+}
+
+void add(uint cell, uint channel, float flux, vec3 n) {
+    const vec4 lobe = vec4(watt0, watt1 * n) * (flux * push.fixed_one);
+    for (uint i = 0u; i < 4u; ++i) atomicAdd(sums[cell * 12u + channel * 4u + i], int(roundEven(lobe[i])));
+}
+
+void inject(vec3 surface, vec3 n, vec3 flux) {
+    const vec3 biased = surface + n * (push.bias * push.grid.cell);
+    const ivec3 first = cell_of(push.grid, biased);
+    if (!in_grid(push.grid, first)) {
+        atomicAdd(counters.outside, 1u);
+        return;
+    }
+    const ivec3 cell = guards == 0u ? first : guarded_cell(surface, n, first, biased);
+    if (cell.x < 0) {
+        atomicAdd(counters.dropped, 1u);
+        return;
+    }
+    if (cell != first) atomicAdd(counters.guarded, 1u);
+    atomicAdd(counters.injected, 1u);
+    for (uint channel = 0u; channel < 3u; ++channel) add(cell_index(push.grid, cell), channel, flux[channel], n);
+}
+
+// W of a texel's surface; nothing where it is not finite.
+vec3 reflected_flux(LightRecord light, vec3 place, vec3 n, ivec3 at) {
+    const vec3 flux = max(texelFetch(albedo, at, 0).rgb * arriving(light, place, uvec2(at.xy)), 0.0);
+    const bool is_finite = dot(n, n) > 0.5 && all(lessThan(abs(place), vec3(1e18))) && all(lessThan(flux, vec3(1e30)));
+    if (!is_finite || flux == vec3(0.0) || is_clipped(light, place)) return vec3(0.0);
+    const bool arrives = blockers_pass(light, off_surface(place, n), low_bits(light.blockers), low_bits(light.portals));
+    return arrives ? flux : vec3(0.0);
+}
+
+void main() {
+    const ivec3 at = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(at.xy, textureSize(position, 0).xy))) return;
+    const vec4 place = texelFetch(position, at, 0);
+    if (place.w == 0.0) return;
+    const LightRecord light = lights[push.light];
+    const vec3 to_light = light.type == light_directional ? -light.direction : light.position - place.xyz;
+    const vec3 facing = texelFetch(normal, at, 0).xyz;
+    const vec3 n = normalize(dot(facing, to_light) < 0.0 ? -facing : facing);
+    const vec3 flux = reflected_flux(light, place.xyz, n, at);
+    if (flux != vec3(0.0)) inject(view.to_world * place.xyz, view.to_world * n, flux);
+    if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
+}

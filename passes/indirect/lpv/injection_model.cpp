@@ -1,0 +1,58 @@
+#include "passes/indirect/lpv/injection_model.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+namespace strata::indirect::in_double {
+namespace {
+
+// Metres that the segment to a cell's middle starts before the surface (docs/algorithms/lighting.md 5.3).
+constexpr double before_surface = 0.01;
+
+/// +x -x +y -y +z -z of a cell, those whose middles are nearest to a place within it first. The place is relative to the middle.
+std::array<glm::ivec3, 6> neighbours_by_distance(const glm::ivec3& cell, const glm::dvec3& place) {
+    std::array<glm::ivec3, 6> ways;
+    for (glm::length_t i = 0; i < 6; ++i) {
+        ways[std::size_t(i)] = glm::ivec3(0);
+        ways[std::size_t(i)][i / 2] = i % 2 == 0 ? 1 : -1;
+    }
+    // The squared distance is that to the cell's own middle, plus 1, minus twice this: equal ones stay equal.
+    std::ranges::stable_sort(ways, std::greater{}, [&](const glm::ivec3& way) { return glm::dot(glm::dvec3(way), place); });
+    for (glm::ivec3& way : ways) way += cell;
+    return ways;
+}
+
+}  // namespace
+
+std::optional<glm::uvec3> receiving_cell(const Grid& grid, const VirtualLight& light, const InjectionRule& rule) {
+    const double size = grid.cell_size;
+    const glm::dvec3 biased = light.position + light.normal * (rule.bias * size);
+    const glm::ivec3 first = cell_at(grid, biased);
+    if (!is_inside(grid, first)) return std::nullopt;
+    const glm::dvec3 start = light.position + light.normal * before_surface;
+    const auto takes = [&](const glm::ivec3& cell) {
+        return is_inside(grid, cell) && !is_blocked(rule.barriers, {start, cell_middle(grid, cell)}, slack_of(size));
+    };
+    if (takes(first)) return glm::uvec3(first);
+    const glm::ivec3 ahead = cell_at(grid, light.position + light.normal * size);
+    if (takes(ahead)) return glm::uvec3(ahead);
+    for (const glm::ivec3& cell : neighbours_by_distance(first, in_cells(grid, biased) - glm::dvec3(first) - 0.5))
+        if (takes(cell)) return glm::uvec3(cell);
+    return std::nullopt;
+}
+
+Field injected(const Grid& grid, std::span<const VirtualLight> lights, const InjectionRule& rule) {
+    Field field;
+    field.fill(Channel(cell_count(grid), glm::dvec4(0)));
+    for (const VirtualLight& light : lights) {
+        const std::optional<glm::uvec3> cell = receiving_cell(grid, light, rule);
+        if (!cell) continue;
+        const glm::dvec4 lobe = cosine_lobe(light.normal);
+        for (std::size_t channel = 0; channel < field.size(); ++channel)
+            field[channel][cell_index(grid.cells, *cell)] += lobe * (light.flux[glm::length_t(channel)] / std::numbers::pi);
+    }
+    return field;
+}
+
+}  // namespace strata::indirect::in_double

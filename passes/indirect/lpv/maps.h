@@ -1,0 +1,37 @@
+// Reflective shadow maps: what lights see, from which light is injected (Dachsbacher and Stamminger, Reflective Shadow Maps, I3D
+// 2005).
+#pragma once
+
+#include <vector>
+
+#include "passes/frame_images.h"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/scene/light_grids.h"
+
+namespace strata::indirect {
+
+/// Of one light: where each map looks, and what makes watts of a texel's light.
+struct LightMaps {
+    std::vector<MapPush> views;
+    glm::vec2 slopes{0};   ///< of the maps' sides; 0 for parallel light
+    float texel_area = 0;  ///< of parallel light, square metres
+};
+
+/// Of a light that has a position: one map of a spot, else six.
+LightMaps maps_around(const Frame&, const Light&);
+/// Of parallel light: one over the grid.
+LightMaps maps_over(const SceneFacts&, const Light&, const LightGrid&, std::uint32_t size);
+
+/// Whether a light adds light to a grid: it shines, and its range reaches what the grid's cells are before. Its negative channels
+/// inject nothing.
+bool injects(const Light&, const LightGrid&);
+/// The most that a light can send in all directions and channels, W; of parallel light into a grid. For sums in fixed point.
+double most_flux(const Light&, const LightGrid&);
+
+/// Images of size x size texels with a layer per view, drawn.
+struct MapImages {
+    Image position, normal, albedo;
+};
+MapImages draw_maps(Graph&, const FrameImages&, const LightMaps&, std::uint32_t size);
+
+}  // namespace strata::indirect

@@ -1,0 +1,49 @@
+// Light that travels from cell to cell, in double (docs/algorithms/lighting.md 5.4; Kaplanyan, Dachsbacher, Cascaded Light
+// Propagation Volumes for Real-Time Indirect Illumination, I3D 2010). A cell holds the radiant intensity of one color channel as
+// four coefficients of spherical harmonics: l0 Y0 + Y1 (l1 . w) towards a direction w, stored as (l0, l1.x, l1.y, l1.z).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "passes/indirect/lpv/lpv.shared.h"
+
+namespace strata::indirect::in_double {
+
+/// 1 / (2 sqrt(pi)) and sqrt(3) / (2 sqrt(pi)): what coefficients are multiplied with.
+extern const double harmonic0, harmonic1;
+/// Coefficients of max(0, dot(normal, w)): (sqrt(pi) / 2, sqrt(pi / 3) normal).
+glm::dvec4 cosine_lobe(const glm::dvec3& normal);
+
+/// One color channel of a grid, by cell_index().
+using Channel = std::vector<glm::dvec4>;
+
+/// The cells of a grid, and how much light passes from each to its + neighbours.
+struct Links {
+    glm::uvec3 cells{1};
+    std::vector<glm::dvec3> open = {};  ///< by cell_index(): shares 0 to 1 along x, y, z; empty: everything passes
+};
+
+/// What a propagating face may hold (propagation_*), and how it is evaluated (faces_*).
+struct PropagationRule {
+    uint propagation = propagation_linear;
+    uint faces = faces_centre;
+};
+
+/// What arrives at a neighbour's cell of the light in a cell: the neighbour lies along +axis (sign 1) or -axis (sign -1).
+struct Travel {
+    glm::length_t axis = 0;
+    double sign = 1;
+};
+glm::dvec4 arriving(const glm::dvec4& source, const Travel&, const PropagationRule&);
+/// Factor on what a cell sends: 1 but for propagation_energy_true.
+double sent_share(const glm::dvec4& source, const PropagationRule&);
+
+/// One step: what every cell receives of its six neighbours. Light that leaves the grid is lost.
+Channel next_step(const Links&, const Channel&, const PropagationRule&);
+/// The sum of `injected` and of what every step after it gave.
+Channel propagated(const Links&, const Channel& injected, const PropagationRule&, std::uint32_t iterations);
+
+}  // namespace strata::indirect::in_double

@@ -1,0 +1,43 @@
+// Ways between two points and the blockers across them: one rule for what is injected, for links between cells and for what a surface
+// takes of a cell (docs/algorithms/lighting.md 5.8). Without the thresholds that light's own ways have: a cell's middle near a
+// blocker belongs to one side. All blockers of the frame stop light from both sides.
+#ifndef PASSES_INDIRECT_LPV_WAYS_GLSL
+#define PASSES_INDIRECT_LPV_WAYS_GLSL
+#include "passes/shaders/blockers.glsl"
+
+layout(constant_id = 1) const uint blocker_count = 0u;
+layout(constant_id = 2) const uint portal_count = 0u;
+
+// How far before a blocker's plane, view space.
+float height_over(BlockerRecord blocker, vec3 place) {
+    precise const vec3 offset = place - blocker.center;
+    return precise_dot(blocker.normal, offset);
+}
+
+// Where the way crosses the plane: (a, b) / w in its (u, v); w = 0 where it does not.
+vec3 way_crossing(BlockerRecord blocker, vec3 from, vec3 to) {
+    const float a = height_over(blocker, from), b = height_over(blocker, to);
+    if (a >= 0.0 == b >= 0.0) return vec3(0.0);
+    const vec3 v = precise_cross(blocker.normal, blocker.u);
+    precise const vec3 p = from - blocker.center, q = to - blocker.center;
+    precise const float s = abs(b), t = abs(a);
+    precise const vec3 at = vec3(s * precise_dot(blocker.u, p) + t * precise_dot(blocker.u, q),
+                                 s * precise_dot(v, p) + t * precise_dot(v, q), s + t);
+    return at;
+}
+
+bool passes_portal(uint blocker, vec3 at) {
+    for (uint i = 0u; i < portal_count; ++i)
+        if (portals[i].blocker == blocker && inside_portal(portals[i], at)) return true;
+    return false;
+}
+
+bool is_stopped(vec3 from, vec3 to) {
+    for (uint i = 0u; i < blocker_count; ++i) {
+        const vec3 at = way_crossing(blockers[i], from, to);
+        if (inside_blocker(blockers[i], at) && !passes_portal(i, at)) return true;
+    }
+    return false;
+}
+
+#endif

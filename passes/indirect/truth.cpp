@@ -1,0 +1,207 @@
+#include "passes/indirect/truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "passes/indirect/direct_light.h"
+#include "passes/indirect/leg_blockers.h"
+#include "passes/reference/decoded.h"
+#include "passes/reference/textures.h"
+#include "passes/reference/triangles.h"
+
+namespace strata {
+namespace {
+
+using indirect::DirectLight, indirect::LegBlockers, indirect::LitSide;
+
+// Metres a ray starts off its surface, at least and per metre of view depth: the coarsest G-buffer's positions are up to 4.9e-4
+// of their depth behind it (passes/gbuffer).
+constexpr double least_lift = 1e-3, lift_per_metre = 5e-4;
+constexpr double endless = 1e9;  // metres
+
+/// SplitMix64 (Steele, Lea and Flood 2014), begun by what the numbers are for.
+class Random {
+public:
+    Random(std::uint64_t pixel, std::uint64_t batch) : state_((pixel * 0x2545f4914f6cdd1du) ^ (batch * 0xd1342543de82ef95u)) {}
+    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+    std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
+
+private:
+    std::uint64_t next() {
+        state_ += 0x9e3779b97f4a7c15u;
+        std::uint64_t z = state_;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    std::uint64_t state_;
+};
+
+/// One point in each of side x side parts of the unit square.
+std::vector<glm::dvec2> stratified(std::uint32_t side, Random& random) {
+    std::vector<glm::dvec2> points;
+    for (std::uint32_t i = 0; i < side * side; ++i)
+        points.push_back(glm::dvec2(i % side + random.unit(), i / side + random.unit()) / double(side));
+    return points;
+}
+
+/// The same in any order (Fisher and Yates), so that they pair with other points without a pattern.
+std::vector<glm::dvec2> shuffled(std::uint32_t side, Random& random) {
+    std::vector<glm::dvec2> points = stratified(side, random);
+    for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.below(i)]);
+    return points;
+}
+
+/// Distributed by the cosine to the normal: equal areas of the unit square are equal shares of irradiance.
+glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
+    const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, normal)), v = glm::cross(normal, u);
+    const double sine = std::sqrt(place.x), angle = 2 * std::numbers::pi * place.y;
+    return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
+}
+
+/// A texture at mip 0, as rays see it: they have no pixel to filter over.
+glm::dvec4 texture_at(const Frame& frame, const TextureUse& use, const Attributes& attributes) {
+    if (use.texture == no_index) return glm::dvec4(1);
+    return bilinear(frame.textures[use.texture], 0, transformed(use, attributes.uv[use.uv_set == 0 ? 0 : 1]));
+}
+
+/// Gathers for one sample after the other.
+class Gathering {
+public:
+    explicit Gathering(const Frame& frame) : frame_(frame), scene_(frame, RayMask::opaque), direct_(frame), blockers_(frame) {
+        for (std::uint32_t i = 0; i < frame.draws.size(); ++i) spaces_.push_back(draw_space(frame, i));
+    }
+
+    /// The mean over a batch of directions: irradiance / pi.
+    glm::dvec3 batch(const LitSide& sample, std::uint32_t side, Random random) const {
+        const std::vector<glm::dvec2> directions = stratified(side, random);
+        std::vector<std::vector<glm::dvec2>> places;  // on each light
+        for (std::size_t i = 0; i < direct_.lights(); ++i) places.push_back(shuffled(side, random));
+        glm::dvec3 sum(0);
+        for (std::size_t i = 0; i < directions.size(); ++i)
+            sum += radiance(sample, cosine_direction(sample.normal, directions[i]),
+                            [&](std::size_t light) { return places[light][i]; });
+        return sum / double(directions.size());
+    }
+
+private:
+    /// What comes from a direction.
+    template <typename Places>
+    glm::dvec3 radiance(const LitSide& sample, const glm::dvec3& direction, const Places& places) const {
+        const glm::dvec3 origin = sample.position + sample.normal * std::max(least_lift, lift_per_metre * sample.position.z);
+        const std::optional<Hit> hit = scene_.closest(origin, direction, 0, endless);
+        if (!hit) return glm::dvec3(0);
+        const Attributes attributes = attributes_at(frame_, hit->draw, hit->triangle, hit->barycentric);
+        const glm::dvec3 albedo = albedo_at(hit->draw, attributes);
+        if (albedo == glm::dvec3(0)) return glm::dvec3(0);
+        const LitSide reflecting{origin + direction * hit->distance, facing_normal(*hit, attributes, direction)};
+        glm::dvec3 irradiance(0);
+        for (std::size_t i = 0; i < direct_.lights(); ++i) irradiance += direct_.irradiance(i, reflecting, places(i));
+        if (irradiance == glm::dvec3(0)) return glm::dvec3(0);
+        if (!blockers_.let_through(off_surface(reflecting.position, reflecting.normal),
+                                   off_surface(sample.position, sample.normal)))
+            return glm::dvec3(0);
+        return albedo * irradiance / std::numbers::pi;
+    }
+
+    glm::dvec3 albedo_at(std::uint32_t draw, const Attributes& attributes) const {
+        const Material& material = *material_of(frame_, draw);
+        if (material.lighting_model == LightingModel::unlit) return glm::dvec3(0);
+        const glm::dvec4 base =
+            glm::dvec4(material.base_color) * attributes.color * texture_at(frame_, material.base_color_texture, attributes);
+        const double metallic =
+            has_metals(material.lighting_model)
+                ? double(material.metallic) * texture_at(frame_, material.metallic_roughness_texture, attributes).z
+                : 0;
+        return glm::dvec3(base) * (1 - metallic);
+    }
+
+    /// The vertex normal, or the triangle's where there is none, on the side that was hit.
+    glm::dvec3 facing_normal(const Hit& hit, const Attributes& attributes, const glm::dvec3& direction) const {
+        const DrawSpace& space = spaces_[hit.draw];
+        const glm::dvec3 smooth = space.normals * attributes.normal;
+        const Corners corners = view_corners(frame_, space, hit.draw, hit.triangle);
+        const glm::dvec3 flat = space.handedness * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const glm::dvec3 outward = glm::dot(smooth, smooth) > 0 ? smooth : flat;
+        return glm::normalize(glm::dot(flat, direction) > 0 ? -outward : outward);
+    }
+
+    const Frame& frame_;
+    RayScene scene_;
+    DirectLight direct_;
+    LegBlockers blockers_;
+    std::vector<DrawSpace> spaces_;
+};
+
+struct Estimate {
+    glm::dvec3 mean{0}, standard_error{0};
+};
+
+Estimate estimate(const std::vector<glm::dvec3>& batches) {
+    const double count = double(batches.size());
+    Estimate result;
+    for (const glm::dvec3& batch : batches) result.mean += batch / count;
+    glm::dvec3 squares(0);
+    for (const glm::dvec3& batch : batches) squares += (batch - result.mean) * (batch - result.mean);
+    if (batches.size() > 1) result.standard_error = glm::sqrt(squares / (count - 1) / count);
+    return result;
+}
+
+/// A surface's place and side are all that irradiance asks; of hair, the lighting model makes a side of the fibre.
+bool is_first_again(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    const ReferenceImage &normal = input.before.at("surface_normal"), &material = input.before.at("surface_material");
+    return normal.at(x, y) == normal.at(x, y, sample) && material.at(x, y).x == material.at(x, y, sample).x;
+}
+
+LitSide sample_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    DecodedTexels texels{input.before.at("surface_normal").at(x, y, sample), {}, {}};
+    texels.material = input.before.at("surface_material").at(x, y, sample);
+    const SurfacePoint point = decoded_surface(input.frame, texels, x, y);
+    return {point.position, facing_normal(point)};
+}
+
+}  // namespace
+
+GatheredLight gathered_light(const StageInput& input, const GatheredDirections& directions) {
+    const Gathering gathering(input.frame);
+    const ReferenceImage& normal = input.before.at("surface_normal");
+    GatheredLight result{ReferenceImage(normal.width, normal.height, normal.layers),
+                         ReferenceImage(normal.width, normal.height, normal.layers)};
+    const auto gather = [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+        const LitSide at = sample_at(input, x, y, sample);
+        std::vector<glm::dvec3> batches;
+        for (std::uint32_t i = 0; i < directions.batches; ++i)
+            batches.push_back(gathering.batch(at, directions.side, Random(normal.index(x, y, sample) + 1, i + 1)));
+        const auto [mean, error] = estimate(batches);
+        result.light.at(x, y, sample) = glm::dvec4(mean, 1);
+        result.standard_error.at(x, y, sample) = glm::dvec4(error, 1);
+    };
+    tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < normal.width; ++x)
+            for (std::uint32_t sample = 0; sample < normal.layers; ++sample) {
+                if (normal.at(x, y, sample).w <= 0) continue;
+                if (sample == 0 || !is_first_again(input, x, y, sample)) {
+                    gather(x, y, sample);
+                    continue;
+                }
+                for (ReferenceImage* image : {&result.light, &result.standard_error}) image->at(x, y, sample) = image->at(x, y);
+            }
+    });
+    return result;
+}
+
+double rms_standard_error(const GatheredLight& gathered) {
+    double squares = 0;
+    for (const glm::dvec4& error : gathered.standard_error.texels) squares += glm::dot(glm::dvec3(error), glm::dvec3(error)) / 3;
+    return std::sqrt(squares / double(std::max<std::size_t>(1, gathered.standard_error.texels.size())));
+}
+
+ImageSet indirect_truth(const StageInput& input) { return {{"indirect", gathered_light(input).light}}; }
+
+}  // namespace strata

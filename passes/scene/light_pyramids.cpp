@@ -1,0 +1,45 @@
+#include "passes/scene/light_pyramids.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata {
+namespace {
+
+LightPyramid spot_pyramid(const Frame& frame, const Light& light) {
+    const glm::dvec3 along = frame.view.to_view * glm::normalize(glm::dvec3(light.direction));
+    glm::dvec3 u = frame.view.to_view * glm::dvec3(light.axis_u);
+    // Of a round spot without a picture a capture may say any axis.
+    if (glm::length(glm::cross(u, along)) < 1e-3) u = frame.view.to_view * parallel_axes(glm::dvec3(light.direction)).u;
+    const auto slope = [](float half_angle) { return std::tan(std::min(double(half_angle), widest_half_angle)); };
+    const double slope_u = slope(light.outer_angle);
+    return {.along = along,
+            .u = glm::normalize(u - along * glm::dot(u, along)),
+            .slopes = {slope_u, light.type == LightType::square_spot ? slope(light.inner_angle) : slope_u}};
+}
+
+LightPyramid face_pyramid(const Frame& frame, int face) {
+    const int axis = face / 2;
+    glm::dvec3 along(0), u(0);
+    along[axis] = face % 2 == 0 ? 1 : -1;
+    u[(axis + 1) % 3] = 1;
+    return {.along = frame.view.to_view * along, .u = frame.view.to_view * u, .slopes = {1, 1}};
+}
+
+}  // namespace
+
+std::vector<LightPyramid> light_pyramids(const Frame& frame, const Light& light) {
+    if (light.type == LightType::round_spot || light.type == LightType::square_spot) return {spot_pyramid(frame, light)};
+    std::vector<LightPyramid> faces;
+    for (int face = 0; face < 6; ++face) faces.push_back(face_pyramid(frame, face));
+    return faces;
+}
+
+ParallelAxes parallel_axes(const glm::dvec3& direction) {
+    const glm::dvec3 along = glm::normalize(direction);
+    const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, along));
+    return {along, u, glm::cross(along, u)};
+}
+
+}  // namespace strata

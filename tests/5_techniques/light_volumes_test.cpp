@@ -1,0 +1,190 @@
+// What holds of light propagation volumes on a device whatever their accuracy: walls stop light wholly, energy is lost where it
+// is said to be and nowhere else, and neither order, scale nor place in the world changes a picture.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/reference/decoded.h"
+#include "replay/images/host_image.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+Request indirect_of(std::size_t frame, const std::vector<std::string>& sets = {}) {
+    Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
+    request.outputs = {"indirect", "surface_normal"};
+    return request;
+}
+
+/// The door closed in the first, open in the second.
+std::vector<Frame> two_rooms() { return scenario_frames("two_rooms", 1, 2); }
+
+/// Brightness of the samples in each of the two rooms.
+struct Rooms {
+    std::vector<double> lit, dark;
+};
+Rooms rooms_of(const Frame& frame, const Run& run) {
+    Rooms rooms;
+    const HostImage& normals = run.images.at("surface_normal");
+    for (std::uint32_t y = 0; y < run.height; ++y)
+        for (std::uint32_t x = 0; x < run.width; ++x) {
+            const glm::dvec4 normal = texel(normals, x, y);
+            if (normal.w <= 0) continue;
+            const SurfacePoint p = decoded_surface(frame, {normal, glm::dvec4(0), glm::dvec4(0)}, x, y);
+            const double side = (frame.view.origin + glm::transpose(glm::dmat3(frame.view.to_view)) * p.position).x;
+            if (std::abs(side) < .08) continue;  // the door and its way through the wall
+            const glm::dvec4 light = texel(run.images.at("indirect"), x, y);
+            (side < 0 ? rooms.lit : rooms.dark).push_back(light.x + light.y + light.z);
+        }
+    return rooms;
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / double(values.size());
+}
+
+TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
+    const std::vector<Frame> frames = two_rooms();
+    const auto session = must(Session::open(frames, {.validation = true}));
+    for (const char* propagation : {"linear", "clamped", "energy_true"})
+        for (const char* iterations : {"16", "64"}) {
+            const std::vector<std::string> sets{std::string("propagation=") + propagation,
+                                                std::string("iterations=") + iterations};
+            const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0, sets))));
+            ASSERT_GT(closed.dark.size(), 500u);
+            EXPECT_EQ(std::ranges::count(closed.dark, 0.), std::ssize(closed.dark)) << propagation << ", " << iterations;
+            EXPECT_GT(mean(closed.lit), .1);
+            const Rooms open = rooms_of(frames[1], must(session->run(indirect_of(1, sets))));
+            EXPECT_GT(mean(open.dark), 1e-3 * mean(open.lit)) << propagation << ", " << iterations;
+        }
+}
+
+/// The rooms, the eye and all else turned around the vertical through the middle of the wall, in a grid that stays along the
+/// axes.
+Frame turned(Frame frame, double yaw) {
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), yaw, glm::dvec3(0, 1, 0)));
+    const auto around = [&](const glm::dvec3& p) { return turn * (p - glm::dvec3(0, 0, -2)) + glm::dvec3(0, 0, -2); };
+    const auto turn_direction = [&](glm::vec3& d) { d = glm::vec3(turn * glm::dvec3(d)); };
+    frame.view.origin = around(frame.view.origin);
+    frame.view.to_view = frame.view.to_view * glm::transpose(turn);
+    for (Draw& draw : frame.draws)
+        for (glm::dmat4* place : {&draw.to_world, &draw.previous_to_world}) {
+            const glm::dvec3 at = around(glm::dvec3((*place)[3]));
+            *place = glm::dmat4(turn) * *place;
+            (*place)[3] = glm::dvec4(at, 1);
+        }
+    for (Light& light : frame.lights) light.position = around(light.position);
+    for (Blocker& blocker : frame.blockers) {
+        blocker.center = around(blocker.center);
+        turn_direction(blocker.u), turn_direction(blocker.v);
+    }
+    for (Portal& portal : frame.portals) {
+        portal.center = around(portal.center);
+        turn_direction(portal.u), turn_direction(portal.v);
+    }
+    for (LightVolume& volume : frame.light_volumes) volume.half_extent = {5.6f, 2, 5.6f}, volume.cells = {28, 10, 28};
+    return frame;
+}
+
+TEST(LightVolumes, LeaveItDarkBehindObliqueWallsToo) {
+    const std::vector<Frame> frames = two_rooms();
+    for (const double yaw : {.3, glm::radians(45.)}) {
+        const auto session = must(Session::open({turned(frames[0], yaw), turned(frames[1], yaw)}, {.validation = true}));
+        // Where samples lie is asked of the rooms before they were turned: the eye turned with them.
+        const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0)))),
+                    open = rooms_of(frames[1], must(session->run(indirect_of(1))));
+        ASSERT_GT(closed.dark.size(), 500u);
+        EXPECT_EQ(std::ranges::count(closed.dark, 0.), std::ssize(closed.dark)) << yaw;
+        EXPECT_GT(mean(closed.lit), .1) << yaw;
+        EXPECT_GT(mean(open.dark), 1e-3 * mean(open.lit)) << yaw;
+    }
+}
+
+TEST(LightVolumes, LeakWhereNoBlockerIsAskedOrEveryTapCounts) {
+    const std::vector<Frame> frames = two_rooms();
+    const auto session = must(Session::open(frames, {.validation = true}));
+    EXPECT_GT(mean(rooms_of(frames[0], must(session->run(indirect_of(0, {"occlusion=none"})))).dark), 1e-3);
+    EXPECT_GT(mean(rooms_of(frames[0], must(session->run(indirect_of(0, {"taps=all"})))).dark), 1e-3);
+}
+
+NumberTable energy_of(Session& session, std::size_t frame, const std::vector<std::string>& sets) {
+    Request request = indirect_of(frame, sets);
+    request.outputs = {"indirect/lpv:energy"};
+    return must(session.run(request)).tables.at("indirect/lpv:energy");
+}
+
+TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
+    // Closed by blockers, and by none.
+    const auto session = must(Session::open({two_rooms()[1], scenario_frames("cornell_box").front()}, {.validation = true}));
+    for (const std::size_t frame : {0, 1})
+        for (const char* propagation : {"linear", "energy_true"})
+            for (const char* faces : {"centre", "exact"}) {
+                const NumberTable table = energy_of(
+                    *session, frame, {std::string("propagation=") + propagation, std::string("faces=") + faces, "iterations=64"});
+                ASSERT_EQ(table.rows.size(), 65u);
+                const double injected = table.rows.front()[1];
+                EXPECT_GT(injected, 50) << "W";
+                for (const std::vector<double>& row : table.rows)
+                    EXPECT_NEAR(row[1] + row[2] + row[3], injected, 1e-5 * injected)
+                        << propagation << ", " << faces << ", step " << row[0];
+                const double absorbed = table.rows.back()[2], escaped = table.rows.back()[3];
+                EXPECT_GT(frame == 0 ? absorbed : escaped, .5 * injected);
+                EXPECT_EQ(frame == 0 ? escaped : absorbed, 0);
+            }
+}
+
+TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
+    std::vector<Frame> frames{two_rooms()[1], two_rooms()[1]};
+    for (Light& light : frames[1].lights) light.intensity *= 8;  // exact
+    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto dim = must(session->run(indirect_of(0))), bright = must(session->run(indirect_of(1)));
+    std::size_t compared = 0;
+    for (std::uint32_t y = 0; y < dim.height; ++y)
+        for (std::uint32_t x = 0; x < dim.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double a = texel(dim.images.at("indirect"), x, y)[c], b = texel(bright.images.at("indirect"), x, y)[c];
+                if (a < 0x1p-14) continue;  // half floats below this have fewer bits
+                ASSERT_EQ(8 * a, b) << x << ", " << y;
+                ++compared;
+            }
+    EXPECT_GT(compared, 3000u);
+}
+
+TEST(LightVolumes, AreTheSameInEveryRun) {
+    const auto session = must(Session::open(two_rooms(), {.validation = true}));
+    const auto first = must(session->run(indirect_of(1)));
+    session->forget_memo();
+    const auto again = must(session->run(indirect_of(1)));
+    EXPECT_TRUE(first.images.at("indirect").texels == again.images.at("indirect").texels);
+}
+
+TEST(LightVolumes, AreTheSameTenKilometresAway) {
+    Frame near = two_rooms()[1], far = near;
+    const glm::dvec3 away(1e4, -2e3, 1e4);
+    far.view.origin += away;
+    for (Draw& draw : far.draws)
+        for (glm::dmat4* place : {&draw.to_world, &draw.previous_to_world}) (*place)[3] += glm::dvec4(away, 0);
+    for (Light& light : far.lights) light.position += away;
+    for (Blocker& blocker : far.blockers) blocker.center += away;
+    for (Portal& portal : far.portals) portal.center += away;
+    for (LightVolume& volume : far.light_volumes) volume.center += away;
+    const auto session = must(Session::open({near, far}, {.validation = true}));
+    const auto here = must(session->run(indirect_of(0))), there = must(session->run(indirect_of(1)));
+    double worst = 0, most = 0;
+    for (std::uint32_t y = 0; y < here.height; ++y)
+        for (std::uint32_t x = 0; x < here.width; ++x) {
+            const double a = texel(here.images.at("indirect"), x, y).y, b = texel(there.images.at("indirect"), x, y).y;
+            worst = std::max(worst, std::abs(a - b));
+            most = std::max(most, a);
+        }
+    EXPECT_GT(most, .5);
+    EXPECT_LT(worst, 1e-3 * most);
+}
+
+}  // namespace
+}  // namespace strata
