@@ -88,7 +88,7 @@ void inject(Graph& graph, const FrameImages& frame, const LpvParams& params, std
                              .slopes = maps.slopes,
                              .texel_area = maps.texel_area,
                              .fixed_one = float(grid->fixed_one),
-                             .bias = params.bias})
+                             .bias = params.injection})
             .over({params.map_size, params.map_size, static_cast<std::uint32_t>(maps.views.size())});
     }
 }
@@ -273,10 +273,10 @@ Technique lpv() {
                                           .fallback = 128,
                                           .help = "resolution of reflective shadow maps, texels per side",
                                           .scale = Scale::logarithmic}),
-             param<&LpvParams::bias>({.name = "bias",
-                                      .high = 1,
-                                      .fallback = .5,
-                                      .help = "offset of injected light along the surface's normal, cells"})},
+             param<&LpvParams::injection>({.name = "injection",
+                                           .high = 1,
+                                           .fallback = .5,
+                                           .help = "offset of injected light along the surface's normal, cells"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
                    "taps=all", "map_size=64", "irradiance=face"},
         .counters =

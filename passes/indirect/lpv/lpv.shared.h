@@ -27,8 +27,8 @@ struct LpvParams {
     uint faces;
     uint occlusion;
     uint taps;
-    uint map_size;  // texels a side of reflective shadow maps
-    float bias;     // cells along the normal, of what is injected
+    uint map_size;    // texels a side of reflective shadow maps
+    float injection;  // cells along the normal of what is injected
     uint irradiance;
 };
 

@@ -279,7 +279,7 @@ struct LitRoom {
                      .occlusion = occlusion_recorded,
                      .taps = taps_visible,
                      .map_size = 32,
-                     .bias = 0.5f};
+                     .injection = 0.5f};
 
     LitRoom() {
         add_square(frame, {4, 0, 0}, {0, 4, 0}, {0, 0, 4});

@@ -59,7 +59,7 @@ LitGrid lit(const Grid& grid, const Sources& sources, std::span<const Barrier> b
     LitGrid result{.grid = grid};
     result.irradiance = params.irradiance;
     if (params.taps == taps_visible) result.tap_barriers = in_the_way;
-    result.light = injected(grid, sources.around(grid), {.bias = double(params.bias), .barriers = in_the_way});
+    result.light = injected(grid, sources.around(grid), {.bias = double(params.injection), .barriers = in_the_way});
     const Links open = links(grid, in_the_way);
     const std::uint32_t iterations = params.iterations == 0 ? grid.iterations : params.iterations;
     const PropagationRule rule{.propagation = params.propagation, .faces = params.faces};
