@@ -52,7 +52,8 @@ struct StageInfo {
     std::optional<std::string> (*beyond_device)(const FrameImages&) = nullptr;
     /// Images of frame_images.h the stage writes; the first is the one that is judged and shown.
     std::vector<std::string_view> outputs;
-    Truth truth = nullptr;  ///< null: the stage has no technique yet
+    Truth truth = nullptr;                           ///< null: the stage has no technique yet
+    std::string_view truth_is = "exact, in double";  ///< how far a person may trust it
     Judge judge = nullptr;
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;

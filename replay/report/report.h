@@ -72,7 +72,7 @@ struct Measurement {
 struct Report {
     Stage stage = Stage::transparency;
     std::string capture_name;       ///< for people; the caller's
-    std::string capture_id, truth;  ///< truth: "exact, in double" or which technique stood in and how exact it is
+    std::string capture_id, truth;  ///< truth: StageInfo::truth_is or which technique stood in and how exact it is
     ErrorAt error_at = ErrorAt::stage;
     std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
     std::size_t least_repeats = 0;       ///< of the row with the fewest

@@ -35,7 +35,7 @@ Result<Accuracy> measure_stage(Session& session, const Variant& variant, Stage s
 }  // namespace
 
 Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, const View& view) {
-    Yardstick yardstick{.name = "exact, in double", .model_divisor = affordable_divisor(view)};
+    Yardstick yardstick{.name = std::string(info(wanted.stage).truth_is), .model_divisor = affordable_divisor(view)};
     if (yardstick.model_divisor == 1) {
         auto truth = session.truth(wanted.base, wanted.stage);
         if (!truth) return truth.error();

@@ -91,7 +91,7 @@ void DeviceScene::upload(const SceneRecords& scene) {
         const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
         const std::array<std::uint64_t, 2> now{hash.low64, hash.high64};
         if (const auto before = uploaded_.find(i); before != uploaded_.end() && before->second == now) continue;
-        uploaded_.erase(i);  // of an upload that fails nothing is known
+        uploaded_.erase(i);  // after an upload that failed its contents are unknown
         executor_->upload({i + 1}, bytes);
         uploaded_.emplace(i, now);
     }

@@ -16,7 +16,7 @@ public:
 
     /// What import_into() speaks of, before any of it is on the device.
     void describe(const SceneRecords&);
-    /// Describes it and puts those of its buffers on the device that are not there as they are, in the place of what was there.
+    /// Describes the scene and uploads those of its buffers whose bytes differ from what the device holds.
     void upload(const SceneRecords&);
     /// Takes everything off the device.
     void forget();

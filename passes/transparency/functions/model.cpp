@@ -98,10 +98,11 @@ glm::dvec3 resolved(const Sums& sums, glm::dvec3 behind, std::uint32_t tint) {
 /// The fragments that a prepass is made of; `own` keeps them where they are not those that are blended.
 const FragmentLists& fragments_of_prepass(const StageInput& input, const PrepassModel& model, std::optional<FragmentLists>& own) {
     const ReferenceImage& color = input.before.at("color");
-    Frame low = input.frame;
-    const Extent whole{low.view.width, low.view.height}, extent = prepass_extent(whole, model.divisor);
+    const View& view = input.frame.view;
+    const Extent whole{view.width, view.height}, extent = prepass_extent(whole, model.divisor);
     const bool is_tested = model.tested == PrepassModel::Tested::against_opaque;
-    if (is_tested && extent == whole && low.view.samples == 1) return fragments_of(input, color, own);
+    if (is_tested && extent == whole && view.samples == 1) return fragments_of(input, color, own);
+    Frame low = input.frame;
     low.view.width = extent.width;
     low.view.height = extent.height;
     low.view.samples = 1;

@@ -7,14 +7,17 @@ layout(constant_id = 0) const uint list_order = list_order_depth;
 
 layout(set = 0, binding = 7, scalar) readonly buffer Submissions { ListSubmission submissions[]; };
 
-bool submitted_later(ListKey a, ListKey b) {
-    const ListSubmission s = submissions[a.event], t = submissions[b.event];
-    return s.draw != t.draw ? s.draw > t.draw : s.primitive > t.primitive;
-}
+bool is_later(ListSubmission a, ListSubmission b) { return a.draw != b.draw ? a.draw > b.draw : a.primitive > b.primitive; }
 
 bool comes_first(ListKey a, ListKey b) {
-    if (list_order == list_order_submission) return submitted_later(b, a);
-    return a.z != b.z ? a.z < b.z : submitted_later(a, b);
+    if (list_order == list_order_submission) return is_later(submissions[b.event], submissions[a.event]);
+    return a.z != b.z ? a.z < b.z : is_later(submissions[a.event], submissions[b.event]);
+}
+
+// The same where a's submission is at hand.
+bool comes_first(ListKey a, ListSubmission of_a, ListKey b) {
+    if (list_order == list_order_submission) return is_later(submissions[b.event], of_a);
+    return a.z != b.z ? a.z < b.z : is_later(of_a, submissions[b.event]);
 }
 
 #endif

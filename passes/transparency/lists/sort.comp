@@ -21,10 +21,11 @@ layout(set = 0, binding = 6, scalar) buffer Counters { ListCounters counters; };
 void sort_gapped(uint first, uint count, uint gap) {
     for (uint i = gap; i < count; ++i) {
         const ListKey key = keys[first + i];
+        const ListSubmission own = submissions[key.event];
         uint at = i;
         while (at >= gap) {
             const ListKey other = keys[first + at - gap];
-            if (!comes_first(key, other)) break;
+            if (!comes_first(key, own, other)) break;
             keys[first + at] = other;
             at -= gap;
         }
@@ -32,7 +33,7 @@ void sort_gapped(uint first, uint count, uint gap) {
     }
 }
 
-// The same by depth alone. Whether two keys are equally deep: with a gap of 1 every such pair meets.
+// The same by depth alone. Returns whether two depths are equal: with a gap of 1 a key always meets the nearest one that is not deeper.
 bool sort_gapped_by_depth(uint first, uint count, uint gap) {
     bool ties = false;
     for (uint i = gap; i < count; ++i) {
@@ -63,7 +64,8 @@ bool sort_by_depth(uint first, uint count) {
     return sort_gapped_by_depth(first, count, 1u);
 }
 
-// Submissions, two words more of every key, are looked at only where depths are equal: all is sorted again then, and little moves.
+// Submissions, two words more of every key, are looked at only where depths are equal: all is sorted again then, and only keys of equal
+// depth change places.
 void sort_list(uint first, uint count) {
     const bool by_depth = list_order == list_order_depth;
     const bool again = by_depth ? sort_by_depth(first, count) : true;
