@@ -203,8 +203,8 @@ public:
                                    const ImageSet* truth = nullptr) = 0;
 
     /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
-    /// nothing when the frame and what made its depth are the same as the last time, unless a judge() or truth() in between dropped
-    /// what limit_memo() has no room for. Valid until the next call.
+    /// nothing when the frame and what made its depth are the same as the last time, unless a judge() or truth() in between
+    /// dropped what limit_memo() has no room for. Valid until the next call.
     virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
     /// The same of one row of pixels; other rows may be empty. Executes no more than what leaves the opaque depth.
     virtual Result<const FragmentLists*> row_fragments(const Request& request, std::uint32_t /*y*/) {
