@@ -1,5 +1,12 @@
 // Light propagation volumes: what lights reach is injected into grids and handed from cell to cell.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "passes/choice_names.h"
 #include "passes/edges/plain_pixels.h"
