@@ -3,6 +3,7 @@
 #ifndef PASSES_GBUFFER_FILL_GLSL
 #define PASSES_GBUFFER_FILL_GLSL
 #include "passes/gbuffer/codes.glsl"
+#include "passes/shaders/largest_half.glsl"
 #include "passes/shaders/material.glsl"
 
 layout(location = 0) in vec3 in_position;
@@ -15,8 +16,6 @@ layout(location = 6) flat in uint in_draw;
 layout(location = 0) out vec4 gbuffer0;
 layout(location = 1) out vec4 gbuffer1;
 layout(location = 2) out vec4 emission;
-
-const float largest_half = 65504.0;
 
 // Discards backs of one-sided faces and what the alpha test cuts away. The material is evaluated first: derivatives need the
 // whole quad.

@@ -11,7 +11,7 @@
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/leg_blockers.h"
 #include "passes/reference/decoded.h"
-#include "passes/reference/textures.h"
+#include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
 
 namespace strata {
@@ -65,12 +65,6 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
     return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
 }
 
-/// A texture at mip 0, as rays see it: they have no pixel to filter over.
-glm::dvec4 texture_at(const Frame& frame, const TextureUse& use, const Attributes& attributes) {
-    if (use.texture == no_index) return glm::dvec4(1);
-    return bilinear(frame.textures[use.texture], 0, transformed(use, attributes.uv[use.uv_set == 0 ? 0 : 1]));
-}
-
 /// Gathers for one sample after the other.
 class Gathering {
 public:
@@ -98,7 +92,7 @@ private:
         const std::optional<Hit> hit = scene_.closest(origin, direction, 0, endless);
         if (!hit) return glm::dvec3(0);
         const Attributes attributes = attributes_at(frame_, hit->draw, hit->triangle, hit->barycentric);
-        const glm::dvec3 albedo = albedo_at(hit->draw, attributes);
+        const glm::dvec3 albedo = diffuse_albedo(frame_, hit->draw, attributes);
         if (albedo == glm::dvec3(0)) return glm::dvec3(0);
         const LitSide reflecting{origin + direction * hit->distance, facing_normal(*hit, attributes, direction)};
         glm::dvec3 irradiance(0);
@@ -108,18 +102,6 @@ private:
                                    off_surface(sample.position, sample.normal)))
             return glm::dvec3(0);
         return albedo * irradiance / std::numbers::pi;
-    }
-
-    glm::dvec3 albedo_at(std::uint32_t draw, const Attributes& attributes) const {
-        const Material& material = *material_of(frame_, draw);
-        if (material.lighting_model == LightingModel::unlit) return glm::dvec3(0);
-        const glm::dvec4 base =
-            glm::dvec4(material.base_color) * attributes.color * texture_at(frame_, material.base_color_texture, attributes);
-        const double metallic =
-            has_metals(material.lighting_model)
-                ? double(material.metallic) * texture_at(frame_, material.metallic_roughness_texture, attributes).z
-                : 0;
-        return glm::dvec3(base) * (1 - metallic);
     }
 
     /// The vertex normal, or the triangle's where there is none, on the side that was hit.

@@ -3,11 +3,9 @@
 #ifndef PASSES_LIGHTING_STORED_LIGHT_GLSL
 #define PASSES_LIGHTING_STORED_LIGHT_GLSL
 #include "passes/edges/plain_pixels.glsl"
+#include "passes/shaders/largest_half.glsl"
 
 layout(set = 0, binding = 24, rgba16f) writeonly uniform image2DArray light;
-
-// Beyond this a half float is infinite, and infinity times nothing is not a number.
-const float largest_half = 65504.0;
 
 // Of a plain pixel `at` is the first sample.
 void store_light(ivec3 at, vec3 radiance) {

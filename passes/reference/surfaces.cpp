@@ -27,6 +27,12 @@ glm::dvec4 texture_at(const Frame& frame, const TextureUse& use, const Footprint
     return trilinear(texture, uv, level_of_detail(texture, per_x, per_y));
 }
 
+/// Of mip 0: what rays see, having no pixel to filter over.
+glm::dvec4 finest_texel(const Frame& frame, const TextureUse& use, const Attributes& at) {
+    if (use.texture == no_index) return glm::dvec4(1);
+    return bilinear(frame.textures[use.texture], 0, transformed(use, at.uv[use.uv_set == 0 ? 0 : 1]));
+}
+
 Footprint footprint_at(const Frame& frame, const RasterPoint& point, const Corners& corners, const glm::dvec3& position) {
     const View& view = frame.view;
     const TriangleRays rays(corners);
@@ -131,9 +137,15 @@ double alpha_at(const Frame& frame, std::uint32_t draw, std::uint32_t triangle, 
         use.texture = frame.emitters[draw - frame.draws.size()].texture;
     }
     const double own = material != nullptr ? double(material->base_color.w) : 1;
-    if (use.texture == no_index) return own * attributes.color.w;
-    const glm::dvec2 uv = transformed(use, attributes.uv[use.uv_set == 0 ? 0 : 1]);
-    return own * attributes.color.w * bilinear(frame.textures[use.texture], 0, uv).w;
+    return own * attributes.color.w * finest_texel(frame, use, attributes).w;
+}
+
+glm::dvec3 diffuse_albedo(const Frame& frame, std::uint32_t draw, const Attributes& at) {
+    const Material& material = *material_of(frame, draw);
+    if (material.lighting_model == LightingModel::unlit) return glm::dvec3(0);
+    const glm::dvec4 base = glm::dvec4(material.base_color) * at.color * finest_texel(frame, material.base_color_texture, at);
+    if (!has_metals(material.lighting_model)) return glm::dvec3(base);
+    return glm::dvec3(base) * (1 - double(material.metallic) * finest_texel(frame, material.metallic_roughness_texture, at).z);
 }
 
 }  // namespace strata

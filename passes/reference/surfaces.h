@@ -12,4 +12,8 @@ SurfacePoint surface_at(const Frame&, const RasterPoint&, const Corners&);
 /// Coverage of a material at a point of its triangle, texture at mip 0: what rays test, having no pixel to filter over.
 double alpha_at(const Frame&, std::uint32_t draw, std::uint32_t triangle, const glm::dvec3& barycentric);
 
+/// What a mesh's surface reflects as Lambert's does, of light of any direction: base color (1 - metallic), nothing where it is
+/// unlit. Textures at mip 0, as in alpha_at().
+glm::dvec3 diffuse_albedo(const Frame&, std::uint32_t draw, const Attributes&);
+
 }  // namespace strata

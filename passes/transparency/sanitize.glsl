@@ -2,9 +2,7 @@
 // uses these. NaN is found by its bits; comparing x != x is optimized away by fast-math drivers.
 #ifndef PASSES_TRANSPARENCY_SANITIZE_GLSL
 #define PASSES_TRANSPARENCY_SANITIZE_GLSL
-
-// Half floats end here: past it hardware adds to infinity and lavapipe 22.3 stays. Resolves read both as the largest half.
-const float largest_half = 65504.0;
+#include "passes/shaders/largest_half.glsl"  // resolves read what is above, and infinity, as this
 
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7fffffffu) < 0x7f800000u; }
 

@@ -6,6 +6,7 @@
 #include "passes/gbuffer/surface_at.glsl"
 #include "passes/indirect/lpv/taps.glsl"
 #include "passes/shaders/finished.glsl"
+#include "passes/shaders/largest_half.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -16,16 +17,13 @@ layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 layout(constant_id = 4) const uint irradiance = irradiance_face;
 
-// Irradiance over pi of what cells of a square metre a side hold (docs/algorithms/lighting.md 5.8). Of a face: a light half a cell away that
-// sends as much as the cell towards the surface. Of a cell: light through all of its section, 1.5 square metres in the mean.
+// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
+// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean.
 float towards(vec4 light, vec3 n) {
     const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));
     const float cell = (watt0 * light.x - watt1 * dot(light.yzw, n)) / 1.5;
     return max(0.0, irradiance == irradiance_face ? face : cell);
 }
-
-// Beyond this a half float is infinite, and infinity times nothing is not a number.
-const float largest_half = 65504.0;
 
 void store(ivec3 at, vec3 light, float weight) {
     const vec4 after = imageLoad(indirect, at);

@@ -33,35 +33,29 @@ vec3 unit(uint axis, float direction) {
     return d;
 }
 
-// What all thirty faces would take of a cell where none takes less than nothing, and so what they are multiplied by to take what it holds.
+// W that a cell sends along an axis, and the sum of the faces' directions weighted by it.
+vec4 through_faces(vec4 light, uint axis, float direction) {
+    const vec3 d = unit(axis, direction);
+    const float ahead = flux(light, angle_ahead, moment_ahead() * d);
+    vec4 sum = ahead * vec4(1.0, d);
+    for (uint k = 0u; k < 4u; ++k) {
+        const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
+        sum += flux(light, angle_aside, aside_of(d, f)) * vec4(1.0, f);
+    }
+    return sum;
+}
+
+// What faces are multiplied by, so that all thirty together take what the cell holds although none takes less than nothing.
 float share_sent(vec4 light) {
     if (propagation != propagation_energy_true) return 1.0;
     float sum = 0.0;
-    for (uint i = 0u; i < 6u; ++i) {
-        const uint axis = i / 2u;
-        const vec3 d = unit(axis, i % 2u == 0u ? 1.0 : -1.0);
-        sum += flux(light, angle_ahead, moment_ahead() * d);
-        for (uint k = 0u; k < 4u; ++k) {
-            const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
-            sum += flux(light, angle_aside, aside_of(d, f));
-        }
-    }
+    for (uint i = 0u; i < 6u; ++i) sum += through_faces(light, i / 2u, i % 2u == 0u ? 1.0 : -1.0).x;
     return sum > 0.0 ? light.x / (y0 * sum) : 0.0;
 }
 
 // What a cell sends along an axis, as the cell there takes it.
 vec4 sent(vec4 light, float share, uint axis, float direction) {
-    const vec3 d = unit(axis, direction);
-    const float ahead = flux(light, angle_ahead, moment_ahead() * d);
-    float sum = ahead;
-    vec3 towards = ahead * d;
-    for (uint k = 0u; k < 4u; ++k) {
-        const vec3 f = unit((axis + 1u + k / 2u) % 3u, k % 2u == 0u ? 1.0 : -1.0);
-        const float aside = flux(light, angle_aside, aside_of(d, f));
-        sum += aside;
-        towards += aside * f;
-    }
-    return vec4(watt0 * sum, watt1 * towards) * share;
+    return vec4(watt0, vec3(watt1)) * through_faces(light, axis, direction) * share;
 }
 
 StepCell with_share(LightCell light) { return StepCell(light, vec3(share_sent(light.red), share_sent(light.green), share_sent(light.blue))); }

@@ -49,6 +49,12 @@ vec3 arriving(LightRecord light, vec3 place, uvec2 texel) {
     return sent_towards(light, place) * solid_angle;
 }
 
+// +x, -x, +y, -y, +z, -z of it.
+ivec3 neighbor(ivec3 cell, uint i) {
+    cell[i / 2u] += i % 2u == 0u ? 1 : -1;
+    return cell;
+}
+
 // The cell before the surface; where a blocker hides it, the one a whole cell before, then neighbors by their distance. None: x < 0.
 ivec3 guarded_cell(vec3 surface, vec3 n, ivec3 first, vec3 biased) {
     const vec3 from = in_view(surface + 0.01 * n);
@@ -60,14 +66,11 @@ ivec3 guarded_cell(vec3 surface, vec3 n, ivec3 first, vec3 biased) {
         uint next = 0u;
         float nearest = 1e30;
         for (uint i = 0u; i < 6u; ++i) {
-            ivec3 cell = first;
-            cell[i / 2u] += i % 2u == 0u ? 1 : -1;
-            const float away = distance(middle_of(push.grid, cell), biased);
+            const float away = distance(middle_of(push.grid, neighbor(first, i)), biased);
             if ((tried & (1u << i)) == 0u && away < nearest) next = i, nearest = away;
         }
         tried |= 1u << next;
-        ivec3 cell = first;
-        cell[next / 2u] += next % 2u == 0u ? 1 : -1;
+        const ivec3 cell = neighbor(first, next);
         if (in_grid(push.grid, cell) && !is_stopped(from, in_view(middle_of(push.grid, cell)))) return cell;
     }
     return ivec3(-1);

@@ -35,10 +35,11 @@ struct DeviceGrid {
     GridPlace place;
     bool has_links = false;
     double fixed_one = 1;
-    Buffer sums, step, links, total;
+    std::size_t number = 0;  ///< in the order of light_grids()
+    Buffer sums, links, total;
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
-    std::string name(const char* what, std::size_t number) const { return fmt::format("{} {}", what, number); }
+    std::string name(const char* what) const { return fmt::format("{} {}", what, number); }
 };
 
 /// One per cell.
@@ -71,8 +72,9 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
         DeviceGrid g{.grid = grid,
                      .place = {.origin = glm::vec3(origin), .cell = float(grid.cell), .cells = grid.cells},
                      .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
-                     .fixed_one = fixed_one(*frame.facts, grid)};
-        g.sums = graph.create(g.name("injected light of grid", made.size()), std::uint64_t{g.cells()} * sizeof(LightCell));
+                     .fixed_one = fixed_one(*frame.facts, grid),
+                     .number = made.size()};
+        g.sums = graph.create(g.name("injected light of grid"), std::uint64_t{g.cells()} * sizeof(LightCell));
         graph.clear(g.sums, 0);
         made.push_back(g);
     }
@@ -116,9 +118,9 @@ void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& para
     }
 }
 
-void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid, std::size_t number) {
+void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid) {
     if (!grid.has_links) return;
-    grid.links = graph.create(grid.name("links of grid", number), std::uint64_t{grid.cells()} * 3 * sizeof(float));
+    grid.links = graph.create(grid.name("links of grid"), std::uint64_t{grid.cells()} * 3 * sizeof(float));
     fix_blockers(graph.compute("indirect/lpv/links.comp"), frame)
         .stores("Links", grid.links)
         .push(grid.place)
@@ -138,13 +140,14 @@ ComputePass fix_links(ComputePass pass, const DeviceGrid& grid) {
     return pass.loads("Links", grid.has_links ? grid.links : grid.sums).fixes("has_links", grid.has_links ? 1u : 0u);
 }
 
-/// Calls look(step, light) with what the cells hold before each step and after the last.
+/// Finds the links, and calls look(step, light) with what the cells hold before each step and after the last.
 template <typename Look>
-void propagate(Graph& graph, const LpvParams& params, DeviceGrid& grid, std::size_t number, const Look& look) {
+void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid, const Look& look) {
+    find_links(graph, frame, grid);
     const std::uint64_t bytes = std::uint64_t{grid.cells()} * sizeof(StepCell);
-    Buffer now = graph.create(grid.name("light of even steps of grid", number), bytes);
-    Buffer next = graph.create(grid.name("light of odd steps of grid", number), bytes);
-    grid.total = graph.create(grid.name("light of grid", number), std::uint64_t{grid.cells()} * sizeof(LightCell));
+    Buffer now = graph.create(grid.name("light of even steps of grid"), bytes);
+    Buffer next = graph.create(grid.name("light of odd steps of grid"), bytes);
+    grid.total = graph.create(grid.name("light of grid"), std::uint64_t{grid.cells()} * sizeof(LightCell));
     fix_faces(graph.compute("indirect/lpv/resolve.comp"), params)
         .loads("Sums", grid.sums)
         .stores("Step", now)
@@ -178,10 +181,7 @@ ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParam
 std::vector<DeviceGrid> lit_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
     inject_lights(graph, frame, params, grids);
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        find_links(graph, frame, grids[i], i);
-        propagate(graph, params, grids[i], i, [](std::uint32_t, const Buffer&) {});
-    }
+    for (DeviceGrid& grid : grids) propagate(graph, frame, params, grid, [](std::uint32_t, const Buffer&) {});
     return grids;
 }
 
@@ -218,8 +218,7 @@ Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     graph.clear(numbers, {});
     if (grids.empty()) return numbers;
     DeviceGrid& grid = grids.front();
-    find_links(graph, frame, grid, 0);
-    propagate(graph, params, grid, 0, [&](std::uint32_t step, const Buffer& light) {
+    propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer& light) {
         fix_links(fix_faces(graph.compute("indirect/lpv/energy.comp"), params), grid)
             .loads("Before", light)
             .updates("numbers", numbers)
@@ -240,9 +239,9 @@ Technique lpv() {
             "Kaplanyan, Dachsbacher: Cascaded Light Propagation Volumes for Real-Time Indirect Illumination, I3D 2010; axial "
             "occlusion and visible taps: Kircher, Rendering Technology in Agents of Mayhem, GDC 2018",
         .summary =
-            "Hands light on from cell to cell of a grid; light farther away than an eighth of the iterations, in cells, arrives "
-            "too "
-            "dark, and details smaller than a cell are lost.",
+            "Hands light on from cell to cell of a grid. Light from farther than an eighth of the iterations, in cells, is too "
+            "dark; "
+            "details smaller than a cell are lost.",
         .params =
             {param<&LpvParams::iterations>(
                  {.name = "iterations", .high = 64, .fallback = 0, .help = "steps of propagation; 0: as the capture says"}),
@@ -268,12 +267,12 @@ Technique lpv() {
                                       .fallback = taps_visible,
                                       .help = "cells to interpolate: all, or only those that no blocker hides from the surface",
                                       .choices = tap_rules}),
-             param<&LpvParams::irradiance>(
-                 {.name = "irradiance",
-                  .high = 1,
-                  .fallback = irradiance_cell,
-                  .help = "how cells become irradiance: as a light at their face, or as what travels through them",
-                  .choices = irradiances}),
+             param<&LpvParams::irradiance>({.name = "irradiance",
+                                            .high = 1,
+                                            .fallback = irradiance_cell,
+                                            .help = "how a cell's light becomes irradiance: face, as of a light at the cell's "
+                                                    "face; cell, as the mean over the cell",
+                                            .choices = irradiances}),
              param<&LpvParams::map_size>({.name = "map_size",
                                           .low = 16,
                                           .high = 512,
@@ -286,25 +285,26 @@ Technique lpv() {
                                            .help = "offset of injected light along the surface's normal, cells"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
                    "taps=all", "map_size=64", "irradiance=face"},
-        .counters =
-            {counter<&LpvCounters::injected>(
-                 {.name = "injected", .help = "virtual point lights put into a cell, over all grids"}),
-             counter<&LpvCounters::guarded>(
-                 {.name = "guarded", .help = "virtual point lights put into another cell, because a blocker hides the nearest"}),
-             counter<&LpvCounters::dropped>(
-                 {.name = "dropped", .help = "virtual point lights lost, because blockers hide all cells near them"}),
-             counter<&LpvCounters::outside>({.name = "outside", .help = "virtual point lights outside of the grid"}),
-             counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid"}),
-             counter<&LpvCounters::hidden_taps>({.name = "hidden taps", .help = "cells around samples that a blocker hides"}),
-             counter<&LpvCounters::unfinished>(unfinished_row)},
+        .counters = {counter<&LpvCounters::injected>(
+                         {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
+                     counter<&LpvCounters::guarded>(
+                         {.name = "guarded",
+                          .help = "virtual point lights injected into another cell, because a blocker hides the nearest"}),
+                     counter<&LpvCounters::dropped>(
+                         {.name = "dropped", .help = "virtual point lights lost, because blockers hide all cells near them"}),
+                     counter<&LpvCounters::outside>({.name = "outside", .help = "virtual point lights outside of the grid"}),
+                     counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid"}),
+                     counter<&LpvCounters::hidden_taps>(
+                         {.name = "hidden taps", .help = "interpolated cells that a blocker hides, summed over samples"}),
+                     counter<&LpvCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
-                   .help = "cells of the eight around a pixel that no blocker hides from its surface",
+                   .help = "of the eight interpolated cells, those that no blocker hides from the surface",
                    .unit = "cells",
                    .high = 8,
                    .declare = visible_taps}},
         .tables = {{.name = "energy",
-                    .help = "what the cells of the first grid hold before each step, and what was lost until then",
+                    .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
                     .declare = energy_table}},
         .declare = declare,

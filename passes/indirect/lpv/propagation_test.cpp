@@ -306,6 +306,17 @@ struct ArbitraryRoom {
     std::uint32_t last() const { return room.cells.x - 1; }
 };
 
+/// After six steps: that the other room has the light of the scene at the places that `moved` gives, with what `changed` makes of
+/// it.
+template <typename Moved, typename Changed>
+void expect_moved_light(const ArbitraryRoom& scene, const ArbitraryRoom& other, const Moved& moved, const Changed& changed) {
+    for (const PropagationRule& rule : all_rules) {
+        const Channel here = propagated(scene.links, scene.light, rule, 6), there = propagated(other.links, other.light, rule, 6);
+        for (std::uint32_t i = 0; i < 125; ++i)
+            EXPECT_COEFFICIENTS(there[scene.room.at(moved({i % 5, i / 5 % 5, i / 25}))], changed(here[i]), 4e-15);
+    }
+}
+
 // T5.15
 TEST(PropagatedLight, TurnsWithTheScene) {
     const ArbitraryRoom scene;
@@ -322,11 +333,7 @@ TEST(PropagatedLight, TurnsWithTheScene) {
         other.links.open[to].z = scene.links.open[i].z;
         if (cell.y < scene.last()) other.links.open[scene.room.at(moved(cell + uvec3(0, 1, 0)))].x = scene.links.open[i].y;
     }
-    for (const PropagationRule& rule : all_rules) {
-        const Channel here = propagated(scene.links, scene.light, rule, 6), there = propagated(other.links, other.light, rule, 6);
-        for (std::uint32_t i = 0; i < 125; ++i)
-            EXPECT_COEFFICIENTS(there[scene.room.at(moved({i % 5, i / 5 % 5, i / 25}))], turned(here[i]), 4e-15);
-    }
+    expect_moved_light(scene, other, moved, turned);
 }
 
 TEST(PropagatedLight, IsMirroredWithTheScene) {
@@ -342,11 +349,7 @@ TEST(PropagatedLight, IsMirroredWithTheScene) {
         other.links.open[to].z = scene.links.open[i].z;
         if (cell.x < scene.last()) other.links.open[scene.room.at(moved(cell + uvec3(1, 0, 0)))].x = scene.links.open[i].x;
     }
-    for (const PropagationRule& rule : all_rules) {
-        const Channel here = propagated(scene.links, scene.light, rule, 6), there = propagated(other.links, other.light, rule, 6);
-        for (std::uint32_t i = 0; i < 125; ++i)
-            EXPECT_COEFFICIENTS(there[scene.room.at(moved({i % 5, i / 5 % 5, i / 25}))], mirrored(here[i]), 4e-15);
-    }
+    expect_moved_light(scene, other, moved, mirrored);
 }
 
 // T5.16

@@ -9,7 +9,7 @@
 
 #include "passes/indirect/lpv/emission_model.h"
 #include "passes/reference/lights.h"
-#include "passes/reference/textures.h"
+#include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
 
 namespace strata::indirect::in_double {
@@ -20,21 +20,6 @@ constexpr double widest_spot = 85 * 3.14159265358979323846 / 180;
 // Metres along its axis where a map of a local light begins.
 constexpr double nearest_surface = 0.05;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-glm::dvec4 finest_texel(const Frame& frame, const TextureUse& use, const Attributes& at) {
-    if (use.texture == no_index) return glm::dvec4(1);
-    return bilinear(frame.textures[use.texture], 0, transformed(use, at.uv[use.uv_set == 0 ? 0 : 1]));
-}
-
-/// What a material reflects as Lambert does, textures at their finest; no more than arrives.
-glm::dvec3 reflectance(const Frame& frame, const Material& material, const Attributes& at) {
-    if (material.lighting_model == LightingModel::unlit) return glm::dvec3(0);
-    glm::dvec3 base =
-        glm::dvec3(material.base_color) * glm::dvec3(at.color) * glm::dvec3(finest_texel(frame, material.base_color_texture, at));
-    if (has_metals(material.lighting_model))
-        base *= 1 - double(material.metallic) * finest_texel(frame, material.metallic_roughness_texture, at).z;
-    return glm::min(base, 1.0);
-}
 
 /// View space, either side.
 glm::dvec3 surface_normal(const Frame& frame, const Hit& hit, const Attributes& at) {
@@ -90,7 +75,7 @@ std::optional<ReflectiveMaps::Surface> ReflectiveMaps::met(const LightRay& ray) 
     Surface surface;
     surface.position = ray.origin + ray.direction * hit->distance;
     surface.normal = glm::transpose(frame_->view.to_view) * (glm::dot(normal, direction) > 0 ? -normal : normal);
-    surface.reflectance = reflectance(*frame_, *material_of(*frame_, hit->draw), at);
+    surface.reflectance = glm::min(diffuse_albedo(*frame_, hit->draw, at), 1.0);  // no more than arrives
     surface.distance = hit->distance;
     return surface;
 }
