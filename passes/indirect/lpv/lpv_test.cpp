@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/indirect/lpv/emission_model.h"
+#include "passes/indirect/lpv/injection/emission_model.h"
+#include "passes/indirect/lpv/injection/reflective_map_model.h"
 #include "passes/indirect/lpv/model.h"
-#include "passes/indirect/lpv/reflective_map_model.h"
 #include "tests/support/one_pixel.h"
 
 namespace strata::indirect::in_double {

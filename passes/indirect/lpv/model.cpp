@@ -7,8 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "passes/indirect/lpv/occlusion_model.h"
-#include "passes/indirect/lpv/reflective_map_model.h"
+#include "passes/indirect/lpv/injection/reflective_map_model.h"
+#include "passes/indirect/lpv/occlusion/occlusion_model.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/light_sets.h"
 

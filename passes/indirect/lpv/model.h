@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "passes/indirect/lpv/apply_model.h"
+#include "passes/indirect/lpv/apply/apply_model.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/technique.h"
 

@@ -2,7 +2,7 @@
 // sum of its own, so that they prove each other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/links.glsl"
+#include "passes/indirect/lpv/occlusion/links.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 256) in;

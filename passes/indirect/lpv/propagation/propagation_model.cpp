@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/propagation_model.h"
+#include "passes/indirect/lpv/propagation/propagation_model.h"
 
 #include <algorithm>
 #include <array>

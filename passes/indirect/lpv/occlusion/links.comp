@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/ways.glsl"
+#include "passes/indirect/lpv/occlusion/ways.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;

@@ -10,7 +10,7 @@
 
 #include "capture_format/frame.h"
 #include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/injection_model.h"
+#include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/reference/blockers.h"
 #include "passes/reference/rays.h"
 

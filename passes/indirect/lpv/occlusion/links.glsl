@@ -1,7 +1,7 @@
 // What the links between cells let through.
 #ifndef PASSES_INDIRECT_LPV_LINKS_GLSL
 #define PASSES_INDIRECT_LPV_LINKS_GLSL
-#include "passes/indirect/lpv/faces.glsl"
+#include "passes/indirect/lpv/propagation/faces.glsl"
 #include "passes/indirect/lpv/grid.glsl"
 
 layout(constant_id = 3) const uint has_links = 0u;

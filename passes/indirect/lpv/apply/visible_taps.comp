@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/surface_at.glsl"
-#include "passes/indirect/lpv/taps.glsl"
+#include "passes/indirect/lpv/apply/taps.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/gbuffer/surface_at.glsl"
-#include "passes/indirect/lpv/taps.glsl"
+#include "passes/indirect/lpv/apply/taps.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/largest_half.glsl"
 

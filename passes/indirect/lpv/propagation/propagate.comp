@@ -3,7 +3,7 @@
 // nothing comes back.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/links.glsl"
+#include "passes/indirect/lpv/occlusion/links.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 

@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/maps.h"
+#include "passes/indirect/lpv/injection/maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ MapImages draw_maps(Graph& graph, const FrameImages& frame, const LightMaps& map
                      .albedo = image("lit albedos", Format::rgba16f)};
     Image depth = image("depth of a light's map", Format::d32f);
     for (std::uint32_t layer = 0; layer < maps.views.size(); ++layer) {
-        DrawPass draw = graph.draw("indirect/lpv/map", frame.casters);
+        DrawPass draw = graph.draw("indirect/lpv/injection/map", frame.casters);
         fix_materials(draw, frame, Surfaces::opaque)
             .covers(images.position, {.layer = layer})
             .covers(images.normal, {.layer = layer})

@@ -4,7 +4,7 @@
 #define PASSES_INDIRECT_LPV_TAPS_GLSL
 #include "passes/gbuffer/surface.glsl"
 #include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/ways.glsl"
+#include "passes/indirect/lpv/occlusion/ways.glsl"
 
 layout(constant_id = 3) const uint asks_taps = 0u;  // 1: not of cells that a blocker hides
 

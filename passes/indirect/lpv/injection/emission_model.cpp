@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/emission_model.h"
+#include "passes/indirect/lpv/injection/emission_model.h"
 
 #include <algorithm>
 #include <cmath>

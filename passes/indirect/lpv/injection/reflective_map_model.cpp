@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/reflective_map_model.h"
+#include "passes/indirect/lpv/injection/reflective_map_model.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "passes/indirect/lpv/emission_model.h"
+#include "passes/indirect/lpv/injection/emission_model.h"
 #include "passes/reference/lights.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"

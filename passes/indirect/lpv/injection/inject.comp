@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/ways.glsl"
+#include "passes/indirect/lpv/occlusion/ways.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/lights.glsl"
 

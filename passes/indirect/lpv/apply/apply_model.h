@@ -5,9 +5,9 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/indirect/lpv/barriers_model.h"
 #include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/injection_model.h"
+#include "passes/indirect/lpv/injection/injection_model.h"
+#include "passes/indirect/lpv/occlusion/barriers_model.h"
 
 namespace strata::indirect::in_double {
 

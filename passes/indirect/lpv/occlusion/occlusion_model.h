@@ -6,9 +6,9 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/indirect/lpv/barriers_model.h"
 #include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/propagation_model.h"
+#include "passes/indirect/lpv/occlusion/barriers_model.h"
+#include "passes/indirect/lpv/propagation/propagation_model.h"
 
 namespace strata::indirect::in_double {
 

@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/apply_model.h"
+#include "passes/indirect/lpv/apply/apply_model.h"
 
 #include <algorithm>
 

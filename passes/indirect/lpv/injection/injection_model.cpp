@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/injection_model.h"
+#include "passes/indirect/lpv/injection/injection_model.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/occlusion_model.h"
+#include "passes/indirect/lpv/occlusion/occlusion_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,16 @@
+// What surfaces read of grids.
+#pragma once
+
+#include <span>
+
+#include "passes/indirect/lpv/device_grid.h"
+
+namespace strata::indirect {
+
+/// To a step whose shader includes passes/indirect/lpv/apply/taps.glsl.
+ComputePass see_light(ComputePass, const FrameImages&, const LpvParams&, const DeviceGrid&);
+
+/// Irradiance / pi of every sample. What a point takes of the first grid that holds it lies over what it takes of those after it.
+Image apply(Graph&, const FrameImages&, const LpvParams&, std::span<const DeviceGrid>);
+
+}  // namespace strata::indirect

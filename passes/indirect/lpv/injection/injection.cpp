@@ -1,0 +1,60 @@
+#include "passes/indirect/lpv/injection/injection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "passes/indirect/lpv/injection/maps.h"
+#include "passes/scene/scene_facts.h"
+
+namespace strata::indirect {
+namespace {
+
+void inject(Graph& graph, const FrameImages& frame, const LpvParams& params, std::uint32_t light, const LightMaps& maps,
+            std::span<DeviceGrid* const> grids) {
+    const MapImages images = draw_maps(graph, frame, maps, params.map_size);
+    for (DeviceGrid* const grid : grids) {
+        fix_blockers(graph.compute("indirect/lpv/injection/inject.comp"), frame)
+            .samples("position", images.position)
+            .samples("normal", images.normal)
+            .samples("albedo", images.albedo)
+            .updates("Sums", grid->sums)
+            .fixes("guards", grid->has_links ? 1u : 0u)
+            .fixes("light_features", frame.facts->light_features())
+            .push(InjectPush{.grid = grid->place,
+                             .light = light,
+                             .slopes = maps.slopes,
+                             .texel_area = maps.texel_area,
+                             .fixed_one = float(grid->fixed_one),
+                             .bias = params.injection})
+            .over({params.map_size, params.map_size, static_cast<std::uint32_t>(maps.views.size())});
+    }
+}
+
+}  // namespace
+
+double fixed_one(const SceneFacts& facts, const LightGrid& grid) {
+    double most = 0;
+    for (const Light& light : facts.lights())
+        if (injects(light, grid)) most += most_flux(light, grid);
+    const double lobe = std::sqrt(1 / (3 * std::numbers::pi));  // the largest coefficient of a watt
+    return std::exp2(std::clamp(std::floor(std::log2(0x1p30 / (most * lobe))), -100., 100.));
+}
+
+void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
+    const std::span<const Light> lights = frame.facts->lights();
+    for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        std::vector<DeviceGrid*> reached;
+        for (DeviceGrid& grid : grids)
+            if (injects(lights[i], grid.grid)) reached.push_back(&grid);
+        if (lights[i].type != LightType::directional) {
+            if (!reached.empty()) inject(graph, frame, params, i, maps_around(*frame.recorded, lights[i]), reached);
+            continue;
+        }
+        for (DeviceGrid* const grid : reached)
+            inject(graph, frame, params, i, maps_over(*frame.facts, lights[i], grid->grid, params.map_size), {&grid, 1});
+    }
+}
+
+}  // namespace strata::indirect

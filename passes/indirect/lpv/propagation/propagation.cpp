@@ -1,0 +1,57 @@
+#include "passes/indirect/lpv/propagation/propagation.h"
+
+#include <utility>
+
+namespace strata::indirect {
+namespace {
+
+void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid) {
+    if (!grid.has_links) return;
+    grid.links = graph.create(grid.name("links of grid"), std::uint64_t{grid.cells()} * 3 * sizeof(float));
+    fix_blockers(graph.compute("indirect/lpv/occlusion/links.comp"), frame)
+        .stores("Links", grid.links)
+        .push(grid.place)
+        .over({grid.grid.cells.x, grid.grid.cells.y, 3 * grid.grid.cells.z});
+}
+
+}  // namespace
+
+ComputePass fix_faces(ComputePass pass, const LpvParams& params) {
+    return pass.fixes("propagation", params.propagation).fixes("faces", params.faces);
+}
+
+std::uint32_t iterations(const LpvParams& params, const DeviceGrid& grid) {
+    return params.iterations > 0 ? params.iterations : grid.grid.iterations;
+}
+
+ComputePass fix_links(ComputePass pass, const DeviceGrid& grid) {
+    return pass.loads("Links", grid.has_links ? grid.links : grid.sums).fixes("has_links", grid.has_links ? 1u : 0u);
+}
+
+void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid,
+               const std::function<void(std::uint32_t step, const Buffer& light)>& look) {
+    find_links(graph, frame, grid);
+    const std::uint64_t bytes = std::uint64_t{grid.cells()} * sizeof(StepCell);
+    Buffer now = graph.create(grid.name("light of even steps of grid"), bytes);
+    Buffer next = graph.create(grid.name("light of odd steps of grid"), bytes);
+    grid.total = graph.create(grid.name("light of grid"), std::uint64_t{grid.cells()} * sizeof(LightCell));
+    fix_faces(graph.compute("indirect/lpv/injection/resolve.comp"), params)
+        .loads("Sums", grid.sums)
+        .stores("Step", now)
+        .stores("Total", grid.total)
+        .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)})
+        .over(grid.threads());
+    look(0, now);
+    for (std::uint32_t step = 0; step < iterations(params, grid); ++step) {
+        fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid)
+            .loads("Before", now)
+            .stores("After", next)
+            .updates("Total", grid.total)
+            .push(grid.place)
+            .over(grid.threads());
+        std::swap(now, next);
+        look(step + 1, now);
+    }
+}
+
+}  // namespace strata::indirect

@@ -1,0 +1,24 @@
+// Light handed from cell to cell.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "passes/indirect/lpv/device_grid.h"
+
+namespace strata::indirect {
+
+/// Steps that a grid takes.
+std::uint32_t iterations(const LpvParams&, const DeviceGrid&);
+
+/// Fixes and binds what propagation/faces.glsl and occlusion/links.glsl declare. Without links nothing is read of the buffer that
+/// stands for them.
+ComputePass fix_faces(ComputePass, const LpvParams&);
+ComputePass fix_links(ComputePass, const DeviceGrid&);
+
+/// Finds the links, and calls look(step, light) with what the cells hold before each step and after the last.
+void propagate(
+    Graph&, const FrameImages&, const LpvParams&, DeviceGrid&,
+    const std::function<void(std::uint32_t step, const Buffer& light)>& look = [](std::uint32_t, const Buffer&) {});
+
+}  // namespace strata::indirect
