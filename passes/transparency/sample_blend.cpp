@@ -1,12 +1,19 @@
 #include "passes/transparency/sample_blend.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "passes/reference/ordering.h"
 
 namespace strata::transparency {
 namespace {
+
+/// Rows that a thread blends one after the other: neighbors share what a model keeps of a row.
+constexpr std::uint32_t rows_in_turn = 8;
 
 /// The frame with one transparent object and no other draws; the particles of an emitter far to near.
 void keep_only(Frame& frame, const Frame& whole, std::uint32_t index) {
@@ -45,17 +52,26 @@ ReferenceImage blended(ReferenceImage color, const StageInput& input, const Samp
 ReferenceImage blended(ReferenceImage color, const StageInput& input, const PlacedBlend& blend) {
     std::optional<FragmentLists> own;
     const FragmentLists& lists = fragments_of(input, color, own);
-    if (color.undecided.empty()) color.undecided.assign(color.texels.size(), false);
-    for (std::uint32_t y = 0; y < color.height; ++y) {
+    std::vector<std::uint8_t> undecided(color.texels.size());  // threads write to bytes of their own, not to bits
+    const auto blend_row = [&](std::uint32_t y) {
         for (std::uint32_t s = 0; s < color.layers; ++s) {
             for (std::uint32_t x = 0; x < color.width; ++x) {
                 glm::dvec4& texel = color.at(x, y, s);
                 const BlendedSample result = blend(lists.at(x, y, s), glm::dvec3(texel), {x, y, s});
                 texel = glm::dvec4(result.radiance, texel.w);
-                if (lists.undecided(x, y, s) || result.undecided) color.undecided[color.index(x, y, s)] = true;
+                undecided[color.index(x, y, s)] = lists.undecided(x, y, s) || result.undecided;
             }
         }
-    }
+    };
+    tbb::parallel_for(
+        tbb::blocked_range<std::uint32_t>(0, color.height, rows_in_turn),
+        [&](const auto& rows) {
+            for (std::uint32_t y = rows.begin(); y != rows.end(); ++y) blend_row(y);
+        },
+        tbb::simple_partitioner());
+    color.undecided.resize(color.texels.size());
+    for (std::size_t i = 0; i < undecided.size(); ++i)
+        if (undecided[i] != 0) color.undecided[i] = true;
     return color;
 }
 

@@ -95,8 +95,10 @@ private:
         return shader_sets_.empty() ? ShaderLibrary::built_in() : shader_sets_.back()->library;
     }
     Result<Inspected> inspect(const Request&, Stage);
-    /// Frees found_->fragments where the memo's budget does not cover them.
-    void drop_large_fragments();
+    /// Of kept stage outputs, and of fragments beside them: a 1080p frame at four samples is about 1 GiB of outputs.
+    static constexpr std::uint64_t memo_budget_bytes = std::uint64_t(1) << 30;
+    /// Frees found_->fragments where they take more bytes than this.
+    void drop_large_fragments(std::uint64_t most);
     /// What the loaded frame's technique of the stage needs of a device and this one does not have, or nothing.
     std::optional<std::string> lacking(const Request&, Stage) const;
     /// What is known of a run that executes everything, before any run.

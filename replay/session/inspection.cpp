@@ -254,8 +254,8 @@ Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std
     return strata::draw_cover(frame, draw, &layers);
 }
 
-void DeviceSession::drop_large_fragments() {
-    if (!found_->fragments || found_->fragments->total() * sizeof(Fragment) <= memo_.budget()) return;
+void DeviceSession::drop_large_fragments(std::uint64_t most) {
+    if (!found_ || !found_->fragments || found_->fragments->total() * sizeof(Fragment) <= most) return;
     found_->fragments.reset();
     release_freed_memory();
 }
@@ -266,7 +266,7 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     if (const auto on = check_going(); !on) return on.error();
     ImageSet images = info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
     leave_out_sides(loaded_->frame, device().snap_steps, images);
-    drop_large_fragments();
+    drop_large_fragments(memo_budget_bytes);
     return images;
 }
 
@@ -302,7 +302,7 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                                      .rounding = *rounding,
                                      .snap_steps = device().snap_steps,
                                      .stop = stop_});
-    drop_large_fragments();
+    drop_large_fragments(memo_budget_bytes);
     if (const auto on = check_going(); !on) return on.error();
     return accuracy;
 }

@@ -15,9 +15,6 @@
 namespace strata {
 namespace {
 
-// Kept stage outputs: a 1080p frame at four samples is about 1 GiB of them.
-constexpr std::uint64_t memo_budget_bytes = std::uint64_t(1) << 30;
-
 Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
     std::vector<std::string_view> known;
     for (std::size_t i = plan.steps.size(); i-- > 0;) {

@@ -203,7 +203,7 @@ public:
                                    const ImageSet* truth = nullptr) = 0;
 
     /// The transparent fragments of every sample as the transparency stage found them, in double: seconds for a small frame,
-    /// nothing when the frame and what made its depth are the same as the last time, unless a judge() or truth() in between
+    /// nothing when the frame and what made its depth are the same as the last time, unless time() in between
     /// dropped what limit_memo() has no room for. Valid until the next call.
     virtual Result<const FragmentLists*> transparent_fragments(const Request&) = 0;
     /// The same of one row of pixels; other rows may be empty. Executes no more than what leaves the opaque depth.
@@ -223,7 +223,7 @@ public:
     virtual void stop_when(std::stop_token) = 0;
 
     /// Keeps at most so much of stage outputs from here on, and as much as one run uses. Transparent fragments that take more
-    /// than this are not kept from one judge() or truth() to the next.
+    /// than this are kept from one judge() to the next, but are dropped before runs are timed.
     virtual void limit_memo(std::uint64_t /*bytes*/) {}
     /// Drops every kept stage output and what frames left to the next (Graph::remember).
     virtual void forget_memo() = 0;

@@ -147,6 +147,7 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
 Result<std::vector<Run>> DeviceSession::time(std::span<const Request> requests, std::size_t repeats, const Progress& progress) {
     std::vector<Run> runs;
     if (requests.empty()) return runs;
+    drop_large_fragments(memo_.budget());
     std::vector<std::vector<std::vector<StepCost>>> steps(requests.size());
     std::vector<SortTimes> sorts(requests.size());
     const auto add = [&](Turn turn) {

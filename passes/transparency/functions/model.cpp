@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "passes/transparency/distortion/model.h"
 #include "passes/transparency/functions/tint_model.h"
 #include "passes/transparency/low_resolution/model.h"
@@ -111,8 +113,8 @@ const FragmentLists& fragments_of_prepass(const StageInput& input, const Prepass
     return own.emplace(transparent_fragments(low, farthest_depth(depth, extent)));
 }
 
-/// What a prepass keeps of its texels, computed when it is read. Only two rows of it are kept: the whole of smoke_grenade at
-/// 320 x 180 takes 236 MB at 512 slices, twice as much as its fragments.
+/// What a prepass keeps of its texels, computed when it is read. Each thread keeps two rows of it: the whole of
+/// smoke_grenade at 320 x 180 takes 236 MB at 512 slices, twice as much as its fragments.
 class Projected {
 public:
     Projected(const StageInput& input, const PrepassModel& model)
@@ -122,9 +124,10 @@ public:
     glm::uvec2 extent() const { return {fragments_->width(), fragments_->height()}; }
     /// Whether the texel's coverage hangs on rounding.
     bool is_undecided(glm::uvec2 texel) const { return fragments_->undecided(texel.x, texel.y); }
-    /// Valid until a texel of another row is read whose y differs by an even number.
+    /// Valid until the thread reads a texel of another row whose y differs by an even number.
     std::span<const double> numbers(glm::uvec2 texel) {
-        Row& row = rows_[texel.y % rows_.size()];
+        Rows& rows = rows_.local();
+        Row& row = rows[texel.y % rows.size()];
         if (row.y != texel.y) row = {texel.y, std::vector<std::optional<std::vector<double>>>(fragments_->width())};
         std::optional<std::vector<double>>& kept = row.numbers[texel.x];
         if (!kept) kept = model_->project(fragments_->at(texel.x, texel.y), texel);
@@ -139,7 +142,8 @@ private:
     const PrepassModel* model_;
     std::optional<FragmentLists> own_;
     const FragmentLists* fragments_;
-    std::array<Row, 2> rows_;
+    using Rows = std::array<Row, 2>;
+    tbb::enumerable_thread_specific<Rows> rows_;
 };
 
 /// The texel of another image under a pixel's center.
@@ -237,8 +241,8 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
 
 ImageSet function_model(const StageInput& input, std::uint32_t accumulation, const PrepassModel& model) {
     Projected projected(input, model);
-    // What a T(z) looks up lives as long as the pixel does.
-    Read read;
+    // What a T(z) looks up lives as long as its thread's pixel does.
+    tbb::enumerable_thread_specific<Read> reads;
     const bool chromatic = is_chromatic(input.frame);
     const Summing how{accumulation,
                       input.rounding,
@@ -247,6 +251,7 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
                       chromatic ? model.tint : tint_total,
                       double(input.frame.fog.density)};
     return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
+        Read& read = reads.local();
         read = read_at(projected, model, extent, glm::uvec2(at));
         return Found{model.function(read.numbers, read.texel), read.undecided};
     });

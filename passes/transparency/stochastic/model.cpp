@@ -178,9 +178,9 @@ private:
 ImageSet stochastic_model(const StageInput& input, const Settings& settings) {
     const auto params = settings.as<StochasticParams>();
     const Origins origins(input.frame);
-    std::vector<SeededFragment> seeded;
     const auto blend = [&](std::span<const Fragment> fragments, glm::dvec3 behind, glm::uvec3 at) {
-        seeded.clear();
+        std::vector<SeededFragment> seeded;
+        seeded.reserve(fragments.size());
         for (const Fragment& fragment : fragments) seeded.push_back(origins.seeded(fragment, at, params));
         return stochastic_blend(seeded, behind, params, input.rounding.half);
     };
