@@ -51,5 +51,7 @@ void main() {
     store(at, scale * vec3(towards(light.red, n), towards(light.green, n), towards(light.blue, n)), min(inside / push.border, 1.0));
     atomicAdd(counters.samples, 1u);
     if (seen.hidden > 0u) atomicAdd(counters.hidden_taps, seen.hidden);
+    if (seen.near > 0u) atomicAdd(counters.samples_near_blockers, 1u);
+    if (seen.near > 0u) atomicAdd(counters.blocker_tests, seen.tests);
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
 }

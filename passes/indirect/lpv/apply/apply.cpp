@@ -11,13 +11,36 @@ namespace {
 /// Cells over which a grid fades at its border.
 double border_cells(const LightGrid& grid) { return grid.is_local ? 1 : 2; }
 
+bool asks_taps(const LpvParams& params, const DeviceGrid& grid) { return grid.has_links && params.taps == taps_visible; }
+
 }  // namespace
+
+ApplyPush apply_push(const DeviceGrid& grid) {
+    return {.grid = grid.place,
+            .border = float(border_cells(grid.grid) * grid.grid.cell),
+            .number = static_cast<std::uint32_t>(grid.number + 1)};
+}
+
+void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid) {
+    if (!asks_taps(params, grid) || params.macro_cells == 0) return;
+    const auto words = static_cast<std::uint32_t>((frame.recorded->blockers.size() + 31) / 32);
+    const glm::uvec3 cells = (grid.grid.cells + macro_side - 1u) / macro_side;
+    grid.macro_cells = graph.create(grid.name("macro-cells of grid"),
+                                    std::uint64_t{cells.x} * cells.y * cells.z * words * sizeof(std::uint32_t));
+    graph.compute("indirect/lpv/apply/macro_cells.comp")
+        .stores("MacroCells", grid.macro_cells)
+        .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .push(grid.place)
+        .over({cells.x, cells.y, cells.z * words});
+}
 
 ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
     return sample_gbuffer(fix_blockers(pass, frame), frame)
         .loads("Total", grid.total)
-        .fixes("asks_taps", grid.has_links && params.taps == taps_visible ? 1u : 0u)
-        .push(ApplyPush{.grid = grid.place, .border = float(border_cells(grid.grid) * grid.grid.cell)});
+        .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
+        .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
+        .fixes("asks_taps", asks_taps(params, grid) ? 1u : 0u)
+        .push(apply_push(grid));
 }
 
 Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std::span<const DeviceGrid> grids) {
