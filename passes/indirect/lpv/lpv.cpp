@@ -21,6 +21,7 @@ constexpr auto face_rules = choice_names({{faces_centre, "centre"}, {faces_exact
 constexpr auto occlusions =
     choice_names({{occlusion_recorded, "recorded"}, {occlusion_none, "none"}, {occlusion_axial, "axial"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
+constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
@@ -108,9 +109,15 @@ Technique lpv() {
                  {.name = "macro_cells",
                   .fallback = 1,
                   .help = "taps=visible asks the blockers near a macro-cell of 4x4x4 cells; off: all blockers of the frame",
-                  .choices = switches})},
+                  .choices = switches}),
+             param<&LpvParams::apply_resolution>(
+                 {.name = "apply_resolution",
+                  .high = 1,
+                  .fallback = resolution_full,
+                  .help = "cells are read per sample, or once per 2x2 pixels; half: pixels that no neighbor fits read them, too",
+                  .choices = resolutions})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -126,7 +133,10 @@ Technique lpv() {
                      counter<&LpvCounters::samples_near_blockers>(
                          {.name = "samples near blockers", .help = "samples with a blocker near their macro-cell"}),
                      counter<&LpvCounters::blocker_tests>(
-                         {.name = "blocker tests", .help = "ways from a sample to a cell tested against a blocker"})},
+                         {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
+                     counter<&LpvCounters::full_resolution>(
+                         {.name = "full resolution pixels",
+                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",

@@ -24,6 +24,9 @@ const uint irradiance_cell = 1u;  // the mean over a cell of what travels throug
 // Macro-cells: blocks of cells that share a list of the blockers near them (docs/algorithms/lighting.md 5.8).
 const uint macro_side = 4u;  // cells
 
+const uint resolution_full = 0u;
+const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -34,6 +37,7 @@ struct LpvParams {
     float injection;  // cells along the normal of what is injected
     uint irradiance;
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
+    uint apply_resolution;
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -96,6 +100,7 @@ struct LpvCounters {
     uint unfinished;
     uint samples_near_blockers;
     uint blocker_tests;
+    uint full_resolution;
 };
 
 #ifdef __cplusplus

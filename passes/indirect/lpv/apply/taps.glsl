@@ -31,6 +31,12 @@ float depth_inside(GridPlace grid, vec3 place) {
     return min(least.x, min(least.y, least.z));
 }
 
+// Half a cell before the surface, in cells from the grid's origin.
+vec3 place_before(GridPlace grid, LitPlace lit) { return (lit.place - grid.origin) / grid.cell + 0.5 * lit.normal; }
+
+// Where ways from the surface begin, view space.
+vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
+
 struct SeenLight {
     LightCell light;
     uint hidden;  // cells, of eight
@@ -40,8 +46,8 @@ struct SeenLight {
 
 // Beyond the border cells hold nothing.
 SeenLight seen_light(GridPlace grid, LitPlace lit) {
-    const vec3 start = in_view(lit.place + lit.normal * tap_start);
-    const vec3 place = (lit.place - grid.origin) / grid.cell + 0.5 * lit.normal, between = place - 0.5;
+    const vec3 start = way_start(lit);
+    const vec3 place = place_before(grid, lit), between = place - 0.5;
     const ivec3 first = ivec3(floor(between));
     const vec3 share = between - vec3(first);
     const uint macro = macro_cell(grid, ivec3(floor(place)));
