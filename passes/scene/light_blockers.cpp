@@ -214,6 +214,7 @@ std::vector<BlockerPortalRecord> portal_records(const Frame& frame) {
     for (const Portal& portal : frame.portals)
         portals.push_back(place_of(frame, portal, place_of(frame, frame.blockers[portal.blocker])));
     join(portals);
+    std::ranges::stable_sort(portals, {}, &PortalPlace::blocker);
     std::vector<BlockerPortalRecord> records;
     for (const PortalPlace& place : portals) records.push_back(record(place));
     return records;

@@ -13,8 +13,9 @@ namespace strata {
 /// so that a rounded position between two blockers that share an edge is inside one of them.
 std::vector<BlockerRecord> blocker_records(const Frame&);
 
-/// One record per portal, in the order of Frame::portals: what whoever asks about any way between two points reads, while lights
-/// have their own lists. Portals of one blocker that share an edge are made 1e-4 m wider, so that no line is left between them.
+/// One record per portal, in the order of their blockers, those of one blocker in the order of Frame::portals: what whoever asks
+/// about any way between two points reads, while lights have their own lists. Portals of one blocker that share an edge are made
+/// 1e-4 m wider, so that no line is left between them.
 std::vector<BlockerPortalRecord> portal_records(const Frame&);
 
 /// What can stop one light, in the order in which the light lists it.

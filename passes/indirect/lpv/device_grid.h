@@ -23,6 +23,7 @@ struct DeviceGrid {
     Buffer sums;             ///< what is injected: LightCell in fixed point
     Buffer links;            ///< occlusion/links.comp; none without has_links
     Buffer total;            ///< LightCell: all that cells ever held
+    Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
     std::string name(const char* what) const { return fmt::format("{} {}", what, number); }

@@ -1,9 +1,9 @@
 // Light propagation volumes: what lights reach is injected into grids and handed from cell to cell.
-#include <ranges>
 #include <vector>
 
 #include "passes/choice_names.h"
 #include "passes/indirect/lpv/apply/apply.h"
+#include "passes/indirect/lpv/apply/views.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/volumes.h"
@@ -21,24 +21,14 @@ constexpr auto face_rules = choice_names({{faces_centre, "centre"}, {faces_exact
 constexpr auto occlusions =
     choice_names({{occlusion_recorded, "recorded"}, {occlusion_none, "none"}, {occlusion_axial, "axial"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
+constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
+constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<LpvParams>();
     frame.indirect = apply(graph, frame, params, lit_grids(graph, frame, params));
-}
-
-Image visible_taps(Graph& graph, FrameImages& frame, const Settings& settings) {
-    const auto params = settings.as<LpvParams>();
-    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, params);
-    Image picture = graph.create("visible taps", {.extent = frame.extent, .format = Format::rgba32f});
-    graph.clear(picture, {});
-    for (const DeviceGrid& grid : std::views::reverse(grids))
-        see_light(graph.compute("indirect/lpv/apply/visible_taps.comp"), frame, params, grid)
-            .stores("picture", picture)
-            .over(frame.extent);
-    return picture;
 }
 
 Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -114,9 +104,20 @@ Technique lpv() {
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
                                            .fallback = .5,
-                                           .help = "offset of injected light along the surface's normal, cells"})},
+                                           .help = "offset of injected light along the surface's normal, cells"}),
+             param<&LpvParams::macro_cells>(
+                 {.name = "macro_cells",
+                  .fallback = 1,
+                  .help = "taps=visible asks the blockers near a macro-cell of 4x4x4 cells; off: all blockers of the frame",
+                  .choices = switches}),
+             param<&LpvParams::apply_resolution>(
+                 {.name = "apply_resolution",
+                  .high = 1,
+                  .fallback = resolution_full,
+                  .help = "cells are read per sample, or once per 2x2 pixels; half: pixels that no neighbor fits read them, too",
+                  .choices = resolutions})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -128,13 +129,32 @@ Technique lpv() {
                      counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid"}),
                      counter<&LpvCounters::hidden_taps>(
                          {.name = "hidden taps", .help = "interpolated cells that a blocker hides, summed over samples"}),
-                     counter<&LpvCounters::unfinished>(unfinished_row)},
+                     counter<&LpvCounters::unfinished>(unfinished_row),
+                     counter<&LpvCounters::samples_near_blockers>(
+                         {.name = "samples near blockers", .help = "samples with a blocker near their macro-cell"}),
+                     counter<&LpvCounters::blocker_tests>(
+                         {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
+                     counter<&LpvCounters::full_resolution>(
+                         {.name = "full resolution pixels",
+                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",
                    .unit = "cells",
                    .high = 8,
-                   .declare = visible_taps}},
+                   .declare = visible_taps},
+                  {.name = "macro-cells",
+                   .help = "blockers that a pixel's taps are tested against: those near its macro-cell of 4x4x4 cells",
+                   .unit = "blockers",
+                   .high = 8,
+                   .declare = near_blockers,
+                   .if_zero = "no blocker is near any macro-cell that is read"},
+                  {.name = "volume",
+                   .help = "number of the grid that gives the most light, from 1, plus half the share left to others; 0: none",
+                   .unit = "grid",
+                   .high = 8,
+                   .declare = lighting_volume,
+                   .if_zero = "no grid lights a surface"}},
         .tables = {{.name = "energy",
                     .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},

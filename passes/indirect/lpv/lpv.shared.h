@@ -21,6 +21,12 @@ const uint taps_visible = 1u;  // those that no blocker hides from the surface
 const uint irradiance_face = 0u;  // as of a light half a cell away that sends what the cells do
 const uint irradiance_cell = 1u;  // the mean over a cell of what travels through it
 
+// Macro-cells: blocks of cells that share a list of the blockers near them (docs/algorithms/lighting.md 5.8).
+const uint macro_side = 4u;  // cells
+
+const uint resolution_full = 0u;
+const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -30,6 +36,8 @@ struct LpvParams {
     uint map_size;    // texels a side of reflective shadow maps
     float injection;  // cells along the normal of what is injected
     uint irradiance;
+    uint macro_cells;  // whether taps ask only the blockers of their macro-cell
+    uint apply_resolution;
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -67,6 +75,7 @@ struct EnergyPush {
 struct ApplyPush {
     GridPlace grid;
     float border;  // metres over which the grid fades at its border
+    uint number;   // of the grid, from 1
 };
 
 // Light of a cell: l0 and l1 per channel, as Y = (Y0, Y1 x, Y1 y, Y1 z) in the world's axes, W.
@@ -89,6 +98,9 @@ struct LpvCounters {
     uint hidden_taps;
     uint samples;
     uint unfinished;
+    uint samples_near_blockers;
+    uint blocker_tests;
+    uint full_resolution;
 };
 
 #ifdef __cplusplus

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
+#include "passes/indirect/lpv/apply/half_resolution_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
 #include "passes/reference/decoded.h"
@@ -78,20 +81,67 @@ LitVolumes lit_volumes(const Frame& frame, const LpvParams& params) {
     return volumes;
 }
 
+namespace {
+
+/// Surfaces as receivers of light, by pixel and sample.
+class Surfaces {
+public:
+    explicit Surfaces(const StageInput& input)
+        : frame_(input.frame),
+          normal_(input.before.at("surface_normal")),
+          color_(input.before.at("surface_color")),
+          material_(input.before.at("surface_material")) {}
+
+    const ReferenceImage& normals() const { return normal_; }
+    std::optional<Receiver> at(std::uint32_t x, std::uint32_t y, std::uint32_t sample) const {
+        if (normal_.at(x, y, sample).w <= 0) return std::nullopt;
+        const SurfacePoint p =
+            decoded_surface(frame_, {normal_.at(x, y, sample), color_.at(x, y, sample), material_.at(x, y, sample)}, x, y);
+        return Receiver{frame_.view.origin + to_world_ * p.position, to_world_ * facing_normal(p)};
+    }
+    VisibleSurfaces first_samples() const {
+        VisibleSurfaces seen{.width = normal_.width, .height = normal_.height, .receivers = {}, .depths = {}};
+        for (std::uint32_t y = 0; y < normal_.height; ++y)
+            for (std::uint32_t x = 0; x < normal_.width; ++x) {
+                seen.receivers.push_back(at(x, y, 0));
+                seen.depths.push_back(normal_.at(x, y, 0).w);
+            }
+        return seen;
+    }
+
+private:
+    const Frame& frame_;
+    const ReferenceImage &normal_, &color_, &material_;
+    glm::dmat3 to_world_ = glm::transpose(frame_.view.to_view);
+};
+
+std::vector<HalfResolutionLight> at_half_resolution(std::span<const LitGrid> grids, const Surfaces& surfaces) {
+    const VisibleSurfaces seen = surfaces.first_samples();
+    std::vector<HalfResolutionLight> lights;
+    for (const LitGrid& lit : grids) lights.emplace_back(lit, seen);
+    return lights;
+}
+
+}  // namespace
+
 ImageSet indirect_light(const StageInput& input, const LpvParams& params) {
-    const ReferenceImage &normal = input.before.at("surface_normal"), &color = input.before.at("surface_color"),
-                         &material = input.before.at("surface_material");
+    const Surfaces surfaces(input);
     const LitVolumes volumes = lit_volumes(input.frame, params);
-    const glm::dmat3 to_world = glm::transpose(input.frame.view.to_view);
-    ReferenceImage indirect(normal.width, normal.height, normal.layers);
-    tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < normal.width; ++x)
-            for (std::uint32_t sample = 0; sample < normal.layers; ++sample) {
-                if (normal.at(x, y, sample).w <= 0) continue;
-                const SurfacePoint p = decoded_surface(
-                    input.frame, {normal.at(x, y, sample), color.at(x, y, sample), material.at(x, y, sample)}, x, y);
-                const Receiver at{input.frame.view.origin + to_world * p.position, to_world * facing_normal(p)};
-                indirect.at(x, y, sample) = glm::dvec4(blended_irradiance(volumes.grids, at) / std::numbers::pi, 1);
+    std::vector<HalfResolutionLight> halves;
+    if (params.apply_resolution == resolution_half) halves = at_half_resolution(volumes.grids, surfaces);
+    const ReferenceImage& normals = surfaces.normals();
+    ReferenceImage indirect(normals.width, normals.height, normals.layers);
+    tbb::parallel_for(0u, normals.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < normals.width; ++x)
+            for (std::uint32_t sample = 0; sample < normals.layers; ++sample) {
+                const std::optional<Receiver> at = surfaces.at(x, y, sample);
+                if (!at) continue;
+                const auto light_of = [&](std::size_t i) {
+                    const auto near = halves.empty() ? std::nullopt : halves[i].at(*at, {x, y});
+                    return near ? *near : irradiance(volumes.grids[i], *at);
+                };
+                const glm::dvec3 light = blended(std::span<const LitGrid>(volumes.grids), at->position, light_of);
+                indirect.at(x, y, sample) = glm::dvec4(light / std::numbers::pi, 1);
             }
     });
     return {{"indirect", indirect}};

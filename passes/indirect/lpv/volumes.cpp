@@ -1,5 +1,6 @@
 #include "passes/indirect/lpv/volumes.h"
 
+#include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/scene/scene_facts.h"
@@ -39,6 +40,7 @@ std::vector<DeviceGrid> lit_grids(Graph& graph, const FrameImages& frame, const 
     std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
     inject_lights(graph, frame, params, grids);
     for (DeviceGrid& grid : grids) propagate(graph, frame, params, grid);
+    for (DeviceGrid& grid : grids) find_macro_cells(graph, frame, params, grid);
     return grids;
 }
 

@@ -1,10 +1,9 @@
-// Irradiance that a grid gives at a sample, over what grids after it gave: half a cell before the surface, from the eight cells around,
-// without those that a blocker hides from it (docs/algorithms/lighting.md 5.8).
+// Irradiance over pi that a grid gives at a sample, over what grids after it gave.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/gbuffer/surface_at.glsl"
-#include "passes/indirect/lpv/apply/taps.glsl"
+#include "passes/indirect/lpv/apply/upsampled_light.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/largest_half.glsl"
 
@@ -13,17 +12,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { ApplyPush push; };
 
 layout(set = 0, binding = 1, rgba16f) uniform image2DArray indirect;
-layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-layout(constant_id = 4) const uint irradiance = irradiance_face;
-
-// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
-// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean.
-float towards(vec4 light, vec3 n) {
-    const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));
-    const float cell = (watt0 * light.x - watt1 * dot(light.yzw, n)) / 1.5;
-    return max(0.0, irradiance == irradiance_face ? face : cell);
-}
+layout(constant_id = 6) const uint resolution = resolution_full;
 
 void store(ivec3 at, vec3 light, float weight) {
     const vec4 after = imageLoad(indirect, at);
@@ -31,6 +21,16 @@ void store(ivec3 at, vec3 light, float weight) {
     imageStore(indirect, at, stored);
     if (!is_plain(at.xy)) return;
     for (int i = 1; i < imageSize(indirect).z; ++i) imageStore(indirect, ivec3(at.xy, i), stored);
+}
+
+// Where no neighbor fits, the sample reads cells itself.
+vec3 light_at(LitPlace lit, ivec2 pixel) {
+    if (resolution == resolution_half) {
+        const vec4 light = upsampled_light(push.grid, lit, pixel);
+        if (light.a >= least_fit) return light.rgb / light.a;
+        atomicAdd(counters.full_resolution, 1u);
+    }
+    return gathered_light(push.grid, lit);
 }
 
 void main() {
@@ -44,12 +44,7 @@ void main() {
         store(at, vec3(0.0), 0.0);
         return;
     }
-    const SeenLight seen = seen_light(push.grid, lit);
-    const vec3 n = lit.normal;
-    const LightCell light = seen.light;
-    const float scale = 1.0 / (push.grid.cell * push.grid.cell);
-    store(at, scale * vec3(towards(light.red, n), towards(light.green, n), towards(light.blue, n)), min(inside / push.border, 1.0));
+    store(at, light_at(lit, at.xy), min(inside / push.border, 1.0));
     atomicAdd(counters.samples, 1u);
-    if (seen.hidden > 0u) atomicAdd(counters.hidden_taps, seen.hidden);
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
 }

@@ -11,23 +11,80 @@ namespace {
 /// Cells over which a grid fades at its border.
 double border_cells(const LightGrid& grid) { return grid.is_local ? 1 : 2; }
 
+/// A texel for each 2 x 2 pixels.
+Extent half_extent(const FrameImages& frame) { return {(frame.extent.width + 1) / 2, (frame.extent.height + 1) / 2}; }
+
+/// Of each 2 x 2 pixels the one that reads cells.
+Image chosen_pixels(Graph& graph, const FrameImages& frame) {
+    Image chosen = graph.create("pixels that read cells", {.extent = half_extent(frame), .format = Format::r8ui});
+    sample_gbuffer(graph.compute("indirect/lpv/apply/choose_pixels.comp"), frame)
+        .stores("chosen_pixels", chosen)
+        .over(half_extent(frame));
+    return chosen;
+}
+
+bool asks_taps(const LpvParams& params, const DeviceGrid& grid) { return grid.has_links && params.taps == taps_visible; }
+
 }  // namespace
+
+ApplyPush apply_push(const DeviceGrid& grid) {
+    return {.grid = grid.place,
+            .border = float(border_cells(grid.grid) * grid.grid.cell),
+            .number = static_cast<std::uint32_t>(grid.number + 1)};
+}
+
+void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid) {
+    if (!asks_taps(params, grid) || params.macro_cells == 0) return;
+    const auto words = static_cast<std::uint32_t>((frame.recorded->blockers.size() + 31) / 32);
+    const glm::uvec3 cells = (grid.grid.cells + macro_side - 1u) / macro_side;
+    grid.macro_cells = graph.create(grid.name("macro-cells of grid"),
+                                    std::uint64_t{cells.x} * cells.y * cells.z * words * sizeof(std::uint32_t));
+    graph.compute("indirect/lpv/apply/macro_cells.comp")
+        .stores("MacroCells", grid.macro_cells)
+        .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .push(grid.place)
+        .over({cells.x, cells.y, cells.z * words});
+}
 
 ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
     return sample_gbuffer(fix_blockers(pass, frame), frame)
         .loads("Total", grid.total)
-        .fixes("asks_taps", grid.has_links && params.taps == taps_visible ? 1u : 0u)
-        .push(ApplyPush{.grid = grid.place, .border = float(border_cells(grid.grid) * grid.grid.cell)});
+        .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
+        .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
+        .fixes("asks_taps", asks_taps(params, grid) ? 1u : 0u)
+        .push(apply_push(grid));
 }
 
+namespace {
+
+/// What a grid gives at the chosen pixels.
+Image block_light(Graph& graph, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid, const Image& chosen) {
+    Image light = graph.create(grid.name("half-resolution light of grid"), {.extent = half_extent(frame)});
+    see_light(graph.compute("indirect/lpv/apply/read_blocks.comp"), frame, params, grid)
+        .samples("chosen_pixels", chosen)
+        .stores("block_light", light)
+        .fixes("irradiance", params.irradiance)
+        .over(half_extent(frame));
+    return light;
+}
+
+}  // namespace
+
 Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std::span<const DeviceGrid> grids) {
+    const bool is_half = params.apply_resolution == resolution_half && !grids.empty();
+    const Image chosen = is_half ? chosen_pixels(graph, frame) : Image();
     Image light = graph.create("indirect", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
     graph.clear(light, {});
-    for (const DeviceGrid& grid : std::views::reverse(grids))
+    for (const DeviceGrid& grid : std::views::reverse(grids)) {
+        const Image blocks = is_half ? block_light(graph, frame, params, grid, chosen) : Image();
         sample_edges(see_light(graph.compute("indirect/lpv/apply/apply.comp"), frame, params, grid), frame)
+            .samples("chosen_pixels", chosen)
+            .samples("block_light", blocks)
             .updates("indirect", light)
             .fixes("irradiance", params.irradiance)
+            .fixes("resolution", params.apply_resolution)
             .over({frame.extent.width, frame.extent.height, frame.samples});
+    }
     return light;
 }
 

@@ -7,6 +7,11 @@
 
 namespace strata::indirect {
 
+/// The blockers near each macro-cell of a grid: what see_light() hands on. Nothing where no tap is asked about.
+void find_macro_cells(Graph&, const FrameImages&, const LpvParams&, DeviceGrid&);
+
+ApplyPush apply_push(const DeviceGrid&);
+
 /// To a step whose shader includes passes/indirect/lpv/apply/taps.glsl.
 ComputePass see_light(ComputePass, const FrameImages&, const LpvParams&, const DeviceGrid&);
 

@@ -71,15 +71,7 @@ double grid_share(const Grid& grid, const glm::dvec3& position) {
 }
 
 glm::dvec3 blended_irradiance(std::span<const LitGrid> all, const Receiver& at) {
-    glm::dvec3 sum(0);
-    double remaining = 1;
-    for (const LitGrid& lit : all) {
-        const double share = grid_share(lit.grid, at.position);
-        if (share == 0) continue;
-        sum += remaining * share * irradiance(lit, at);
-        remaining *= 1 - share;
-    }
-    return sum;
+    return blended(all, at.position, [&](std::size_t i) { return irradiance(all[i], at); });
 }
 
 }  // namespace strata::indirect::in_double

@@ -1,6 +1,7 @@
 // What a surface receives of the light in grids, in double (docs/algorithms/lighting.md 5.8).
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include <glm/glm.hpp>
@@ -30,7 +31,20 @@ glm::dvec4 sampled(const LitGrid&, std::size_t channel, const Receiver&);
 glm::dvec3 irradiance(const LitGrid&, const Receiver&);
 /// Share of a grid at a position: 0 outside, rising to 1 over its border.
 double grid_share(const Grid&, const glm::dvec3& position);
-/// W/m^2: each grid takes its share of what the grids before it left.
+/// W/m^2: each grid takes its share of what the grids before it left. `light_of` gives what one of them alone does.
+template <typename LightOf>
+glm::dvec3 blended(std::span<const LitGrid> all, const glm::dvec3& position, const LightOf& light_of) {
+    glm::dvec3 sum(0);
+    double remaining = 1;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double share = grid_share(all[i].grid, position);
+        if (share == 0) continue;
+        sum += remaining * share * light_of(i);
+        remaining *= 1 - share;
+    }
+    return sum;
+}
+/// The same where every grid is read at the receiver.
 glm::dvec3 blended_irradiance(std::span<const LitGrid>, const Receiver&);
 
 }  // namespace strata::indirect::in_double

@@ -4,14 +4,13 @@
 #define PASSES_INDIRECT_LPV_TAPS_GLSL
 #include "passes/gbuffer/surface.glsl"
 #include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/lpv/apply/near_blockers.glsl"
 
 layout(constant_id = 3) const uint asks_taps = 0u;  // 1: not of cells that a blocker hides
 
 layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; };
 
-// Metres off the surface from which taps are asked about, and the least share of taps that stands for all.
-const float tap_start = 0.02;
+// The least share of taps that stands for all.
 const float least_share = 0.02;
 LightCell weighted(LightCell sum, LightCell light, float weight) {
     return LightCell(sum.red + weight * light.red, sum.green + weight * light.green, sum.blue + weight * light.blue);
@@ -32,35 +31,45 @@ float depth_inside(GridPlace grid, vec3 place) {
     return min(least.x, min(least.y, least.z));
 }
 
+// Half a cell before the surface, in cells from the grid's origin.
+vec3 place_before(GridPlace grid, LitPlace lit) { return (lit.place - grid.origin) / grid.cell + 0.5 * lit.normal; }
+
+// Where ways from the surface begin, view space.
+vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
+
 struct SeenLight {
     LightCell light;
     uint hidden;  // cells, of eight
+    uint tests;   // of a blocker against the way to a cell
+    uint near;    // blockers that the ways may meet
 };
 
 // Beyond the border cells hold nothing.
 SeenLight seen_light(GridPlace grid, LitPlace lit) {
-    const vec3 start = in_view(lit.place + lit.normal * tap_start);
-    const vec3 between = (lit.place - grid.origin) / grid.cell + 0.5 * lit.normal - 0.5;
+    const vec3 start = way_start(lit);
+    const vec3 place = place_before(grid, lit), between = place - 0.5;
     const ivec3 first = ivec3(floor(between));
     const vec3 share = between - vec3(first);
-    LightCell sum = LightCell(vec4(0.0), vec4(0.0), vec4(0.0));
+    const uint macro = macro_cell(grid, ivec3(floor(place)));
+    SeenLight seen = SeenLight(LightCell(vec4(0.0), vec4(0.0), vec4(0.0)), 0u, 0u, 0u);
+    if (asks_taps != 0u) seen.near = count_near(macro);
     float all = 0.0;
-    uint hidden = 0u;
     for (uint i = 0u; i < 8u; ++i) {
         const ivec3 corner = ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
         const vec3 w = mix(1.0 - share, share, vec3(corner));
         const float weight = w.x * w.y * w.z;
         const ivec3 cell = first + corner;
-        if (asks_taps != 0u && is_stopped(start, in_view(middle_of(grid, cell)))) {
-            ++hidden;
+        if (seen.near > 0u && is_stopped_near(macro, start, in_view(middle_of(grid, cell)), seen.tests)) {
+            ++seen.hidden;
             continue;
         }
         all += weight;
-        if (in_grid(grid, cell)) sum = weighted(sum, total[cell_index(grid, cell)], weight);
+        if (in_grid(grid, cell)) seen.light = weighted(seen.light, total[cell_index(grid, cell)], weight);
     }
-    if (hidden == 0u) return SeenLight(sum, 0u);
+    if (seen.hidden == 0u) return seen;
     const float scale = all < least_share ? 0.0 : 1.0 / all;
-    return SeenLight(LightCell(sum.red * scale, sum.green * scale, sum.blue * scale), hidden);
+    seen.light = LightCell(seen.light.red * scale, seen.light.green * scale, seen.light.blue * scale);
+    return seen;
 }
 
 #endif

@@ -26,17 +26,32 @@ vec3 way_crossing(BlockerRecord blocker, vec3 from, vec3 to) {
     return at;
 }
 
+// The first of the blocker's portals, which lie together: found by halving.
+uint first_portal(uint blocker) {
+    uint first = 0u;
+    for (uint count = portal_count; count > 0u;) {
+        const uint half_count = count / 2u;
+        const bool is_before = portals[first + half_count].blocker < blocker;
+        if (is_before) first += half_count + 1u;
+        count = is_before ? count - half_count - 1u : half_count;
+    }
+    return first;
+}
+
 bool passes_portal(uint blocker, vec3 at) {
-    for (uint i = 0u; i < portal_count; ++i)
-        if (portals[i].blocker == blocker && inside_portal(portals[i], at)) return true;
+    for (uint i = first_portal(blocker); i < portal_count && portals[i].blocker == blocker; ++i)
+        if (inside_portal(portals[i], at)) return true;
     return false;
 }
 
+bool stops(uint blocker, vec3 from, vec3 to) {
+    const vec3 at = way_crossing(blockers[blocker], from, to);
+    return inside_blocker(blockers[blocker], at) && !passes_portal(blocker, at);
+}
+
 bool is_stopped(vec3 from, vec3 to) {
-    for (uint i = 0u; i < blocker_count; ++i) {
-        const vec3 at = way_crossing(blockers[i], from, to);
-        if (inside_blocker(blockers[i], at) && !passes_portal(i, at)) return true;
-    }
+    for (uint i = 0u; i < blocker_count; ++i)
+        if (stops(i, from, to)) return true;
     return false;
 }
 
