@@ -21,12 +21,13 @@ constexpr auto face_rules = choice_names({{faces_centre, "centre"}, {faces_exact
 constexpr auto occlusions =
     choice_names({{occlusion_recorded, "recorded"}, {occlusion_none, "none"}, {occlusion_axial, "axial"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
+constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<LpvParams>();
-    frame.indirect = apply(graph, frame, params, lit_grids(graph, frame, params));
+    frame.indirect = apply(graph, frame, params, shown_grids(graph, frame, params));
 }
 
 Image visible_taps(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -114,9 +115,20 @@ Technique lpv() {
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
                                            .fallback = .5,
-                                           .help = "offset of injected light along the surface's normal, cells"})},
+                                           .help = "offset of injected light along the surface's normal, cells"}),
+             param<&LpvParams::relight>({.name = "relight",
+                                         .high = 1,
+                                         .fallback = relight_always,
+                                         .help = "when volumes are lit: in every frame, or where lights, casters, blockers or "
+                                                 "the volume changed",
+                                         .choices = relights}),
+             param<&LpvParams::slice>(
+                 {.name = "slice",
+                  .high = 64,
+                  .fallback = 0,
+                  .help = "steps of propagation per frame (relight=changed); surfaces keep the old light meanwhile; 0: all"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face"},
+                   "taps=all", "map_size=64", "irradiance=face", "relight=changed"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -128,7 +140,11 @@ Technique lpv() {
                      counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid"}),
                      counter<&LpvCounters::hidden_taps>(
                          {.name = "hidden taps", .help = "interpolated cells that a blocker hides, summed over samples"}),
-                     counter<&LpvCounters::unfinished>(unfinished_row)},
+                     counter<&LpvCounters::unfinished>(unfinished_row),
+                     counter<&LpvCounters::cells_relit>(
+                         {.name = "cells relit", .help = "cells whose light was injected in this frame, summed over all grids"}),
+                     counter<&LpvCounters::faces_rebuilt>(
+                         {.name = "faces rebuilt", .help = "faces between cells that were tested against all blockers"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",

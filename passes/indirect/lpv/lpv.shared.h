@@ -21,6 +21,9 @@ const uint taps_visible = 1u;  // those that no blocker hides from the surface
 const uint irradiance_face = 0u;  // as of a light half a cell away that sends what the cells do
 const uint irradiance_cell = 1u;  // the mean over a cell of what travels through it
 
+const uint relight_always = 0u;   // in every frame
+const uint relight_changed = 1u;  // where something that determines the light differs from the last time (kept/)
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -30,6 +33,8 @@ struct LpvParams {
     uint map_size;    // texels a side of reflective shadow maps
     float injection;  // cells along the normal of what is injected
     uint irradiance;
+    uint relight;
+    uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -89,7 +94,18 @@ struct LpvCounters {
     uint hidden_taps;
     uint samples;
     uint unfinished;
+    uint cells_relit;
+    uint faces_rebuilt;
 };
+
+// Steps of a grid whose groups kept/decide.comp counts, with relight_changed. Steps of propagation follow.
+const uint gate_cells = 0u;     // clears the sums and resolves them
+const uint gate_one_map = 1u;   // injects from a map
+const uint gate_six_maps = 2u;  // injects from six
+const uint gate_faces = 3u;     // finds the links
+const uint gate_barriers = 4u;  // notes what they were found with
+const uint gate_show = 5u;      // shows what was lit in slices
+const uint gate_first_step = 6u;
 
 #ifdef __cplusplus
 }
