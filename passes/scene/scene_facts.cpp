@@ -1,5 +1,6 @@
 #include "passes/scene/scene_facts.h"
 
+#include "passes/scene/caster_hashes.h"
 #include "passes/scene/fragment_bounds.h"
 #include "passes/scene/frame_spectrum.h"
 #include "passes/scene/light_features.h"
@@ -74,12 +75,17 @@ std::uint32_t SceneFacts::highest_interface_layer() const {
     return highest_interface_layer_.get([&] { return strata::highest_interface_layer(*frame_, lists()); });
 }
 
+const std::vector<std::uint64_t>& SceneFacts::caster_hashes() const {
+    return caster_hashes_.get([&] { return strata::caster_hashes(*frame_, lists().casters); });
+}
+
 std::size_t SceneFacts::derived() const {
     std::size_t made = fragment_bounds_.size() + possible_spectra_.size();
     for (const bool is_made :
          {features_.is_made(), lists_.is_made(), lights_.is_made(), bounds_.is_made(), views_[0].is_made(), views_[1].is_made(),
           transparent_depths_.is_made(), world_depths_.is_made(), farthest_depth_offset_.is_made(), material_uses_[0].is_made(),
-          material_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made()})
+          material_uses_[1].is_made(), light_features_.is_made(), spectrum_.is_made(), highest_interface_layer_.is_made(),
+          caster_hashes_.is_made()})
         made += is_made ? 1 : 0;
     return made;
 }

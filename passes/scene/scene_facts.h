@@ -65,6 +65,8 @@ public:
     const std::vector<std::uint32_t>& possible_spectra(std::uint32_t features) const;
     /// Of everything transparent; 0 where nothing is in an interface layer.
     std::uint32_t highest_interface_layer() const;
+    /// Of each of lists().casters (caster_hashes.h).
+    const std::vector<std::uint64_t>& caster_hashes() const;
 
     /// How many members were derived so far, fragment bounds once per extent and samples and possible spectra once per set of
     /// features: asking for a member again adds nothing.
@@ -82,6 +84,7 @@ private:
     mutable std::map<std::array<std::uint32_t, 3>, FragmentBounds> fragment_bounds_;  ///< by width, height and samples
     Kept<MaterialUses> material_uses_[2];                                             ///< by Surfaces
     Kept<std::uint32_t> light_features_, spectrum_, highest_interface_layer_;
+    Kept<std::vector<std::uint64_t>> caster_hashes_;
     mutable std::map<std::uint32_t, std::vector<std::uint32_t>> possible_spectra_;  ///< by features
 };
 

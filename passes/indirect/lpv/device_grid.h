@@ -24,12 +24,21 @@ struct DeviceGrid {
     Buffer links;            ///< occlusion/links.comp; none without has_links
     Buffer total;            ///< LightCell: all that cells ever held
     Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
+    // Of a grid that is kept over frames (kept/); none of them otherwise.
+    Buffer gates;      ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
+    Buffer starting;   ///< bits of the grids that are lit anew in this frame, by starting_bit()
+    Buffer even, odd;  ///< StepCell: light of steps, where a later frame goes on with it
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
     std::string name(const char* what) const { return fmt::format("{} {}", what, number); }
     /// One per cell.
     Extent threads() const { return {grid.cells.x, grid.cells.y, grid.cells.z}; }
+    /// Grids from the 32nd on share a bit.
+    std::uint32_t starting_bit() const { return 1u << (number < 31 ? number : 31); }
 };
+
+/// As many threads, or as many groups as the gate of a grid that is kept has in this frame.
+ComputePass gated(ComputePass, const DeviceGrid&, std::uint32_t gate, Extent threads);
 
 /// Fixes what passes/indirect/lpv/occlusion/ways.glsl declares.
 ComputePass fix_blockers(ComputePass, const FrameImages&);

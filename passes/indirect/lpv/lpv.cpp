@@ -23,12 +23,13 @@ constexpr auto occlusions =
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr std::string_view switches[] = {"off", "on"};
+constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<LpvParams>();
-    frame.indirect = apply(graph, frame, params, lit_grids(graph, frame, params));
+    frame.indirect = apply(graph, frame, params, shown_grids(graph, frame, params));
 }
 
 Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -115,9 +116,20 @@ Technique lpv() {
                   .high = 1,
                   .fallback = resolution_full,
                   .help = "cells are read per sample, or once per 2x2 pixels; half: pixels that no neighbor fits read them, too",
-                  .choices = resolutions})},
+                  .choices = resolutions}),
+             param<&LpvParams::relight>({.name = "relight",
+                                         .high = 1,
+                                         .fallback = relight_always,
+                                         .help = "when volumes are lit: in every frame, or where lights, casters, blockers or "
+                                                 "the volume changed",
+                                         .choices = relights}),
+             param<&LpvParams::slice>(
+                 {.name = "slice",
+                  .high = 64,
+                  .fallback = 0,
+                  .help = "steps of propagation per frame (relight=changed); surfaces keep the old light meanwhile; 0: all"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -136,7 +148,11 @@ Technique lpv() {
                          {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
                      counter<&LpvCounters::full_resolution>(
                          {.name = "full resolution pixels",
-                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"})},
+                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"}),
+                     counter<&LpvCounters::cells_relit>(
+                         {.name = "cells relit", .help = "cells whose light was injected in this frame, summed over all grids"}),
+                     counter<&LpvCounters::faces_rebuilt>(
+                         {.name = "faces rebuilt", .help = "faces between cells that were tested against all blockers"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",

@@ -26,6 +26,8 @@ const uint macro_side = 4u;  // cells
 
 const uint resolution_full = 0u;
 const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
+const uint relight_always = 0u;   // in every frame
+const uint relight_changed = 1u;  // where something that determines the light differs from the last time (kept/)
 
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
@@ -38,6 +40,8 @@ struct LpvParams {
     uint irradiance;
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
     uint apply_resolution;
+    uint relight;
+    uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -101,7 +105,18 @@ struct LpvCounters {
     uint samples_near_blockers;
     uint blocker_tests;
     uint full_resolution;
+    uint cells_relit;
+    uint faces_rebuilt;
 };
+
+// Steps of a grid whose groups kept/decide.comp counts, with relight_changed. Steps of propagation follow.
+const uint gate_cells = 0u;     // clears the sums and resolves them
+const uint gate_one_map = 1u;   // injects from a map
+const uint gate_six_maps = 2u;  // injects from six
+const uint gate_faces = 3u;     // finds the links
+const uint gate_barriers = 4u;  // notes what they were found with
+const uint gate_show = 5u;      // shows what was lit in slices
+const uint gate_first_step = 6u;
 
 #ifdef __cplusplus
 }

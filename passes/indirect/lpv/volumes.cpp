@@ -2,6 +2,7 @@
 
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/injection.h"
+#include "passes/indirect/lpv/kept/kept.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/scene/scene_facts.h"
 
@@ -13,7 +14,16 @@ bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
     return occlusion == occlusion_axial;
 }
 
+void light(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
+    inject_lights(graph, frame, params, grids);
+    for (DeviceGrid& grid : grids) propagate(graph, frame, params, grid);
+}
+
 }  // namespace
+
+ComputePass gated(ComputePass pass, const DeviceGrid& grid, std::uint32_t gate, Extent threads) {
+    return grid.gates ? pass.indirect(grid.gates, gate * sizeof(uvec3)) : pass.over(threads);
+}
 
 ComputePass fix_blockers(ComputePass pass, const FrameImages& frame) {
     return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
@@ -30,7 +40,6 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
                      .fixed_one = fixed_one(*frame.facts, grid),
                      .number = made.size()};
         g.sums = graph.create(g.name("injected light of grid"), std::uint64_t{g.cells()} * sizeof(LightCell));
-        graph.clear(g.sums, 0);
         made.push_back(g);
     }
     return made;
@@ -38,8 +47,17 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
 
 std::vector<DeviceGrid> lit_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
-    inject_lights(graph, frame, params, grids);
-    for (DeviceGrid& grid : grids) propagate(graph, frame, params, grid);
+    light(graph, frame, params, grids);
+    for (DeviceGrid& grid : grids) find_macro_cells(graph, frame, params, grid);
+    return grids;
+}
+
+std::vector<DeviceGrid> shown_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
+    if (params.relight == relight_always) return lit_grids(graph, frame, params);
+    std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
+    KeptGrids kept = recall(graph, frame, params, grids);
+    light(graph, frame, params, grids);
+    keep(graph, grids, kept);
     for (DeviceGrid& grid : grids) find_macro_cells(graph, frame, params, grid);
     return grids;
 }

@@ -6,30 +6,39 @@
 #include <span>
 
 #include "passes/indirect/lpv/injection/maps.h"
+#include "passes/indirect/lpv/kept/gated_casters.h"
 #include "passes/scene/scene_facts.h"
 
 namespace strata::indirect {
 namespace {
 
-void inject(Graph& graph, const FrameImages& frame, const LpvParams& params, std::uint32_t light, const LightMaps& maps,
+void inject(Graph& graph, GatedCasters& casters, const LpvParams& params, std::uint32_t light, const LightMaps& maps,
             std::span<DeviceGrid* const> grids) {
-    const MapImages images = draw_maps(graph, frame, maps, params.map_size);
+    const FrameImages& frame = casters.frame();
+    const MapImages images = draw_maps(graph, casters.seen_by(grids), maps, params.map_size);
     for (DeviceGrid* const grid : grids) {
-        fix_blockers(graph.compute("indirect/lpv/injection/inject.comp"), frame)
-            .samples("position", images.position)
-            .samples("normal", images.normal)
-            .samples("albedo", images.albedo)
-            .updates("Sums", grid->sums)
-            .fixes("guards", grid->has_links ? 1u : 0u)
-            .fixes("light_features", frame.facts->light_features())
-            .push(InjectPush{.grid = grid->place,
-                             .light = light,
-                             .slopes = maps.slopes,
-                             .texel_area = maps.texel_area,
-                             .fixed_one = float(grid->fixed_one),
-                             .bias = params.injection})
-            .over({params.map_size, params.map_size, static_cast<std::uint32_t>(maps.views.size())});
+        const auto views = static_cast<std::uint32_t>(maps.views.size());
+        gated(fix_blockers(graph.compute("indirect/lpv/injection/inject.comp"), frame)
+                  .samples("position", images.position)
+                  .samples("normal", images.normal)
+                  .samples("albedo", images.albedo)
+                  .updates("Sums", grid->sums)
+                  .fixes("guards", grid->has_links ? 1u : 0u)
+                  .fixes("light_features", frame.facts->light_features())
+                  .push(InjectPush{.grid = grid->place,
+                                   .light = light,
+                                   .slopes = maps.slopes,
+                                   .texel_area = maps.texel_area,
+                                   .fixed_one = float(grid->fixed_one),
+                                   .bias = params.injection}),
+              *grid, views == 1 ? gate_one_map : gate_six_maps, {params.map_size, params.map_size, views});
     }
+}
+
+void clear_sums(Graph& graph, DeviceGrid& grid) {
+    if (!grid.gates) return graph.clear(grid.sums, 0);
+    gated(graph.compute("indirect/lpv/kept/clear_sums.comp").stores("Sums", grid.sums).push(grid.place), grid, gate_cells,
+          grid.threads());
 }
 
 }  // namespace
@@ -43,17 +52,19 @@ double fixed_one(const SceneFacts& facts, const LightGrid& grid) {
 }
 
 void inject_lights(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
+    for (DeviceGrid& grid : grids) clear_sums(graph, grid);
     const std::span<const Light> lights = frame.facts->lights();
+    GatedCasters casters(graph, frame);
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         std::vector<DeviceGrid*> reached;
         for (DeviceGrid& grid : grids)
             if (injects(lights[i], grid.grid)) reached.push_back(&grid);
         if (lights[i].type != LightType::directional) {
-            if (!reached.empty()) inject(graph, frame, params, i, maps_around(*frame.recorded, lights[i]), reached);
+            if (!reached.empty()) inject(graph, casters, params, i, maps_around(*frame.recorded, lights[i]), reached);
             continue;
         }
         for (DeviceGrid* const grid : reached)
-            inject(graph, frame, params, i, maps_over(*frame.facts, lights[i], grid->grid, params.map_size), {&grid, 1});
+            inject(graph, casters, params, i, maps_over(*frame.facts, lights[i], grid->grid, params.map_size), {&grid, 1});
     }
 }
 

@@ -10,7 +10,7 @@ namespace strata::indirect {
 /// 1 in the fixed point of a grid's sums: 2^k such that all that lights can send is no more than 2^30 of a coefficient.
 double fixed_one(const SceneFacts&, const LightGrid&);
 
-/// Adds to the sums of the grids. A light's maps serve all the grids that it reaches; those of parallel light are laid over each
+/// Fills the sums of the grids. A light's maps serve all the grids that it reaches; those of parallel light are laid over each
 /// grid.
 void inject_lights(Graph&, const FrameImages&, const LpvParams&, std::vector<DeviceGrid>&);
 

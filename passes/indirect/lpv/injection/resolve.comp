@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push { ResolvePush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Sums { ivec4 sums[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Step { StepCell cells[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Total { LightCell total[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
@@ -20,4 +21,5 @@ void main() {
     const LightCell light = LightCell(vec4(sums[3u * cell]) * unit, vec4(sums[3u * cell + 1u]) * unit, vec4(sums[3u * cell + 2u]) * unit);
     cells[cell] = with_share(light);
     total[cell] = light;
+    atomicAdd(counters.cells_relit, 1u);
 }

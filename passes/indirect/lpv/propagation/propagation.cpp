@@ -6,7 +6,7 @@ namespace strata::indirect {
 namespace {
 
 void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid) {
-    if (!grid.has_links) return;
+    if (!grid.has_links || grid.links) return;
     grid.links = graph.create(grid.name("links of grid"), std::uint64_t{grid.cells()} * 3 * sizeof(float));
     fix_blockers(graph.compute("indirect/lpv/occlusion/links.comp"), frame)
         .stores("Links", grid.links)
@@ -32,23 +32,23 @@ void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, 
                const std::function<void(std::uint32_t step, const Buffer& light)>& look) {
     find_links(graph, frame, grid);
     const std::uint64_t bytes = std::uint64_t{grid.cells()} * sizeof(StepCell);
-    Buffer now = graph.create(grid.name("light of even steps of grid"), bytes);
-    Buffer next = graph.create(grid.name("light of odd steps of grid"), bytes);
-    grid.total = graph.create(grid.name("light of grid"), std::uint64_t{grid.cells()} * sizeof(LightCell));
-    fix_faces(graph.compute("indirect/lpv/injection/resolve.comp"), params)
-        .loads("Sums", grid.sums)
-        .stores("Step", now)
-        .stores("Total", grid.total)
-        .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)})
-        .over(grid.threads());
+    Buffer now = grid.even ? grid.even : graph.create(grid.name("light of even steps of grid"), bytes);
+    Buffer next = grid.odd ? grid.odd : graph.create(grid.name("light of odd steps of grid"), bytes);
+    if (!grid.total) grid.total = graph.create(grid.name("light of grid"), std::uint64_t{grid.cells()} * sizeof(LightCell));
+    gated(fix_faces(graph.compute("indirect/lpv/injection/resolve.comp"), params)
+              .loads("Sums", grid.sums)
+              .stores("Step", now)
+              .stores("Total", grid.total)
+              .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)}),
+          grid, gate_cells, grid.threads());
     look(0, now);
     for (std::uint32_t step = 0; step < iterations(params, grid); ++step) {
-        fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid)
-            .loads("Before", now)
-            .stores("After", next)
-            .updates("Total", grid.total)
-            .push(grid.place)
-            .over(grid.threads());
+        gated(fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid)
+                  .loads("Before", now)
+                  .stores("After", next)
+                  .updates("Total", grid.total)
+                  .push(grid.place),
+              grid, gate_first_step + step, grid.threads());
         std::swap(now, next);
         look(step + 1, now);
     }

@@ -1,0 +1,26 @@
+// What determines the light of a grid, as hashes of the recorded frame: equal keys give equal light, wherever the eye is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "passes/indirect/lpv/device_grid.h"
+
+namespace strata::indirect {
+
+struct GridKeys {
+    uvec2 light{0};   ///< everything
+    uvec2 place{0};   ///< the grid and the rules of its light, whatever is lit
+    uvec2 linked{0};  ///< what its links are found with; 0 where it has none
+};
+GridKeys keys_of(const FrameImages&, const LpvParams&, const DeviceGrid&);
+
+/// The cells that links lie between. Those of a cascade stay in the world when the cascade moves.
+uvec2 lattice_key(const LightGrid&);
+/// A grid's first cell in them.
+glm::i64vec3 first_cell(const LightGrid&);
+
+/// Of the frame's blockers, then of its portals as the device has them.
+std::vector<uvec2> barrier_identities(const Frame&);
+
+}  // namespace strata::indirect

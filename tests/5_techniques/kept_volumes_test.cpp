@@ -1,0 +1,311 @@
+// Light volumes that are kept over frames (relight=changed): what did not change is not lit again, and the picture is that of
+// volumes that are lit in every frame, bit by bit.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "passes/indirect/lpv/grids_model.h"
+#include "replay/images/host_image.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+/// What a run of a frame lit, and what it showed.
+struct Lit {
+    std::uint64_t injected = 0, cells = 0, faces = 0;
+    HostImage indirect = {};
+
+    std::array<std::uint64_t, 3> work() const { return {injected, cells, faces}; }
+};
+
+std::uint64_t counter_of(const Run& run, std::string_view name) {
+    const auto found = std::ranges::find_if(
+        run.counters, [&](const CounterRecord& counter) { return counter.technique == "indirect/lpv" && counter.name == name; });
+    return found == run.counters.end() ? 0 : found->value;
+}
+
+Lit lit(Session& session, std::size_t frame, std::vector<std::string> sets) {
+    Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
+    request.outputs = {"indirect"};
+    const Run run = must(session.run(request));
+    return {counter_of(run, "injected"), counter_of(run, "cells relit"), counter_of(run, "faces rebuilt"),
+            run.images.at("indirect")};
+}
+
+Lit kept(Session& session, std::size_t frame, std::vector<std::string> sets = {}) {
+    sets.emplace_back("relight=changed");
+    return lit(session, frame, sets);
+}
+
+/// The picture of a frame whose volumes are lit anew.
+HostImage lit_anew(Session& session, std::size_t frame) { return lit(session, frame, {}).indirect; }
+
+std::unique_ptr<Session> session_of(std::vector<Frame> frames) {
+    return must(Session::open(std::move(frames), {.validation = true}));
+}
+
+/// Two rooms with the door closed, half open, wide open, seen from one place.
+std::vector<Frame> still_rooms() {
+    std::vector<Frame> frames = scenario_frames("two_rooms", 1, 3);
+    for (Frame& frame : frames) frame.view = frames.front().view;
+    return frames;
+}
+
+/// The door half open, and the same frame changed.
+std::vector<Frame> rooms_and(const std::function<void(Frame&)>& change) {
+    std::vector<Frame> frames(2, still_rooms()[1]);
+    change(frames[1]);
+    return frames;
+}
+
+std::uint64_t faces_in(const glm::uvec3& n) {
+    const auto of = [](std::uint64_t x, std::uint64_t y, std::uint64_t z) { return (x - 1) * y * z; };
+    return of(n.x, n.y, n.z) + of(n.y, n.x, n.z) + of(n.z, n.x, n.y);
+}
+
+constexpr std::uint64_t room_cells = 24 * 10 * 14;
+constexpr std::array<std::uint64_t, 3> no_work{};
+
+TEST(KeptVolumes, AreLitOnceWhereNothingChanges) {
+    const auto session = session_of(still_rooms());
+    const Lit anew = lit(*session, 1, {}), first = kept(*session, 1), second = kept(*session, 1);
+    EXPECT_EQ(anew.work(), lit(*session, 1, {"taps=all"}).work()) << "in every frame";
+    EXPECT_GT(first.injected, 1000u);
+    EXPECT_EQ(first.cells, room_cells);
+    EXPECT_EQ(first.faces, faces_in({24, 10, 14}));
+    EXPECT_EQ(first.work(), anew.work());
+    EXPECT_EQ(second.work(), no_work);
+    EXPECT_TRUE(first.indirect.texels == anew.indirect.texels);
+    EXPECT_TRUE(second.indirect.texels == anew.indirect.texels);
+}
+
+/// Faces between cells near the portals of two frames. A portal of a frame opens ways that cross its wall within half a cell's
+/// diagonal of the face's middle.
+std::uint64_t faces_near_the_doors(const Frame& a, const Frame& b) {
+    using namespace indirect::in_double;
+    const Grid grid = grids(a).front();
+    const double reach = .867 * grid.cell_size;
+    const auto is_near = [&](const glm::dvec3& middle, const Portal& portal) {
+        const glm::dvec3 offset = middle - portal.center;
+        return std::abs(offset.x) <= reach &&
+               glm::length(offset) <= std::hypot(double(portal.half_u), double(portal.half_v)) + reach;
+    };
+    std::uint64_t count = 0;
+    for (std::uint32_t i = 0; i < cell_count(grid); ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            const glm::ivec3 cell(i % grid.cells.x, i / grid.cells.x % grid.cells.y, i / (grid.cells.x * grid.cells.y));
+            glm::ivec3 next = cell;
+            ++next[axis];
+            const glm::dvec3 middle = .5 * (cell_middle(grid, cell) + cell_middle(grid, next));
+            if (is_inside(grid, next) && (is_near(middle, a.portals[0]) || is_near(middle, b.portals[0]))) ++count;
+        }
+    return count;
+}
+
+TEST(KeptVolumes, FindLinksAgainNearADoorThatMoves) {
+    const std::vector<Frame> frames = still_rooms();
+    const auto session = session_of(frames);
+    const HostImage half = lit_anew(*session, 1), wide = lit_anew(*session, 2);
+    ASSERT_FALSE(half.texels == wide.texels);
+    kept(*session, 1);
+    const Lit opened = kept(*session, 2), closed_again = kept(*session, 1);
+    const std::uint64_t near = faces_near_the_doors(frames[1], frames[2]);
+    EXPECT_LT(near, faces_in({24, 10, 14}) / 10);
+    EXPECT_EQ(opened.faces, near);
+    EXPECT_EQ(closed_again.faces, near);
+    EXPECT_EQ(opened.cells, room_cells);
+    EXPECT_TRUE(opened.indirect.texels == wide.texels);
+    EXPECT_TRUE(closed_again.indirect.texels == half.texels);
+}
+
+TEST(KeptVolumes, KeepTheirLinksWhereALightChanges) {
+    const auto session = session_of(rooms_and([](Frame& frame) { frame.lights[0].position.x -= .3; }));
+    const HostImage wanted = lit_anew(*session, 1);
+    kept(*session, 0);
+    const Lit changed = kept(*session, 1);
+    EXPECT_EQ(changed.faces, 0u);
+    EXPECT_EQ(changed.cells, room_cells);
+    EXPECT_GT(changed.injected, 1000u);
+    EXPECT_TRUE(changed.indirect.texels == wanted.texels);
+}
+
+TEST(KeptVolumes, AreLitAnewForWhateverTheirLightDependsOnAndForNothingElse) {
+    constexpr std::size_t door = 16;
+    const struct {
+        const char* what;
+        std::function<void(Frame&)> change;
+        bool relights;
+    } rows[] = {
+        {"a light's color", [](Frame& f) { f.lights[0].intensity.y += 1; }, true},
+        {"a light's range", [](Frame& f) { f.lights[0].range = 13; }, true},
+        {"a material's color", [](Frame& f) { f.materials[f.draws[0].material].base_color.x *= .5f; }, true},
+        {"a caster's place", [](Frame& f) { f.draws.front().to_world[3].y -= .25; }, true},
+        {"a vertex", [](Frame& f) { f.meshes[f.draws[door].mesh].positions[0].x += .01f; }, true},
+        {"a caster that is one no more", [](Frame& f) { f.draws[0].casts_shadow = false; }, true},
+        {"a blocker", [](Frame& f) { f.blockers[3].half_u -= .125f; }, true},
+        {"the grid's place", [](Frame& f) { f.light_volumes[0].center.y += .125; }, true},
+        {"how often it is iterated", [](Frame& f) { f.light_volumes[0].iterations = 8; }, true},
+        {"what is behind the rooms", [](Frame& f) { f.background *= 2; }, false},
+        {"a light's shadow map", [](Frame& f) { f.lights[0].shadow.map_size = 256; }, false},
+        {"light from all around",
+         [](Frame& f) {
+             f.hemisphere.sky = {.1f, .2f, .3f};
+         },
+         false},
+        {"a name", [](Frame& f) { f.draws[0].name = "floor", f.materials[0].name = "planks"; }, false},
+    };
+    std::vector<Frame> frames{still_rooms()[1]};
+    for (const auto& row : rows) row.change(frames.emplace_back(frames.front()));
+    const auto session = session_of(frames);
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        kept(*session, 0);
+        const Lit changed = kept(*session, i + 1);
+        EXPECT_EQ(changed.cells > 0, rows[i].relights) << rows[i].what;
+        EXPECT_TRUE(changed.indirect.texels == lit_anew(*session, i + 1).texels) << rows[i].what;
+    }
+}
+
+TEST(KeptVolumes, AreTheSameInAnyOrderOfFrames) {
+    std::vector<Frame> frames = still_rooms();
+    frames.push_back(frames[2]);
+    frames.back().blockers.pop_back();
+    frames.back().lights[0].blockers.pop_back();
+    frames.push_back(frames[1]);
+    frames.back().lights.push_back(frames.back().lights[0]);
+    frames.back().lights.back().position.x = 2;
+    const auto session = session_of(frames);
+    std::vector<HostImage> wanted;
+    for (std::size_t i = 0; i < frames.size(); ++i) wanted.push_back(lit_anew(*session, i));
+    for (const std::size_t i : {0, 3, 1, 4, 2, 3, 3, 0, 4, 1, 0, 2, 4, 3, 0})
+        EXPECT_TRUE(kept(*session, i).indirect.texels == wanted[i].texels) << i;
+}
+
+/// A cascade around an eye in the left room, and the eye moved by some cells.
+std::vector<Frame> rooms_with_a_cascade(const glm::ivec3& moved) {
+    std::vector<Frame> frames(2, still_rooms()[1]);
+    for (Frame& frame : frames) {
+        frame.light_volumes = {{.kind = VolumeKind::cascaded_global,
+                                .occlusion = VolumeOcclusion::axial,
+                                .half_extent = glm::vec3(6),
+                                .cells = {24, 20, 24},
+                                .iterations = 8}};
+        frame.light_volumes[0].half_extent = {6, 5, 6};
+        frame.view.origin = {1.25, 1.75, 1.25};
+    }
+    frames[1].view.origin += .5 * glm::dvec3(moved);
+    return frames;
+}
+
+TEST(KeptVolumes, FindTheLinksOfASlabWhereACascadeScrolls) {
+    constexpr std::uint64_t nx = 24, ny = 20, nz = 24;
+    const struct {
+        glm::ivec3 moved;
+        std::uint64_t faces;
+    } rows[] = {{{1, 0, 0}, ny * nz + (ny - 1) * nz + ny * (nz - 1)},
+                {{0, -1, 0}, nx * nz + (nx - 1) * nz + nx * (nz - 1)},
+                {{0, 0, -2}, 2 * (nx * ny + (nx - 1) * ny + nx * (ny - 1))},
+                {{40, 0, 0}, faces_in({nx, ny, nz})}};
+    for (const auto& row : rows) {
+        const auto session = session_of(rooms_with_a_cascade(row.moved));
+        const HostImage before = lit_anew(*session, 0), after = lit_anew(*session, 1);
+        EXPECT_EQ(kept(*session, 0).faces, faces_in({nx, ny, nz}));
+        const Lit scrolled = kept(*session, 1);
+        EXPECT_EQ(scrolled.faces, row.faces) << row.moved.x << row.moved.y << row.moved.z;
+        EXPECT_TRUE(scrolled.indirect.texels == after.texels);
+        const Lit back = kept(*session, 0);
+        EXPECT_EQ(back.faces, row.faces);
+        EXPECT_TRUE(back.indirect.texels == before.texels);
+        EXPECT_EQ(kept(*session, 0).work(), no_work);
+    }
+}
+
+TEST(KeptVolumes, ShowTheOldLightUntilTheSlicesOfTheNewAreDone) {
+    const auto session = session_of(rooms_and([](Frame& frame) { frame.lights[0].intensity *= 1.5f; }));
+    const HostImage old_light = lit_anew(*session, 0), new_light = lit_anew(*session, 1);
+    for (const int slice : {1, 5, 16, 32, 40}) {
+        session->forget_memo();
+        const std::string set = "slice=" + std::to_string(slice);
+        EXPECT_TRUE(kept(*session, 0, {set}).indirect.texels == old_light.texels) << "the first is lit at once";
+        const int frames = (32 + slice - 1) / slice;
+        for (int i = 1; i <= frames; ++i) {
+            const Lit now = kept(*session, 1, {set});
+            EXPECT_EQ(now.cells, i == 1 ? room_cells : 0u);
+            EXPECT_TRUE(now.indirect.texels == (i < frames ? old_light : new_light).texels) << slice << ", frame " << i;
+        }
+        EXPECT_EQ(kept(*session, 1, {set}).work(), no_work);
+    }
+}
+
+TEST(KeptVolumes, EndTheLightThatTheyBeganBeforeTheyBeginAnother) {
+    std::vector<Frame> frames(3, still_rooms()[1]);
+    frames[1].lights[0].intensity *= 2;
+    frames[2].lights[0].intensity *= 3;
+    const auto session = session_of(frames);
+    const HostImage first = lit_anew(*session, 0), second = lit_anew(*session, 1), third = lit_anew(*session, 2);
+    const std::string slice = "slice=16";
+    const auto shows = [&](std::size_t frame, const HostImage& wanted) {
+        EXPECT_TRUE(kept(*session, frame, {slice}).indirect.texels == wanted.texels) << frame;
+    };
+    shows(0, first);
+    shows(1, first);
+    shows(2, second);  // begun two frames ago
+    shows(2, second);
+    shows(2, third);
+    shows(1, third);
+    shows(2, third);  // what was begun for the frame before is dropped
+    EXPECT_EQ(kept(*session, 2, {slice}).work(), no_work);
+}
+
+TEST(KeptVolumes, StartWithNothingAfterARunThatStoppedHalfway) {
+    const auto session = session_of(still_rooms());
+    const HostImage wanted = lit_anew(*session, 1);
+    kept(*session, 0);
+    for (const char* step : {"decide", "faces", "inject.comp", "propagate"}) {
+        Request request{.variant = {.frame = 1}, .choices = chosen({"indirect/lpv"}, {"relight=changed"})};
+        request.outputs = {"indirect"};
+        request.until = step;
+        must(session->run(request));
+        EXPECT_TRUE(kept(*session, 1).indirect.texels == wanted.texels) << step;
+        kept(*session, 0);
+    }
+}
+
+TEST(KeptVolumes, AreKeptWhereTheEyeMoves) {
+    std::vector<Frame> frames(2, still_rooms()[0]);
+    frames[1].view = scenario_frames("two_rooms", 1, 3)[2].view;
+    const auto session = session_of(frames);
+    kept(*session, 0);
+    const Lit moved = kept(*session, 1);
+    EXPECT_EQ(moved.work(), no_work);
+    const HostImage anew = lit_anew(*session, 1);
+    double worst = 0, most = 0;
+    std::size_t dark = 0;
+    for (std::uint32_t y = 0; y < anew.shape.extent.height; ++y)
+        for (std::uint32_t x = 0; x < anew.shape.extent.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double a = texel(moved.indirect, x, y)[c], b = texel(anew, x, y)[c];
+                worst = std::max(worst, std::abs(a - b));
+                most = std::max(most, b);
+                EXPECT_EQ(a == 0, b == 0) << x << ", " << y;
+                dark += b == 0 ? 1 : 0;
+            }
+    EXPECT_GT(dark, 1000u);
+    EXPECT_GT(most, .5);
+    EXPECT_LT(worst, 2e-3 * most) << "virtual point lights at a cell's border, as the eye's place rounds them";
+}
+
+TEST(KeptVolumes, AreNotChangedByViews) {
+    const auto session = session_of(still_rooms());
+    const HostImage wanted = lit_anew(*session, 1);
+    Request request{.variant = {.frame = 1}, .choices = chosen({"indirect/lpv"}, {"relight=changed", "slice=4"})};
+    request.outputs = {"indirect", "indirect/lpv:visible taps", "indirect/lpv:energy"};
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(must(session->run(request)).images.at("indirect").texels == wanted.texels);
+}
+
+}  // namespace
+}  // namespace strata
