@@ -115,9 +115,14 @@ Technique lpv() {
                   .high = 1,
                   .fallback = resolution_full,
                   .help = "cells are read per sample, or once per 2x2 pixels; half: pixels that no neighbor fits read them, too",
-                  .choices = resolutions})},
+                  .choices = resolutions}),
+             param<&LpvParams::damping>(
+                 {.name = "damping",
+                  .high = 4,
+                  .fallback = 0,
+                  .help = "exponent that dims light which grows towards the inside of a surface; 0: off, 1 to 2: typical"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "damping=2"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(

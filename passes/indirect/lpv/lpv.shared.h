@@ -38,6 +38,7 @@ struct LpvParams {
     uint irradiance;
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
     uint apply_resolution;
+    float damping;  // exponent; 0: off
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
