@@ -127,9 +127,14 @@ Technique lpv() {
                  {.name = "slice",
                   .high = 64,
                   .fallback = 0,
-                  .help = "steps of propagation per frame (relight=changed); surfaces keep the old light meanwhile; 0: all"})},
+                  .help = "steps of propagation per frame (relight=changed); surfaces keep the old light meanwhile; 0: all"}),
+             param<&LpvParams::damping>(
+                 {.name = "damping",
+                  .high = 4,
+                  .fallback = 0,
+                  .help = "exponent that dims light which grows towards the inside of a surface; 0: off, 1 to 2: typical"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed", "damping=2"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(

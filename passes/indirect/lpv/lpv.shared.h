@@ -42,6 +42,7 @@ struct LpvParams {
     uint apply_resolution;
     uint relight;
     uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
+    float damping;  // exponent; 0: off
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.

@@ -61,6 +61,7 @@ LitGrid lit(const Grid& grid, const Sources& sources, std::span<const Barrier> b
     const std::span<const Barrier> in_the_way = is_axial(grid, params) ? barriers : std::span<const Barrier>();
     LitGrid result{.grid = grid};
     result.irradiance = params.irradiance;
+    result.damping = double(params.damping);
     if (params.taps == taps_visible) result.tap_barriers = in_the_way;
     result.light = injected(grid, sources.around(grid), {.bias = double(params.injection), .barriers = in_the_way});
     const Links open = links(grid, in_the_way);

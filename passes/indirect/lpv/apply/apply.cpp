@@ -64,6 +64,7 @@ Image block_light(Graph& graph, const FrameImages& frame, const LpvParams& param
         .samples("chosen_pixels", chosen)
         .stores("block_light", light)
         .fixes("irradiance", params.irradiance)
+        .fixes("damping", params.damping)
         .over(half_extent(frame));
     return light;
 }
@@ -82,6 +83,7 @@ Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std
             .samples("block_light", blocks)
             .updates("indirect", light)
             .fixes("irradiance", params.irradiance)
+            .fixes("damping", params.damping)
             .fixes("resolution", params.apply_resolution)
             .over({frame.extent.width, frame.extent.height, frame.samples});
     }

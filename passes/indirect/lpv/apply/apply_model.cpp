@@ -1,6 +1,7 @@
 #include "passes/indirect/lpv/apply/apply_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace strata::indirect::in_double {
 namespace {
@@ -18,9 +19,10 @@ struct Taps {
     double sum = 0;
 };
 
-Taps taps_of(const LitGrid& lit, const Receiver& at) {
+/// `cells` before the surface: 0.5, or -0.5 behind it.
+Taps taps_of(const LitGrid& lit, const Receiver& at, double cells) {
     const double size = lit.grid.cell_size;
-    const glm::dvec3 place = in_cells(lit.grid, at.position + at.normal * (size / 2)) - 0.5, low = glm::floor(place);
+    const glm::dvec3 place = in_cells(lit.grid, at.position + at.normal * (size * cells)) - 0.5, low = glm::floor(place);
     const glm::dvec3 part = place - low, start = at.position + at.normal * tap_start;
     Taps taps;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -46,11 +48,18 @@ glm::dvec4 weighted(const LitGrid& lit, const Taps& taps, std::size_t channel) {
 }  // namespace
 
 glm::dvec4 sampled(const LitGrid& lit, std::size_t channel, const Receiver& at) {
-    return weighted(lit, taps_of(lit, at), channel);
+    return weighted(lit, taps_of(lit, at, 0.5), channel);
+}
+
+double kept_share(const glm::dvec4& before, const glm::dvec4& behind, double k) {
+    const glm::dvec4 change = before - behind;
+    const double lengths = glm::length(before) * glm::length(change);
+    const double cosine = lengths > 0 ? glm::dot(before, change) / lengths : 1;
+    return std::pow(std::max(0.0, (1 + cosine) / 2), k);
 }
 
 glm::dvec3 irradiance(const LitGrid& lit, const Receiver& at) {
-    const Taps taps = taps_of(lit, at);
+    const Taps taps = taps_of(lit, at, 0.5);
     glm::dvec3 result;
     for (std::size_t channel = 0; channel < 3; ++channel) {
         // Cells hold what leaves them: what arrives at the surface travels against its normal.
@@ -62,6 +71,10 @@ glm::dvec3 irradiance(const LitGrid& lit, const Receiver& at) {
         const double received = glm::dot(lobe, c) / mean_section;
         result[glm::length_t(channel)] = std::max(0.0, lit.irradiance == irradiance_face ? 4 * intensity : received) / area;
     }
+    if (lit.damping == 0) return result;
+    const Taps behind = taps_of(lit, at, -0.5);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        result[glm::length_t(channel)] *= kept_share(weighted(lit, taps, channel), weighted(lit, behind, channel), lit.damping);
     return result;
 }
 

@@ -18,6 +18,7 @@ struct LitGrid {
     Field light;
     std::span<const Barrier> tap_barriers = {};  ///< that hide taps from a surface; none: all eight taps count
     std::uint32_t irradiance = irradiance_face;
+    double damping = 0;  ///< exponent; 0: off
 };
 
 /// World space.
@@ -27,6 +28,9 @@ struct Receiver {
 
 /// One channel's coefficients half a cell above a receiver, of the eight cells around that place. Cells outside hold 0.
 glm::dvec4 sampled(const LitGrid&, std::size_t channel, const Receiver&);
+/// Share of one channel's light that damping leaves: ((1 + cosine) / 2)^k, of the angle in four dimensions between the
+/// coefficients half a cell before the surface and these less those half a cell behind it; 1 where either is 0.
+double kept_share(const glm::dvec4& before, const glm::dvec4& behind, double k);
 /// W/m^2 of one grid alone.
 glm::dvec3 irradiance(const LitGrid&, const Receiver&);
 /// Share of a grid at a position: 0 outside, rising to 1 over its border.

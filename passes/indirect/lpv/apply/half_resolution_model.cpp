@@ -9,7 +9,7 @@ namespace strata::indirect::in_double {
 namespace {
 
 // Metres off both surfaces between which barriers are looked for, and the least sum of weights.
-constexpr double way_start = 0.02, least_fit = 1. / 16;
+constexpr double way_start = 0.02, least_fit = 0.25;
 
 glm::uvec2 blocks_of(const VisibleSurfaces& seen) { return {(seen.width + 1) / 2, (seen.height + 1) / 2}; }
 
@@ -36,7 +36,7 @@ std::vector<std::optional<glm::uvec2>> reading_pixels(const VisibleSurfaces& see
 double fit(const LitGrid& lit, const Receiver& at, const Receiver& other, const glm::dvec2& pixels) {
     const double size = lit.grid.cell_size, distance = glm::length(at.position - other.position);
     const double cosine = glm::dot(at.normal, other.normal);
-    const std::array<double, 4> factors{1 - std::abs(pixels.x) / 2, 1 - std::abs(pixels.y) / 2, 1 - distance / (size / 2),
+    const std::array<double, 4> factors{1 - std::abs(pixels.x) / 3, 1 - std::abs(pixels.y) / 3, 1 - distance / (size / 2),
                                         2 * cosine - 1};
     double product = 1;
     for (const double factor : factors) product *= std::max(0.0, factor);

@@ -19,7 +19,7 @@ struct VisibleSurfaces {
 /// elsewhere, of equal ones the first. No value where none has a surface.
 std::vector<std::optional<glm::uvec2>> reading_pixels(const VisibleSurfaces&);
 
-/// How well the surface of another pixel stands for that of a pixel, `pixels` away from it: the product of 1 - |pixels| / 2 each
+/// How well the surface of another pixel stands for that of a pixel, `pixels` away from it: the product of 1 - |pixels| / 3 each
 /// way, 1 - distance / half a cell, and 2 cos - 1 of the angle between normals, none below 0; 0 if a barrier lies between them.
 double fit(const LitGrid&, const Receiver&, const Receiver& other, const glm::dvec2& pixels);
 
@@ -28,7 +28,7 @@ class HalfResolutionLight {
 public:
     HalfResolutionLight(const LitGrid&, const VisibleSurfaces&);
     /// W/m^2 at a receiver seen in a pixel: the mean over the pixel's own block and the three that touch the same corner of it,
-    /// weighted by fit(). No value where these add up to less than 1/16.
+    /// weighted by fit(). No value where these add up to less than 1/4.
     std::optional<glm::dvec3> at(const Receiver&, const glm::uvec2& pixel) const;
 
 private:

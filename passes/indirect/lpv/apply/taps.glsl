@@ -31,8 +31,11 @@ float depth_inside(GridPlace grid, vec3 place) {
     return min(least.x, min(least.y, least.z));
 }
 
-// Half a cell before the surface, in cells from the grid's origin.
-vec3 place_before(GridPlace grid, LitPlace lit) { return (lit.place - grid.origin) / grid.cell + 0.5 * lit.normal; }
+// Some cells before the surface, in cells from the grid's origin.
+vec3 place_before(GridPlace grid, LitPlace lit, float cells) { return (lit.place - grid.origin) / grid.cell + cells * lit.normal; }
+
+// The macro-cell of the place half a cell before the surface, or behind it for -0.5.
+uint macro_cell_before(GridPlace grid, LitPlace lit, float cells) { return macro_cell(grid, ivec3(floor(place_before(grid, lit, cells)))); }
 
 // Where ways from the surface begin, view space.
 vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
@@ -44,13 +47,13 @@ struct SeenLight {
     uint near;    // blockers that the ways may meet
 };
 
-// Beyond the border cells hold nothing.
-SeenLight seen_light(GridPlace grid, LitPlace lit) {
+// Half a cell before the surface, or behind it for -0.5. Beyond the border cells hold nothing.
+SeenLight seen_light_before(GridPlace grid, LitPlace lit, float cells) {
     const vec3 start = way_start(lit);
-    const vec3 place = place_before(grid, lit), between = place - 0.5;
+    const vec3 between = place_before(grid, lit, cells) - 0.5;
     const ivec3 first = ivec3(floor(between));
     const vec3 share = between - vec3(first);
-    const uint macro = macro_cell(grid, ivec3(floor(place)));
+    const uint macro = macro_cell_before(grid, lit, cells);
     SeenLight seen = SeenLight(LightCell(vec4(0.0), vec4(0.0), vec4(0.0)), 0u, 0u, 0u);
     if (asks_taps != 0u) seen.near = count_near(macro);
     float all = 0.0;
@@ -71,5 +74,7 @@ SeenLight seen_light(GridPlace grid, LitPlace lit) {
     seen.light = LightCell(seen.light.red * scale, seen.light.green * scale, seen.light.blue * scale);
     return seen;
 }
+
+SeenLight seen_light(GridPlace grid, LitPlace lit) { return seen_light_before(grid, lit, 0.5); }
 
 #endif

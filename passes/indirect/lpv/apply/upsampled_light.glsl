@@ -6,12 +6,12 @@
 layout(set = 0, binding = 9) uniform sampler2D block_light;  // a: 1 where the grid lights the block's pixel
 
 // The least sum of weights that stands for a pixel.
-const float least_fit = 1.0 / 16.0;
+const float least_fit = 0.25;
 
 // How well another surface stands for this one: less with pixels between them, with distance, which ends at half a cell, as light changes
 // from cell to cell, and with the angle between normals, which ends at 60 degrees.
 float fit(GridPlace grid, LitPlace lit, LitPlace other, vec2 pixels) {
-    const vec2 tent = max(vec2(0.0), 1.0 - 0.5 * abs(pixels));
+    const vec2 tent = max(vec2(0.0), 1.0 - abs(pixels) / 3.0);
     const float nearness = max(0.0, 1.0 - 2.0 * distance(lit.place, other.place) / grid.cell);
     return tent.x * tent.y * nearness * max(0.0, 2.0 * dot(lit.normal, other.normal) - 1.0);
 }
@@ -19,7 +19,7 @@ float fit(GridPlace grid, LitPlace lit, LitPlace other, vec2 pixels) {
 // Both ends are within reach of the macro-cell of this surface: they are at most half a cell apart.
 bool are_parted(GridPlace grid, LitPlace lit, LitPlace other) {
     if (asks_taps == 0u) return false;
-    const uint macro = macro_cell(grid, ivec3(floor(place_before(grid, lit))));
+    const uint macro = macro_cell_before(grid, lit, 0.5);
     if (count_near(macro) == 0u) return false;
     uint tests = 0u;
     const bool stopped = is_stopped_near(macro, way_start(lit), way_start(other), tests);
