@@ -30,7 +30,7 @@ struct DeviceGrid {
     Extent threads() const { return {grid.cells.x, grid.cells.y, grid.cells.z}; }
 };
 
-/// Fixes what passes/indirect/lpv/occlusion/ways.glsl declares.
+/// Fixes what passes/indirect/ways.glsl declares.
 ComputePass fix_blockers(ComputePass, const FrameImages&);
 
 }  // namespace strata::indirect

@@ -1,6 +1,7 @@
 // What light propagation volumes' C++ and shaders share: settings, records, counters.
 #ifndef PASSES_INDIRECT_LPV_SHARED_H
 #define PASSES_INDIRECT_LPV_SHARED_H
+#include "passes/indirect/light_grid.shared.h"
 #include "passes/shader_interop.h"
 #ifdef __cplusplus
 namespace strata::indirect {
@@ -18,9 +19,6 @@ const uint occlusion_axial = 2u;  // of blockers and portals
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
 
-const uint irradiance_face = 0u;  // as of a light half a cell away that sends what the cells do
-const uint irradiance_cell = 1u;  // the mean over a cell of what travels through it
-
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -30,13 +28,6 @@ struct LpvParams {
     uint map_size;    // texels a side of reflective shadow maps
     float injection;  // cells along the normal of what is injected
     uint irradiance;
-};
-
-// A grid of cubic cells. Positions are relative to the eye, along the world's axes.
-struct GridPlace {
-    vec3 origin;  // the corner of cell (0, 0, 0)
-    float cell;   // metres a side
-    uvec3 cells;
 };
 
 // Vertices of a reflective shadow map.
@@ -67,11 +58,6 @@ struct EnergyPush {
 struct ApplyPush {
     GridPlace grid;
     float border;  // metres over which the grid fades at its border
-};
-
-// Light of a cell: l0 and l1 per channel, as Y = (Y0, Y1 x, Y1 y, Y1 z) in the world's axes, W.
-struct LightCell {
-    vec4 red, green, blue;
 };
 
 // The same of a step of propagation, with what each channel's clamped faces are multiplied by, so that the cell sends what it

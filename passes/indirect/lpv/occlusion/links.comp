@@ -3,8 +3,9 @@
 // for what passes its portals, so that oblique walls do not leak (docs/algorithms/lighting.md 5.6; Kircher, GDC 2018: axial occlusion).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/ways.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
