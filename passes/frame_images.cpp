@@ -32,6 +32,7 @@ constexpr FrameImageRow rows[] = {
     {"light", &FrameImages::light, "radiance that opaque surfaces reflect", Content::radiance},
     {"color", &FrameImages::color, "radiance of the frame", Content::radiance},
     {"display", &FrameImages::display, "the picture after exposure and tone curve", Content::display},
+    {"volume_light", &FrameImages::volume_light, "light in the cells of light volumes, in records", Content::coded},
 };
 
 std::string spread_shader(const Shape& shape) {

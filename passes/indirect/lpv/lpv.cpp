@@ -26,7 +26,9 @@ constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visi
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<LpvParams>();
-    frame.indirect = apply(graph, frame, params, lit_grids(graph, frame, params));
+    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, params);
+    frame.indirect = apply(graph, frame, params, grids);
+    hand_on(graph, frame, params, grids);
 }
 
 Image visible_taps(Graph& graph, FrameImages& frame, const Settings& settings) {

@@ -67,6 +67,17 @@ struct StepCell {
     vec3 share;
 };
 
+// What the image volume_light is given of a grid.
+struct HandOnPush {
+    GridPlace grid;
+    float border;
+    uint asks_taps;
+    uint irradiance;
+    uint number;      // of the grid, and of grids
+    uint count;
+    uint first_cell;  // the record of its first cell
+};
+
 struct LpvCounters {
     uint injected;
     uint guarded;
