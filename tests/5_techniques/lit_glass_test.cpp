@@ -1,15 +1,12 @@
 // Glass and smoke in two rooms, one of them lit by a lamp: what light volumes give to surfaces that are not in the G-buffer. A
 // technique of transparency blends what all of them shade alike.
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "passes/reference/shade.h"
 #include "passes/registry.h"
 #include "replay/images/host_image.h"
-#include "replay/report/picture_error.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
@@ -99,52 +96,63 @@ TEST(LitGlass, IsExactlyDarkBehindAClosedDoorAndNotBehindAnOpenOne) {
     for (const glm::dvec3& lit : {lit_pane, lit_puff}) EXPECT_GT(closed.at(lit).y, .02);
 }
 
-TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
-    for (const char* rule : {"irradiance=cell", "irradiance=face"}) {
-        const auto glass = must(Session::open(rooms(), {.validation = true}));
-        const auto opaque = must(Session::open(rooms({.mode = AlphaMode::opaque}), {.validation = true}));
-        const Bounced seen(*glass, 1, "transparency/sorted_lists", {rule});
-        Request request = request_of(1, {"indirect/lpv"}, {rule});
-        request.outputs = {"indirect"};
-        const Run run = must(opaque->run(request));
-        const Frame frame = must(opaque->frame(1));
-        for (const glm::dvec3& pane : {lit_pane, dark_pane})
-            for (const glm::dvec3& aside :
-                 {glm::dvec3(0), glm::dvec3(.3, .3, 0), glm::dvec3(-.3, .2, 0), glm::dvec3(.2, -.3, 0)}) {
-                const glm::uvec2 p = pixel_of(frame, pane + aside);
-                const glm::dvec3 wanted = glm::dvec3(paint) * glm::dvec3(texel(run.images.at("indirect"), p.x, p.y));
-                const glm::dvec3 got = seen.at(pane + aside);
-                EXPECT_GT(wanted.x, 1e-4);
-                for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], wanted[c], 1e-3 * wanted[c] + 1e-7) << rule;
-            }
-    }
+/// A volume that ends within the left room, and cascades of another cell size around it.
+void add_volumes(Frame& frame) {
+    LightVolume part = frame.light_volumes.front();
+    part.center.x = -2.7, part.half_extent.x = 1.6f, part.cells.x = 8;
+    frame.light_volumes = {part,
+                           {.kind = VolumeKind::cascaded_global,
+                            .occlusion = VolumeOcclusion::axial,
+                            .half_extent = glm::vec3(8),
+                            .cells = glm::uvec3(32),
+                            .cascades = 2,
+                            .iterations = 16}};
 }
 
-TEST(LitGlass, IsLitAlikeByEveryTechnique) {
-    const auto session = must(Session::open(rooms({.alpha = .6f}), {.validation = true}));
-    const Bounced exact(*session, 1, "transparency/sorted_lists");
-    for (const Technique* technique : techniques_of(Stage::transparency)) {
-        SCOPED_TRACE(technique->name);
-        const Bounced bounced(*session, 1, std::string(technique->name));
-        for (const glm::dvec3& place : {lit_pane, dark_pane, lit_puff, dark_puff}) {
-            const glm::dvec3 got = bounced.at(place), wanted = exact.at(place);
-            printf("%s %g %g  ratio %g\n", technique->name.data(), got.y, wanted.y, got.y / wanted.y);
+/// What the volumes add to a pane of glass against what they give to an opaque one in its place, which the device stores as half
+/// floats: lavapipe rounds them towards zero, once for each grid. The G-buffer rounds normal and depth, too, which was 5e-4.
+void expect_alike(Session& session, std::size_t glass, std::size_t opaque, const std::string& rule, int grids) {
+    const Frame frame = must(session.frame(glass));
+    const Bounced seen(session, glass, "transparency/sorted_lists", {rule});
+    Request request = request_of(opaque, {"indirect/lpv"}, {rule});
+    request.outputs = {"indirect"};
+    const auto run = must(session.run(request));
+    for (const glm::dvec3& pane : {lit_pane, dark_pane})
+        for (const glm::dvec3& aside : {glm::dvec3(0), glm::dvec3(.3, .3, 0), glm::dvec3(-.3, .2, 0), glm::dvec3(.2, -.3, 0)}) {
+            const glm::uvec2 p = pixel_of(frame, pane + aside);
+            const glm::dvec3 wanted = glm::dvec3(paint) * glm::dvec3(texel(run.images.at("indirect"), p.x, p.y));
+            const glm::dvec3 got = seen.at(pane + aside);
+            EXPECT_GT(wanted.x, 1e-4);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], wanted[c], (grids * 0x1p-10 + 1e-3) * wanted[c]) << rule << ", " << c;
         }
-    }
+}
+
+TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
+    std::vector<Frame> frames{rooms()[1], rooms({.mode = AlphaMode::opaque})[1]};
+    for (int i = 0; i < 2; ++i) add_volumes(frames.emplace_back(frames[std::size_t(i)]));
+    const auto session = must(Session::open(frames, {.validation = true}));
+    expect_alike(*session, 0, 1, "irradiance=cell", 1);
+    expect_alike(*session, 0, 1, "irradiance=face", 1);
+    expect_alike(*session, 2, 3, "irradiance=cell", 3);
 }
 
 class LitGlassBy : public testing::TestWithParam<const Technique*> {};
 
-TEST_P(LitGlassBy, IsWhatTheModelSays) {
+double difference_from_truth(const Accuracy& accuracy) {
+    return std::ranges::find(accuracy.method, "relative rmse", &Figure::name)->value;
+}
+
+TEST_P(LitGlassBy, IsWhatModelAndTruthSay) {
     const Technique& technique = *GetParam();
     static const auto session = must(Session::open(rooms({.alpha = .6f}), {.validation = true}));
     const Request request = request_of(1, {"indirect/lpv", std::string(technique.name)});
     const Accuracy accuracy = must(session->judge(request, Stage::transparency, Against::model_and_truth));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << accuracy.not_supported;
     expect_within_tolerance(accuracy, technique, request);
-    printf("%s model %g %g", technique.name.data(), accuracy.model_rmse, accuracy.model_worst);
-    for (const Figure& figure : accuracy.method) printf("  %s %g", figure.name.c_str(), figure.value);
-    printf("\n");
+    EXPECT_GE(accuracy.compared - accuracy.trivial, 500u);
+    // The panes and puffs hide nothing of each other, and no method is wrong about a lone layer but by its formats: most, 7.7e-4,
+    // the eighth of an alpha that transparency/a_buffer stores.
+    EXPECT_LT(difference_from_truth(accuracy), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, LitGlassBy, testing::ValuesIn(techniques_of(Stage::transparency)),
@@ -153,9 +161,10 @@ INSTANTIATE_TEST_SUITE_P(Techniques, LitGlassBy, testing::ValuesIn(techniques_of
 TEST(LitGlass, KeepsItsLightWhereTheTruthTakesTheOpaqueSurfaces) {
     const auto session = must(Session::open(rooms(), {.validation = true}));
     const Request request = request_of(1, {"indirect/lpv"});
-    const ImageSet truth = must(session->truth(request, Stage::indirect));
-    const Run as_found = must(session->run(request)), as_given = must(session->run_from(request, Stage::indirect, truth));
-    const glm::uvec2 p = pixel_of(must(session->frame(1)), lit_pane);
+    const Frame frame = must(session->frame(1));
+    const ImageSet black{{"indirect", ReferenceImage(frame.view.width, frame.view.height)}};
+    const auto as_found = must(session->run(request)), as_given = must(session->run_from(request, Stage::indirect, black));
+    const glm::uvec2 p = pixel_of(frame, lit_pane);
     EXPECT_EQ(texel(as_found.images.at("color"), p.x, p.y), texel(as_given.images.at("color"), p.x, p.y));
 }
 
