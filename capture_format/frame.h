@@ -124,7 +124,7 @@ struct Particle {
     glm::dvec3 center{0};  ///< world
     float size = 1;        ///< half the edge, metres
     float rotation = 0;    ///< radians, counter-clockwise on screen
-    glm::vec3 color{1};    ///< unpremultiplied scattered radiance, already lit
+    glm::vec3 color{1};    ///< unpremultiplied scattered radiance, already lit by all but light volumes
     float alpha = 1;
     glm::vec3 emissive{0};           ///< radiance added without coverage
     glm::vec4 uv_frame{0, 0, 1, 1};  ///< left, top, width, height of the flipbook cell

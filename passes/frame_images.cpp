@@ -29,6 +29,7 @@ constexpr FrameImageRow rows[] = {
     {"edges", &FrameImages::edges, "1 where every sample of the pixel is shaded"},
     {"occlusion", &FrameImages::occlusion, "ambient visibility, 1 open"},
     {"indirect", &FrameImages::indirect, "indirect irradiance / pi", Content::radiance},
+    {"volume_light", &FrameImages::volume_light, "light in the cells of light volumes, in records", Content::coded},
     {"light", &FrameImages::light, "radiance that opaque surfaces reflect", Content::radiance},
     {"color", &FrameImages::color, "radiance of the frame", Content::radiance},
     {"display", &FrameImages::display, "the picture after exposure and tone curve", Content::display},

@@ -66,6 +66,10 @@ struct FrameImages {
     Image color;  ///< rgba32f array: linear radiance, per sample
     // film end
     Image display;  ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
+    // What indirect leaves to stages that light places without a surface of the G-buffer (passes/indirect/volume_light.glsl).
+    Image volume_light;                 ///< rgba32f, in records: the grids of light volumes; none where there are none
+    std::uint32_t light_grids = 0;      ///< in volume_light: fixes "light_grids"
+    std::uint32_t light_grid_rule = 0;  ///< irradiance_* of passes/indirect/light_grid.shared.h: fixes "irradiance"
 };
 
 /// What an image's numbers are, and so how two of them are compared.

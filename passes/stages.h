@@ -57,6 +57,8 @@ struct StageInfo {
     Judge judge = nullptr;
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;
+    /// Images of frame_images.h that its techniques may leave to later stages beside its outputs: its truth says nothing of them.
+    std::vector<std::string_view> leaves = {};
 };
 
 /// What the stage.cpp of every folder on the list says; written by the build.

@@ -16,11 +16,12 @@ std::optional<std::string> unwanted(const Features& features) {
 StageInfo stage() {
     return {.purpose = "adds light that other surfaces reflect",
             .unwanted = unwanted,
-            .outputs = {"indirect"},
+            .outputs = {"indirect", "volume_light"},
             .truth = indirect_truth,
             .truth_is = "one bounce gathered in double, itself off by 1 to 3 % (1600 directions per sample)",
             .judge = indirect_judge,
-            .scenarios = {"cornell_box", "two_rooms"}};
+            .scenarios = {"cornell_box", "two_rooms"},
+            .leaves = {"volume_light"}};
 }
 
 }  // namespace strata::indirect

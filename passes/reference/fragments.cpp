@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "capture_format/frame_features.h"
 #include "passes/reference/blockers.h"
@@ -28,10 +29,11 @@ double finite(double value) { return std::isfinite(value) ? value : 0; }
 glm::dvec3 finite(const glm::dvec3& v) { return {finite(v.x), finite(v.y), finite(v.z)}; }
 
 struct LitFrame {
-    explicit LitFrame(const Frame& f) : frame(f) {
+    LitFrame(const Frame& f, LightAround a) : frame(f), around(std::move(a)) {
         for (const Light& light : f.lights) blockers.push_back(light_blockers(f, light));
     }
     const Frame& frame;
+    LightAround around;
     std::vector<LightBlockers> blockers;  ///< of Frame::lights; none stops the sun
 };
 
@@ -46,6 +48,10 @@ glm::dvec3 lit(const LitFrame& scene, const SurfacePoint& surface) {
     for (std::size_t i = 0; i < frame.lights.size(); ++i)
         if (lets_through(scene.blockers[i], light_point(frame, frame.lights[i]), off))
             sum += reflected(frame, surface, frame.lights[i]);
+    if (scene.around) {
+        const glm::dvec3 albedo = surface.base_color * (1 - surface.metallic) * surface.occlusion;
+        sum += albedo * scene.around(surface.position, facing_normal(surface));
+    }
     return sum;
 }
 
@@ -59,6 +65,13 @@ Fragment event(AlphaMode mode, double alpha, const SurfacePoint& surface, const 
     result.transmittance = 1.0 - alpha * (1.0 - surface.transmission);
     result.color = mode == AlphaMode::premultiplied ? light + alpha * surface.emissive : alpha * (light + surface.emissive);
     return result;
+}
+
+// The color a particle is recorded with, already lit, and what its albedo, the same color, makes of light around it.
+glm::dvec3 particle_color(const LitFrame& scene, const SurfacePoint& surface) {
+    if (!scene.around) return surface.base_color;
+    const glm::dvec3 albedo = glm::clamp(surface.base_color, 0.0, 1.0);
+    return surface.base_color + albedo * scene.around(surface.position, glm::dvec3(0));
 }
 
 // surface.base_color is c, its emissive e before fading.
@@ -90,7 +103,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
     const Frame& frame = scene.frame;
     const double z = double(frame.view.near) / point.depth;
     if (!std::isfinite(z)) return std::nullopt;
-    const SurfacePoint surface = surface_at(frame, point, triangle.corners);
+    SurfacePoint surface = surface_at(frame, point, triangle.corners);
     Fragment fragment;
     double depth_offset = 0;
     if (const Material* material = material_of(frame, point.draw)) {
@@ -103,6 +116,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
         const double room = double(frame.view.near) / opaque_depth - z;
         const bool soft = emitter.soft_depth_fade > 0 && opaque_depth > 0;
         const double fade = soft ? std::clamp(room / double(emitter.soft_depth_fade), 0.0, 1.0) : 1.0;
+        surface.base_color = particle_color(scene, surface);
         fragment = particle_event(emitter.alpha_mode, particle.alpha, surface, fade);
         fragment.soft_fade = double(emitter.soft_depth_fade);
         depth_offset = particle.depth_offset;
@@ -226,8 +240,11 @@ std::uint32_t FragmentLists::deepest() const {
 }
 
 struct FragmentRows::Scene {
-    Scene(const Frame& f, const ReferenceImage& d)
-        : lit(f), depth(d), raster(f, transparent_draws(f)), has_interfaces(frame_features(f).has(Feature::interface_layers)) {}
+    Scene(const Frame& f, const ReferenceImage& d, LightAround around)
+        : lit(f, std::move(around)),
+          depth(d),
+          raster(f, transparent_draws(f)),
+          has_interfaces(frame_features(f).has(Feature::interface_layers)) {}
 
     LitFrame lit;
     const ReferenceImage& depth;
@@ -237,8 +254,8 @@ struct FragmentRows::Scene {
     mutable oneapi::tbb::enumerable_thread_specific<FoundRow> found = {};
 };
 
-FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth)
-    : scene_(std::make_unique<const Scene>(frame, depth)) {}
+FragmentRows::FragmentRows(const Frame& frame, const ReferenceImage& depth, LightAround around)
+    : scene_(std::make_unique<const Scene>(frame, depth, std::move(around))) {}
 FragmentRows::FragmentRows(FragmentRows&&) noexcept = default;
 FragmentRows::~FragmentRows() = default;
 
@@ -276,9 +293,9 @@ void FragmentRows::fill(std::uint32_t y, FragmentRow& row) const {
     for (std::size_t i = 0; i < found.fragments.size(); ++i) row.fragments[found.next[found.slots[i]]++] = found.fragments[i];
 }
 
-FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows) {
+FragmentLists transparent_fragments(const Frame& frame, const ReferenceImage& depth, PixelRows rows, LightAround around) {
     FragmentLists lists(frame.view.width, frame.view.height, frame.view.samples);
-    const FragmentRows made(frame, depth);
+    const FragmentRows made(frame, depth, std::move(around));
     const std::uint32_t end = std::min(rows.end, frame.view.height);
     oneapi::tbb::enumerable_thread_specific<std::vector<const Fragment*>> sorted;
     oneapi::tbb::parallel_for(std::min(rows.begin, end), end, [&](std::uint32_t y) {

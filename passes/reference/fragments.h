@@ -89,6 +89,10 @@ struct VisiblePoints {
 VisiblePoints visible_points(const Frame&, std::span<const std::uint32_t> draws,
                              RasterOptions = {.shade_at = ShadeAt::pixel_center});
 
+/// What reaches a place beside the light of lights and hemisphere, view space: irradiance / pi on a surface with that normal,
+/// mean radiance of all directions where the normal is 0. Empty: nothing.
+using LightAround = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
+
 /// Rows of pixels from `begin` up to `end`, counted from the top.
 struct PixelRows {
     std::uint32_t begin = 0, end = ~0u;
@@ -108,8 +112,8 @@ struct FragmentRow {
 /// The transparent fragments of a frame row by row, for callers that need no two rows at once: all of them are large.
 class FragmentRows {
 public:
-    /// Both must outlive it. Device depth as for transparent_fragments().
-    FragmentRows(const Frame&, const ReferenceImage& depth);
+    /// Frame and depth must outlive it. Device depth as for transparent_fragments().
+    FragmentRows(const Frame&, const ReferenceImage& depth, LightAround = {});
     FragmentRows(FragmentRows&&) noexcept;
     ~FragmentRows();
 
@@ -136,7 +140,7 @@ public:
     std::uint32_t deepest() const;
 
 private:
-    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows);
+    friend FragmentLists transparent_fragments(const Frame&, const ReferenceImage&, PixelRows, LightAround);
     std::uint32_t width_, height_, samples_;
     std::vector<FragmentRow> rows_;
 };
@@ -145,6 +149,6 @@ private:
 /// sanitized as docs/algorithms/transparency.md 0.2 says, shaded at the sample. Undecided: coverage, the depth test, or the order
 /// of two that do not commute hangs on float rounding.
 /// Lists of other rows than those given stay empty.
-FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {});
+FragmentLists transparent_fragments(const Frame&, const ReferenceImage& depth, PixelRows = {}, LightAround = {});
 
 }  // namespace strata

@@ -4,6 +4,7 @@
 // event_draw.h binds what is declared here. Call transparent_event() before any branch that leaves the 2x2 quad.
 #ifndef PASSES_TRANSPARENCY_EVENT_GLSL
 #define PASSES_TRANSPARENCY_EVENT_GLSL
+#include "passes/indirect/volume_light.glsl"
 #include "passes/shaders/blockers.glsl"
 #include "passes/shaders/camera.glsl"
 #include "passes/shaders/lights.glsl"
@@ -58,13 +59,27 @@ bool reached(LightRecord light, MaterialPoint m) {
     return blockers_pass(light, above, low_bits(light.blockers), low_bits(light.portals));
 }
 
-// All lights as their blockers let them through, without shadows, sky and ground; an unlit material is its own light.
+// Of light volumes: what a diffuse surface reflects, as an opaque one at its place does.
+vec3 from_volumes(MaterialPoint m) {
+    const vec3 normal = facing_normal(m.lighting_model, m.normal, m.position);
+    return m.base_color * ((1.0 - m.metallic) * m.occlusion) *
+           volume_light_at(LitPlace(view.to_world * m.position, view.to_world * normal));
+}
+
+// A particle has no side: it scatters the mean radiance of all directions evenly, its color, at most 1, being its albedo.
+vec3 from_volumes_around(vec3 color) {
+    return clamp(color, 0.0, 1.0) * volume_light_at(LitPlace(view.to_world * position_here(), vec3(0.0)));
+}
+
+// All lights as their blockers let them through, without shadows, sky and ground, and light volumes; an unlit material is its own
+// light.
 vec3 lit(MaterialPoint m) {
     if (used_models == 1u << model_unlit) return m.base_color;  // by itself: a branch on constants alone, which leaves out what follows
     if (m.lighting_model == model_unlit) return m.base_color;
     vec3 sum = hemisphere_light(m);
     for (uint i = 0u; i < view.light_count; ++i)
         if (reached(lights[i], m)) sum += reflected(m, lights[i], light_features);
+    if (light_grids > 0u) sum += from_volumes(m);
     return sum;
 }
 
@@ -87,7 +102,9 @@ Event particle_event(MaterialPoint m) {
     const vec4 color = in_color * to_sample();
     const vec3 emissive = in_emissive.rgb * to_sample();
     const float fade = faded(), a = valid_alpha(color.a * m.alpha * fade);
-    const vec3 c = color.rgb * m.base_color, e = emissive * m.base_color * (m.alpha * fade);
+    vec3 c = color.rgb * m.base_color;
+    const vec3 e = emissive * m.base_color * (m.alpha * fade);
+    if (light_grids > 0u) c += from_volumes_around(c);
     if (m.alpha_mode == alpha_additive) return additive(e + a * c);
     const vec3 p = m.alpha_mode == alpha_premultiplied ? c * (color.a * fade) : a * c;
     Event event = blended(a, p, vec3(0.0));

@@ -9,6 +9,17 @@
 namespace strata {
 namespace {
 
+/// What passes/indirect/volume_light.glsl declares. Without light volumes nothing of that file runs.
+DrawPass& bind_volume_light(DrawPass& pass, const FrameImages& images) {
+    const Frame& frame = *images.recorded;
+    const bool is_lit = images.light_grids > 0;
+    return pass.samples("volume_light", images.volume_light)
+        .fixes("light_grids", images.light_grids)
+        .fixes("irradiance", images.light_grid_rule)
+        .fixes("blocker_count", is_lit ? static_cast<std::uint32_t>(frame.blockers.size()) : 0u)
+        .fixes("portal_count", is_lit ? static_cast<std::uint32_t>(frame.portals.size()) : 0u);
+}
+
 DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
     pass.samples("depth_layers", depth_layers)
         .fixes("soft_fade", images.features->has(Feature::soft_particles) ? 1u : 0u)
@@ -19,7 +30,7 @@ DrawPass bound(DrawPass pass, const FrameImages& images, Image depth_layers) {
         .fixes("hands_on_material", 1u)
         .fixes("light_features", images.facts->light_features())
         .culls(hidden_side(images));
-    return fix_materials(pass, images, Surfaces::transparent);
+    return fix_materials(bind_volume_light(pass, images), images, Surfaces::transparent);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "passes/indirect/volume_light.h"
 #include "passes/reference/ordering.h"
 
 namespace strata::transparency {
@@ -37,9 +38,13 @@ ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color)
     return found != before.end() ? found->second : ReferenceImage(color.width, color.height, color.layers);
 }
 
+FragmentLists fragments_before(const Frame& frame, const ReferenceImage& depth, const ImageSet& before) {
+    return transparent_fragments(frame, depth, {}, indirect::volume_light(frame, before));
+}
+
 const FragmentLists& fragments_of(const StageInput& input, const ReferenceImage& color, std::optional<FragmentLists>& own) {
     std::optional<FragmentLists>& kept = input.fragments ? *input.fragments : own;
-    if (!kept) kept = transparent_fragments(input.frame, opaque_depth(input.before, color));
+    if (!kept) kept = fragments_before(input.frame, opaque_depth(input.before, color), input.before);
     return *kept;
 }
 

@@ -26,6 +26,9 @@ using PlacedBlend = std::function<BlendedSample(std::span<const Fragment>, glm::
 /// Opaque depth per sample of `color`; nothing is in front of anything where the frame has none.
 ReferenceImage opaque_depth(const ImageSet& before, const ReferenceImage& color);
 
+/// Transparent fragments in front of a depth, lit by the light volumes that a stage found.
+FragmentLists fragments_before(const Frame&, const ReferenceImage& depth, const ImageSet& before);
+
 /// The frame's transparent fragments in front of opaque_depth(): those of StageInput::fragments, made if there are none yet, or
 /// those of `own` where the input keeps none.
 const FragmentLists& fragments_of(const StageInput&, const ReferenceImage& color, std::optional<FragmentLists>& own);

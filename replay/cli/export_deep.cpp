@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "capture_format/container/whole_file.h"
+#include "passes/indirect/volume_light.h"
 #include "replay/cli/export_kinds.h"
 #include "replay/cli/run_json.h"
 #include "replay/deep/deep_image.h"
@@ -54,7 +55,7 @@ Result<void> export_deep(const ExportOptions& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
-    request->outputs = {"depth_layers"};
+    request->outputs = {"depth_layers", "volume_light"};
     request->once = true;  // to fill the memo, the frame would be executed whole
     auto session = open(options.open);
     if (!session) return session.error();
@@ -69,13 +70,15 @@ Result<void> export_deep(const ExportOptions& options) {
     const auto run = (*session)->run(*request);
     if (!run) return run.error();
 
-    const auto depth = run->images.find("depth_layers");
-    const ReferenceImage opaque = depth == run->images.end()
-                                      ? ReferenceImage(frame.view.width, frame.view.height, frame.view.samples)
-                                      : in_double(depth->second);
+    ImageSet before;
+    for (const auto& [name, image] : run->images) before.emplace(name, in_double(image));
+    const auto depth = before.find("depth_layers");
+    const ReferenceImage opaque =
+        depth == before.end() ? ReferenceImage(frame.view.width, frame.view.height, frame.view.samples) : depth->second;
     const auto transmittance =
         std::ranges::find(transmittances, options.transmittance, [](const auto& row) { return row.first; });
-    const auto image = deep_image(FragmentRows(frame, opaque), *sample, transmittance->second, frame);
+    const auto image =
+        deep_image(FragmentRows(frame, opaque, indirect::volume_light(frame, before)), *sample, transmittance->second, frame);
     if (!image) return image.error();
     Metadata metadata = provenance(**session, *request, *run);
     metadata["strata.sample"] = fmt::format("{} of {}", *sample, frame.view.samples);

@@ -162,7 +162,7 @@ public:
         if (act.technique->stage != stage_ || act.at != stage_) return;
         Graph& graph = d_->graph;
         const Scope scope = graph.scopes()[act.scope];
-        graph.drop_scope(act.scope);
+        if (!leaves_images()) graph.drop_scope(act.scope);
         graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
         for (const auto& [name, texels] : *outputs_) {
             const FrameImageRow* row = find_frame_image(name);
@@ -178,6 +178,12 @@ public:
     }
 
 private:
+    /// Whether steps of the act make what no output can stand for.
+    bool leaves_images() const {
+        const auto is_left = [&](std::string_view image) { return bool(d_->images.*find_frame_image(image)->member); };
+        return std::ranges::any_of(info(stage_).leaves, is_left);
+    }
+
     Declaration* d_;
     Stage stage_;
     const ImageSet* outputs_;
@@ -190,10 +196,11 @@ std::optional<std::string> cannot_give(const Declaration& d, std::size_t place, 
     if (feeds_buffers(d.graph, act.scope)) return fmt::format("later stages read buffers of {}", act.technique->name);
     const std::vector<std::string> images_read = images_read_later(d.graph, d.frame.acts)[place];
     for (const std::string& read : images_read) {
-        const auto is_read = [&](std::string_view output) {
-            const Image image = d.images.*find_frame_image(output)->member;
+        const auto is_read = [&](std::string_view image_name) {
+            const Image image = d.images.*find_frame_image(image_name)->member;
             return image && d.graph.record(image).name == read;
         };
+        if (std::ranges::any_of(stage.leaves, is_read)) continue;
         const auto output = std::ranges::find_if(stage.outputs, is_read);
         const auto given = output == stage.outputs.end() ? outputs.end() : outputs.find(*output);
         if (given == outputs.end()) return fmt::format("later stages read '{}', which is not given", read);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "passes/indirect/volume_light.h"
 #include "replay/measure/host_memory.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
@@ -315,26 +316,27 @@ Result<const FragmentLists*> DeviceSession::transparent_fragments(const Request&
         const auto depth = found_->images.find("depth_layers");
         const View& view = loaded_->frame.view;
         found_->fragments = strata::transparent_fragments(
-            loaded_->frame,
-            depth != found_->images.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples));
+            loaded_->frame, depth != found_->images.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples),
+            {}, indirect::volume_light(loaded_->frame, found_->images));
     }
     return &*found_->fragments;
 }
 
 Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request, std::uint32_t y) {
-    Request for_depth = request;
-    for_depth.outputs = {"depth_layers"};
-    for_depth.once = true;  // to fill the memo, the frame would be executed whole
-    const auto run = this->run(for_depth);
+    Request for_fragments = request;
+    for_fragments.outputs = {"depth_layers", "volume_light"};
+    for_fragments.once = true;  // to fill the memo, the frame would be executed whole
+    const auto run = this->run(for_fragments);
     if (!run) return run.error();
     if (std::ranges::count(run->skipped, Stage::transparency, &SkippedStage::stage) > 0)
         return fail(Fault::usage, "the frame does not need the stage {}", name(Stage::transparency));
-    const auto depth = run->images.find("depth_layers");
+    ImageSet before;
+    for (const auto& [name, image] : run->images) before.emplace(name, in_double(image));
+    const auto depth = before.find("depth_layers");
     const View& view = loaded_->frame.view;
     row_fragments_ = strata::transparent_fragments(
-        loaded_->frame,
-        depth != run->images.end() ? in_double(depth->second) : ReferenceImage(view.width, view.height, view.samples),
-        {y, y == ~0u ? y : y + 1});
+        loaded_->frame, depth != before.end() ? depth->second : ReferenceImage(view.width, view.height, view.samples),
+        {y, y == ~0u ? y : y + 1}, indirect::volume_light(loaded_->frame, before));
     return &*row_fragments_;
 }
 

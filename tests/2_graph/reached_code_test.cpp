@@ -56,6 +56,14 @@ TEST(ReachedCode, LightsAreLeftOutWhereNothingIsLit) {
     EXPECT_LT(unlit.size(), lit.size() * 2 / 3);
 }
 
+TEST(ReachedCode, VolumesAreLeftOutWhereThereAreNone) {
+    const Shader& draw = shader("transparency/weighted/accumulate.frag");
+    const Code without = with(draw, "light_grids", 0), with_one = with(draw, "light_grids", 1);
+    EXPECT_EQ(without, reached_code(draw.code, {}));
+    // Those of passes/indirect/volume_light.glsl and of what it includes, and the two of event.glsl that call them.
+    EXPECT_EQ(function_count(without) + 17, function_count(with_one));
+}
+
 TEST(ReachedCode, EveryShaderStaysWhole) {
     for (const EmbeddedShader& embedded : embedded_shaders()) {
         const Result<Shader> whole = reflect(std::string(embedded.name), embedded.code);

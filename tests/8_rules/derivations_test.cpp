@@ -34,6 +34,7 @@ constexpr std::array parts_of_references = {
     Exception{"passes/gbuffer/nearest", "the nearest surfaces in double"},
     Exception{"passes/indirect/direct_light", "light that arrives at a ray's hit, in double"},
     Exception{"passes/indirect/leg_blockers", "blockers between two surfaces, in double"},
+    Exception{"passes/indirect/volume_light", "light of volumes at any place, in double"},
     Exception{"passes/lighting/every_light", "lighting in double"},
     Exception{"passes/shadows/kernel", "filter kernels in double"},
     Exception{"passes/shadows/lookup", "lookups of shadow maps in double"},

@@ -40,7 +40,7 @@ struct DeviceGrid {
 /// As many threads, or as many groups as the gate of a grid that is kept has in this frame.
 ComputePass gated(ComputePass, const DeviceGrid&, std::uint32_t gate, Extent threads);
 
-/// Fixes what passes/indirect/lpv/occlusion/ways.glsl declares.
+/// Fixes what passes/indirect/ways.glsl declares.
 ComputePass fix_blockers(ComputePass, const FrameImages&);
 
 }  // namespace strata::indirect

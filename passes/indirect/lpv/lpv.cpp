@@ -1,12 +1,15 @@
 // Light propagation volumes: what lights reach is injected into grids and handed from cell to cell.
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "passes/choice_names.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/apply/views.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/volumes.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 
 namespace strata::indirect {
@@ -26,10 +29,28 @@ constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
+/// A transparent fragment asks about the way to eight cells of each grid, after its lights, and has no counter that tells when a
+/// driver ends its loops.
+std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
+    const Frame& frame = *images.recorded;
+    const bool asks_taps = settings.as<LpvParams>().taps == taps_visible;
+    if (!asks_taps || has(images.capabilities, Capability::long_loops)) return std::nullopt;
+    if (info(Stage::transparency).unwanted(*images.features)) return std::nullopt;
+    const std::uint64_t of_way = frame.blockers.size() * (1 + frame.portals.size());
+    const std::uint64_t turns = images.facts->light_turns() + light_grids(frame).size() * 8 * (1 + of_way);
+    if (turns <= most_short_turns) return std::nullopt;
+    return fmt::format(
+        "a transparent fragment asks light volumes about {} blockers with {} portals, up to {} turns of a loop with its lights, "
+        "and this device ends loops after {}",
+        frame.blockers.size(), frame.portals.size(), turns, most_short_turns);
+}
+
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     const auto params = settings.as<LpvParams>();
-    frame.indirect = apply(graph, frame, params, shown_grids(graph, frame, params));
+    const std::vector<DeviceGrid> grids = shown_grids(graph, frame, params);
+    frame.indirect = apply(graph, frame, params, grids);
+    hand_on(graph, frame, params, grids);
 }
 
 Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -180,6 +201,7 @@ Technique lpv() {
                     .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
                     .declare = energy_table}},
+        .beyond_device = beyond_device,
         .declare = declare,
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,

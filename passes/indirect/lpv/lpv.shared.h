@@ -1,6 +1,7 @@
 // What light propagation volumes' C++ and shaders share: settings, records, counters.
 #ifndef PASSES_INDIRECT_LPV_SHARED_H
 #define PASSES_INDIRECT_LPV_SHARED_H
+#include "passes/indirect/light_grid.shared.h"
 #include "passes/shader_interop.h"
 #ifdef __cplusplus
 namespace strata::indirect {
@@ -17,9 +18,6 @@ const uint occlusion_none = 1u;
 const uint occlusion_axial = 2u;  // of blockers and portals
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
-
-const uint irradiance_face = 0u;  // as of a light half a cell away that sends what the cells do
-const uint irradiance_cell = 1u;  // the mean over a cell of what travels through it
 
 // Macro-cells: blocks of cells that share a list of the blockers near them (docs/algorithms/lighting.md 5.8).
 const uint macro_side = 4u;  // cells
@@ -43,13 +41,6 @@ struct LpvParams {
     uint relight;
     uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
     float damping;  // exponent; 0: off
-};
-
-// A grid of cubic cells. Positions are relative to the eye, along the world's axes.
-struct GridPlace {
-    vec3 origin;  // the corner of cell (0, 0, 0)
-    float cell;   // metres a side
-    uvec3 cells;
 };
 
 // Vertices of a reflective shadow map.
@@ -83,16 +74,22 @@ struct ApplyPush {
     uint number;   // of the grid, from 1
 };
 
-// Light of a cell: l0 and l1 per channel, as Y = (Y0, Y1 x, Y1 y, Y1 z) in the world's axes, W.
-struct LightCell {
-    vec4 red, green, blue;
-};
-
 // The same of a step of propagation, with what each channel's clamped faces are multiplied by, so that the cell sends what it
 // holds.
 struct StepCell {
     LightCell light;
     vec3 share;
+};
+
+// What the image volume_light is given of a grid.
+struct HandOnPush {
+    GridPlace grid;
+    float border;
+    uint asks_taps;
+    uint irradiance;
+    uint number;      // of the grid, and of grids
+    uint count;
+    uint first_cell;  // the record of its first cell
 };
 
 struct LpvCounters {

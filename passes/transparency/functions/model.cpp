@@ -110,7 +110,7 @@ const FragmentLists& fragments_of_prepass(const StageInput& input, const Prepass
     low.view.samples = 1;
     const ImageSet nothing;
     const ReferenceImage depth = opaque_depth(is_tested ? input.before : nothing, color);
-    return own.emplace(transparent_fragments(low, farthest_depth(depth, extent)));
+    return own.emplace(fragments_before(low, farthest_depth(depth, extent), input.before));
 }
 
 /// What a prepass keeps of its texels, computed when it is read. Each thread keeps two rows of it: the whole of

@@ -35,7 +35,7 @@ std::optional<FragmentLists> low_fragments(const StageInput& input) {
     View& view = frame.view;
     const Extent extent = prepass_extent({view.width, view.height}, 2);
     view.width = extent.width, view.height = extent.height, view.samples = 1;
-    return transparent_fragments(frame, farthest_depth(opaque_depth(input.before, input.before.at("color")), extent));
+    return fragments_before(frame, farthest_depth(opaque_depth(input.before, input.before.at("color")), extent), input.before);
 }
 
 }  // namespace strata::transparency

@@ -8,8 +8,17 @@
 namespace strata::indirect {
 namespace {
 
-/// Cells over which a grid fades at its border.
-double border_cells(const LightGrid& grid) { return grid.is_local ? 1 : 2; }
+/// Metres over which a grid fades at its border: a cell, of cascades two.
+float border(const LightGrid& grid) { return float((grid.is_local ? 1 : 2) * grid.cell); }
+
+std::uint32_t asks_taps(const LpvParams& params, const DeviceGrid& grid) {
+    return grid.has_links && params.taps == taps_visible ? 1 : 0;
+}
+
+/// Of records that are texels_per_record texels each.
+Extent volume_extent(std::uint32_t records) {
+    return {volume_texels_per_row, (texels_per_record * records + volume_texels_per_row - 1) / volume_texels_per_row};
+}
 
 /// A texel for each 2 x 2 pixels.
 Extent half_extent(const FrameImages& frame) { return {(frame.extent.width + 1) / 2, (frame.extent.height + 1) / 2}; }
@@ -23,18 +32,14 @@ Image chosen_pixels(Graph& graph, const FrameImages& frame) {
     return chosen;
 }
 
-bool asks_taps(const LpvParams& params, const DeviceGrid& grid) { return grid.has_links && params.taps == taps_visible; }
-
 }  // namespace
 
 ApplyPush apply_push(const DeviceGrid& grid) {
-    return {.grid = grid.place,
-            .border = float(border_cells(grid.grid) * grid.grid.cell),
-            .number = static_cast<std::uint32_t>(grid.number + 1)};
+    return {.grid = grid.place, .border = border(grid.grid), .number = static_cast<std::uint32_t>(grid.number + 1)};
 }
 
 void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid) {
-    if (!asks_taps(params, grid) || params.macro_cells == 0) return;
+    if (asks_taps(params, grid) == 0 || params.macro_cells == 0) return;
     const auto words = static_cast<std::uint32_t>((frame.recorded->blockers.size() + 31) / 32);
     const glm::uvec3 cells = (grid.grid.cells + macro_side - 1u) / macro_side;
     grid.macro_cells = graph.create(grid.name("macro-cells of grid"),
@@ -51,7 +56,7 @@ ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParam
         .loads("Total", grid.total)
         .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
         .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
-        .fixes("asks_taps", asks_taps(params, grid) ? 1u : 0u)
+        .fixes("asks_taps", asks_taps(params, grid))
         .push(apply_push(grid));
 }
 
@@ -88,6 +93,33 @@ Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std
             .over({frame.extent.width, frame.extent.height, frame.samples});
     }
     return light;
+}
+
+void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::span<const DeviceGrid> grids) {
+    const auto count = static_cast<std::uint32_t>(grids.size());
+    if (count == 0) return;
+    std::uint32_t records = count;
+    for (const DeviceGrid& grid : grids) records += grid.cells();
+    frame.light_grids = count;
+    frame.light_grid_rule = params.irradiance;
+    frame.volume_light = graph.create("volume_light", {.extent = volume_extent(records), .format = Format::rgba32f});
+    graph.clear(frame.volume_light, {});
+    std::uint32_t first_cell = count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const DeviceGrid& grid = grids[i];
+        graph.compute("indirect/lpv/apply/hand_on.comp")
+            .loads("Total", grid.total)
+            .updates("volume_light", frame.volume_light)
+            .push(HandOnPush{.grid = grid.place,
+                             .border = border(grid.grid),
+                             .asks_taps = asks_taps(params, grid),
+                             .irradiance = params.irradiance,
+                             .number = i,
+                             .count = count,
+                             .first_cell = first_cell})
+            .over(grid.threads());
+        first_cell += grid.cells();
+    }
 }
 
 }  // namespace strata::indirect

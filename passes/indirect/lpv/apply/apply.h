@@ -18,4 +18,7 @@ ComputePass see_light(ComputePass, const FrameImages&, const LpvParams&, const D
 /// Irradiance / pi of every sample. What a point takes of the first grid that holds it lies over what it takes of those after it.
 Image apply(Graph&, const FrameImages&, const LpvParams&, std::span<const DeviceGrid>);
 
+/// Leaves the grids to later stages (FrameImages::volume_light). Nothing runs where no later stage reads them.
+void hand_on(Graph&, FrameImages&, const LpvParams&, std::span<const DeviceGrid>);
+
 }  // namespace strata::indirect

@@ -1,13 +1,11 @@
 // Macro-cells of a grid: 4 x 4 x 4 cells each, with a bit per blocker of the frame. As many words as the blockers take: none is left out.
 #ifndef PASSES_INDIRECT_LPV_MACRO_CELLS_GLSL
 #define PASSES_INDIRECT_LPV_MACRO_CELLS_GLSL
-#include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/ways.glsl"
 
 const uint blocker_words = (blocker_count + 31u) / 32u;
-
-// Metres off the surface from which taps are asked about.
-const float tap_start = 0.02;
 
 uvec3 macro_extent(GridPlace grid) { return (grid.cells + macro_side - 1u) / macro_side; }
 

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/surface_at.glsl"
 #include "passes/indirect/lpv/apply/taps.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -2,8 +2,9 @@
 // point, so that the order of the sums does not matter (docs/algorithms/lighting.md 5.2 and 5.3).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/ways.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/lights.glsl"
 

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "passes/indirect/grid.glsl"
 #include "passes/indirect/lpv/propagation/faces.glsl"
-#include "passes/indirect/lpv/grid.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 

@@ -1,9 +1,9 @@
 // Blockers and portals as kept grids compare them: wherever the eye is, at the same place up to rounding.
 #ifndef PASSES_INDIRECT_LPV_KEPT_BARRIERS_GLSL
 #define PASSES_INDIRECT_LPV_KEPT_BARRIERS_GLSL
-#include "passes/indirect/lpv/grid.glsl"
+#include "passes/indirect/grid.glsl"
 #include "passes/indirect/lpv/kept/kept.shared.h"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/ways.glsl"
 
 layout(set = 0, binding = 1, scalar) readonly buffer Identities { uvec2 identities[]; };  // of blockers, then of portals
 

@@ -1,7 +1,7 @@
 // Zeros where a grid is lit anew: a cleared buffer would cost as much in frames that inject nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/grid.glsl"
+#include "passes/indirect/grid.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 

@@ -3,8 +3,9 @@
 // for what passes its portals, so that oblique walls do not leak (docs/algorithms/lighting.md 5.6; Kircher, GDC 2018: axial occlusion).
 #ifndef PASSES_INDIRECT_LPV_FACE_GLSL
 #define PASSES_INDIRECT_LPV_FACE_GLSL
-#include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/occlusion/ways.glsl"
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/ways.glsl"
 
 // Bits of the 64 ways.
 struct Ways {

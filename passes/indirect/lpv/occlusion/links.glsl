@@ -2,7 +2,7 @@
 #ifndef PASSES_INDIRECT_LPV_LINKS_GLSL
 #define PASSES_INDIRECT_LPV_LINKS_GLSL
 #include "passes/indirect/lpv/propagation/faces.glsl"
-#include "passes/indirect/lpv/grid.glsl"
+#include "passes/indirect/grid.glsl"
 
 layout(constant_id = 3) const uint has_links = 0u;
 

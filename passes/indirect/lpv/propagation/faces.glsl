@@ -1,7 +1,7 @@
 // What a cell sends through the faces of its neighbors (docs/algorithms/lighting.md 5.4).
 #ifndef PASSES_INDIRECT_LPV_FACES_GLSL
 #define PASSES_INDIRECT_LPV_FACES_GLSL
-#include "passes/indirect/lpv/harmonics.glsl"
+#include "passes/indirect/harmonics.glsl"
 #include "passes/indirect/lpv/lpv.shared.h"
 
 layout(constant_id = 1) const uint propagation = propagation_linear;

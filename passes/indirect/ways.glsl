@@ -1,12 +1,12 @@
 // Ways between two points and the blockers across them: one rule for what is injected, for links between cells and for what a surface
 // takes of a cell (docs/algorithms/lighting.md 5.8). Without the thresholds that light's own ways have: a cell's middle near a
 // blocker belongs to one side. All blockers of the frame stop light from both sides.
-#ifndef PASSES_INDIRECT_LPV_WAYS_GLSL
-#define PASSES_INDIRECT_LPV_WAYS_GLSL
+#ifndef PASSES_INDIRECT_WAYS_GLSL
+#define PASSES_INDIRECT_WAYS_GLSL
 #include "passes/shaders/blockers.glsl"
 
-layout(constant_id = 1) const uint blocker_count = 0u;
-layout(constant_id = 2) const uint portal_count = 0u;
+layout(constant_id = 70) const uint blocker_count = 0u;
+layout(constant_id = 71) const uint portal_count = 0u;
 
 // How far before a blocker's plane, view space.
 float height_over(BlockerRecord blocker, vec3 place) {

@@ -1,9 +1,12 @@
 // The cells of a grid. Positions are relative to the eye, along the world's axes.
-#ifndef PASSES_INDIRECT_LPV_GRID_GLSL
-#define PASSES_INDIRECT_LPV_GRID_GLSL
-#include "passes/indirect/lpv/harmonics.glsl"
-#include "passes/indirect/lpv/lpv.shared.h"
+#ifndef PASSES_INDIRECT_GRID_GLSL
+#define PASSES_INDIRECT_GRID_GLSL
+#include "passes/indirect/harmonics.glsl"
+#include "passes/indirect/light_grid.shared.h"
 #include "passes/shaders/scene.glsl"
+
+// Metres off a surface from which taps are asked about.
+const float tap_start = 0.02;
 
 bool in_grid(GridPlace grid, ivec3 cell) { return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(grid.cells))); }
 

@@ -1,0 +1,87 @@
+// What a place takes of the cells of a grid around it, without those that a blocker hides from it (docs/algorithms/lighting.md 5.8).
+// A place on a surface is read half a cell before it; one without a normal, (0, 0, 0), where it is, from all directions alike.
+// The shader that includes this says where cells lie, light_of(), and which blockers are asked, is_hidden().
+#ifndef PASSES_INDIRECT_READ_GRID_GLSL
+#define PASSES_INDIRECT_READ_GRID_GLSL
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/ways.glsl"
+
+layout(constant_id = 72) const uint irradiance = irradiance_face;
+
+// The least share of taps that stands for all.
+const float least_share = 0.02;
+
+// A cell by its number; the first cells of a grid may not be the first of all.
+LightCell light_of(uint number);
+// Whether one of the blockers near a place stops the way. Counts its tests.
+bool is_hidden(uint nearby, vec3 from, vec3 to, inout uint tests);
+
+LightCell weighted(LightCell sum, LightCell light, float weight) {
+    return LightCell(sum.red + weight * light.red, sum.green + weight * light.green, sum.blue + weight * light.blue);
+}
+
+struct LitPlace {
+    vec3 place, normal;
+};
+
+// How far a place is from the grid's border, metres; below 0 outside.
+float depth_inside(GridPlace grid, vec3 place) {
+    const vec3 least = min(place - grid.origin, grid.origin + vec3(grid.cells) * grid.cell - place);
+    return min(least.x, min(least.y, least.z));
+}
+
+// Some cells before the surface, in cells from the grid's origin.
+vec3 place_before(GridPlace grid, LitPlace lit, float cells) { return (lit.place - grid.origin) / grid.cell + cells * lit.normal; }
+
+// Where ways from the surface begin, view space.
+vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
+
+struct SeenLight {
+    LightCell light;
+    uint hidden;  // cells, of eight
+    uint tests;   // of a blocker against the way to a cell
+    uint near;    // blockers that the ways may meet
+};
+
+// Of a grid whose first cell has this number, some cells before the surface; nearby: what is_hidden() takes; near: how many blockers it
+// asks. Beyond the border cells hold nothing.
+SeenLight seen_light_at(GridPlace grid, uint first_cell, LitPlace lit, float cells, uint nearby, uint near) {
+    const vec3 start = way_start(lit);
+    const vec3 between = place_before(grid, lit, cells) - 0.5;
+    const ivec3 first = ivec3(floor(between));
+    const vec3 share = between - vec3(first);
+    SeenLight seen = SeenLight(LightCell(vec4(0.0), vec4(0.0), vec4(0.0)), 0u, 0u, near);
+    float all = 0.0;
+    for (uint i = 0u; i < 8u; ++i) {
+        const ivec3 corner = ivec3(i & 1u, i >> 1u & 1u, i >> 2u);
+        const vec3 w = mix(1.0 - share, share, vec3(corner));
+        const float weight = w.x * w.y * w.z;
+        const ivec3 cell = first + corner;
+        if (near > 0u && is_hidden(nearby, start, in_view(middle_of(grid, cell)), seen.tests)) {
+            ++seen.hidden;
+            continue;
+        }
+        all += weight;
+        if (in_grid(grid, cell)) seen.light = weighted(seen.light, light_of(first_cell + cell_index(grid, cell)), weight);
+    }
+    if (seen.hidden == 0u) return seen;
+    const float scale = all < least_share ? 0.0 : 1.0 / all;
+    seen.light = LightCell(seen.light.red * scale, seen.light.green * scale, seen.light.blue * scale);
+    return seen;
+}
+
+// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
+// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean. Without a normal
+// only l0 is left: the mean over all normals, which is the mean radiance.
+float towards(vec4 light, vec3 n) {
+    const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));
+    const float cell = (watt0 * light.x - watt1 * dot(light.yzw, n)) / 1.5;
+    return max(0.0, irradiance == irradiance_face ? face : cell);
+}
+
+vec3 irradiance_over_pi(GridPlace grid, LightCell light, vec3 n) {
+    const float scale = 1.0 / (grid.cell * grid.cell);
+    return scale * vec3(towards(light.red, n), towards(light.green, n), towards(light.blue, n));
+}
+
+#endif
