@@ -49,6 +49,7 @@ Result<ReloadedShaders> DeviceSession::reload_shaders(const std::filesystem::pat
         shader_sets_.pop_back();
         return planned.error();
     }
+    remembered_.clear();  // other shaders made it
     return reloaded;
 }
 

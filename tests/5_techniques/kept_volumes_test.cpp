@@ -29,9 +29,16 @@ std::uint64_t counter_of(const Run& run, std::string_view name) {
     return found == run.counters.end() ? 0 : found->value;
 }
 
-Lit lit(Session& session, std::size_t frame, std::vector<std::string> sets) {
+/// Few texels and steps: what is kept does not depend on them.
+Request indirect_of(std::size_t frame, std::vector<std::string> sets) {
+    sets.insert(sets.begin(), {"map_size=32", "iterations=8"});
     Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
     request.outputs = {"indirect"};
+    return request;
+}
+
+Lit lit(Session& session, std::size_t frame, const std::vector<std::string>& sets) {
+    const Request request = indirect_of(frame, sets);
     const Run run = must(session.run(request));
     return {counter_of(run, "injected"), counter_of(run, "cells relit"), counter_of(run, "faces rebuilt"),
             run.images.at("indirect")};
@@ -75,7 +82,7 @@ TEST(KeptVolumes, AreLitOnceWhereNothingChanges) {
     const auto session = session_of(still_rooms());
     const Lit anew = lit(*session, 1, {}), first = kept(*session, 1), second = kept(*session, 1);
     EXPECT_EQ(anew.work(), lit(*session, 1, {"taps=all"}).work()) << "in every frame";
-    EXPECT_GT(first.injected, 1000u);
+    EXPECT_GT(first.injected, 500u);
     EXPECT_EQ(first.cells, room_cells);
     EXPECT_EQ(first.faces, faces_in({24, 10, 14}));
     EXPECT_EQ(first.work(), anew.work());
@@ -130,7 +137,7 @@ TEST(KeptVolumes, KeepTheirLinksWhereALightChanges) {
     const Lit changed = kept(*session, 1);
     EXPECT_EQ(changed.faces, 0u);
     EXPECT_EQ(changed.cells, room_cells);
-    EXPECT_GT(changed.injected, 1000u);
+    EXPECT_GT(changed.injected, 500u);
     EXPECT_TRUE(changed.indirect.texels == wanted.texels);
 }
 
@@ -149,7 +156,7 @@ TEST(KeptVolumes, AreLitAnewForWhateverTheirLightDependsOnAndForNothingElse) {
         {"a caster that is one no more", [](Frame& f) { f.draws[0].casts_shadow = false; }, true},
         {"a blocker", [](Frame& f) { f.blockers[3].half_u -= .125f; }, true},
         {"the grid's place", [](Frame& f) { f.light_volumes[0].center.y += .125; }, true},
-        {"how often it is iterated", [](Frame& f) { f.light_volumes[0].iterations = 8; }, true},
+        {"how often it is iterated, which the setting overrides", [](Frame& f) { f.light_volumes[0].iterations = 9; }, false},
         {"what is behind the rooms", [](Frame& f) { f.background *= 2; }, false},
         {"a light's shadow map", [](Frame& f) { f.lights[0].shadow.map_size = 256; }, false},
         {"light from all around",
@@ -185,53 +192,51 @@ TEST(KeptVolumes, AreTheSameInAnyOrderOfFrames) {
         EXPECT_TRUE(kept(*session, i).indirect.texels == wanted[i].texels) << i;
 }
 
-/// A cascade around an eye in the left room, and the eye moved by some cells.
-std::vector<Frame> rooms_with_a_cascade(const glm::ivec3& moved) {
-    std::vector<Frame> frames(2, still_rooms()[1]);
-    for (Frame& frame : frames) {
-        frame.light_volumes = {{.kind = VolumeKind::cascaded_global,
-                                .occlusion = VolumeOcclusion::axial,
-                                .half_extent = glm::vec3(6),
-                                .cells = {24, 20, 24},
-                                .iterations = 8}};
-        frame.light_volumes[0].half_extent = {6, 5, 6};
-        frame.view.origin = {1.25, 1.75, 1.25};
-    }
-    frames[1].view.origin += .5 * glm::dvec3(moved);
-    return frames;
+/// A cascade of cells of half a metre around an eye in the right room that stands so many cells away from its first place.
+Frame rooms_with_a_cascade(const glm::ivec3& cells_away) {
+    Frame frame = still_rooms()[1];
+    frame.light_volumes = {{.kind = VolumeKind::cascaded_global,
+                            .occlusion = VolumeOcclusion::axial,
+                            .half_extent = {4, 3, 4},
+                            .cells = {16, 12, 16}}};
+    frame.view.origin = glm::dvec3(1.25, 1.75, 1.25) + .5 * glm::dvec3(cells_away);
+    return frame;
 }
 
 TEST(KeptVolumes, FindTheLinksOfASlabWhereACascadeScrolls) {
-    constexpr std::uint64_t nx = 24, ny = 20, nz = 24;
+    constexpr std::uint64_t nx = 16, ny = 12, nz = 16;
     const struct {
-        glm::ivec3 moved;
+        glm::ivec3 away;
         std::uint64_t faces;
     } rows[] = {{{1, 0, 0}, ny * nz + (ny - 1) * nz + ny * (nz - 1)},
                 {{0, -1, 0}, nx * nz + (nx - 1) * nz + nx * (nz - 1)},
                 {{0, 0, -2}, 2 * (nx * ny + (nx - 1) * ny + nx * (ny - 1))},
-                {{40, 0, 0}, faces_in({nx, ny, nz})}};
-    for (const auto& row : rows) {
-        const auto session = session_of(rooms_with_a_cascade(row.moved));
-        const HostImage before = lit_anew(*session, 0), after = lit_anew(*session, 1);
-        EXPECT_EQ(kept(*session, 0).faces, faces_in({nx, ny, nz}));
-        const Lit scrolled = kept(*session, 1);
-        EXPECT_EQ(scrolled.faces, row.faces) << row.moved.x << row.moved.y << row.moved.z;
-        EXPECT_TRUE(scrolled.indirect.texels == after.texels);
+                {{-20, 0, 0}, faces_in({nx, ny, nz})}};
+    std::vector<Frame> frames{rooms_with_a_cascade({0, 0, 0})};
+    for (const auto& row : rows) frames.push_back(rooms_with_a_cascade(row.away));
+    const auto session = session_of(frames);
+    const HostImage here = lit_anew(*session, 0);
+    EXPECT_EQ(kept(*session, 0).faces, faces_in({nx, ny, nz}));
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        const Lit scrolled = kept(*session, i);
+        EXPECT_EQ(scrolled.faces, rows[i - 1].faces) << i;
+        EXPECT_EQ(scrolled.cells, nx * ny * nz);
+        EXPECT_TRUE(scrolled.indirect.texels == lit_anew(*session, i).texels) << i;
         const Lit back = kept(*session, 0);
-        EXPECT_EQ(back.faces, row.faces);
-        EXPECT_TRUE(back.indirect.texels == before.texels);
-        EXPECT_EQ(kept(*session, 0).work(), no_work);
+        EXPECT_EQ(back.faces, rows[i - 1].faces);
+        EXPECT_TRUE(back.indirect.texels == here.texels) << i;
     }
+    EXPECT_EQ(kept(*session, 0).work(), no_work);
 }
 
 TEST(KeptVolumes, ShowTheOldLightUntilTheSlicesOfTheNewAreDone) {
     const auto session = session_of(rooms_and([](Frame& frame) { frame.lights[0].intensity *= 1.5f; }));
     const HostImage old_light = lit_anew(*session, 0), new_light = lit_anew(*session, 1);
-    for (const int slice : {1, 5, 16, 32, 40}) {
+    for (const int slice : {1, 3, 8, 10}) {
         session->forget_memo();
         const std::string set = "slice=" + std::to_string(slice);
         EXPECT_TRUE(kept(*session, 0, {set}).indirect.texels == old_light.texels) << "the first is lit at once";
-        const int frames = (32 + slice - 1) / slice;
+        const int frames = (8 + slice - 1) / slice;
         for (int i = 1; i <= frames; ++i) {
             const Lit now = kept(*session, 1, {set});
             EXPECT_EQ(now.cells, i == 1 ? room_cells : 0u);
@@ -247,7 +252,7 @@ TEST(KeptVolumes, EndTheLightThatTheyBeganBeforeTheyBeginAnother) {
     frames[2].lights[0].intensity *= 3;
     const auto session = session_of(frames);
     const HostImage first = lit_anew(*session, 0), second = lit_anew(*session, 1), third = lit_anew(*session, 2);
-    const std::string slice = "slice=16";
+    const std::string slice = "slice=4";
     const auto shows = [&](std::size_t frame, const HostImage& wanted) {
         EXPECT_TRUE(kept(*session, frame, {slice}).indirect.texels == wanted.texels) << frame;
     };
@@ -263,15 +268,13 @@ TEST(KeptVolumes, EndTheLightThatTheyBeganBeforeTheyBeginAnother) {
 
 TEST(KeptVolumes, StartWithNothingAfterARunThatStoppedHalfway) {
     const auto session = session_of(still_rooms());
-    const HostImage wanted = lit_anew(*session, 1);
-    kept(*session, 0);
+    const HostImage wanted = lit_anew(*session, 0);
     for (const char* step : {"decide", "faces", "inject.comp", "propagate"}) {
-        Request request{.variant = {.frame = 1}, .choices = chosen({"indirect/lpv"}, {"relight=changed"})};
-        request.outputs = {"indirect"};
-        request.until = step;
-        must(session->run(request));
-        EXPECT_TRUE(kept(*session, 1).indirect.texels == wanted.texels) << step;
         kept(*session, 0);
+        Request halfway = indirect_of(1, {"relight=changed"});
+        halfway.until = step;
+        must(session->run(halfway));
+        EXPECT_TRUE(kept(*session, 0).indirect.texels == wanted.texels) << step;
     }
 }
 
@@ -292,17 +295,40 @@ TEST(KeptVolumes, AreKeptWhereTheEyeMoves) {
                 worst = std::max(worst, std::abs(a - b));
                 most = std::max(most, b);
                 EXPECT_EQ(a == 0, b == 0) << x << ", " << y;
-                dark += b == 0 ? 1 : 0;
+                if (b == 0) ++dark;
             }
     EXPECT_GT(dark, 1000u);
     EXPECT_GT(most, .5);
-    EXPECT_LT(worst, 2e-3 * most) << "virtual point lights at a cell's border, as the eye's place rounds them";
+    EXPECT_LT(worst, 1e-2 * most) << "2.6e-3: virtual point lights of a coarse map fall to either side of a cell's border";
+}
+
+/// Frames of the rooms with the door closed whose cells have their middles on the plane of the wall between them.
+std::vector<Frame> rooms_around_middles(const std::vector<glm::dvec3>& eyes_moved) {
+    std::vector<Frame> frames;
+    for (const glm::dvec3& moved : eyes_moved) {
+        Frame& frame = frames.emplace_back(still_rooms().front());
+        frame.light_volumes[0].center.x = .2;
+        frame.view.origin += moved;
+    }
+    return frames;
+}
+
+TEST(KeptVolumes, AreLitAnewForAnotherEyeWhereItDecidesOnWhichSideOfAWallAMiddleIs) {
+    const auto session = session_of(rooms_around_middles({{0, 0, 0}, {.37, .11, -.23}, {-.13, .29, .41}, {.77, -.31, .17}}));
+    kept(*session, 0);
+    for (const std::size_t i : {1, 2, 3, 0}) {
+        const Lit moved = kept(*session, i);
+        EXPECT_EQ(moved.cells, room_cells);
+        EXPECT_EQ(moved.faces, faces_in({24, 10, 14}));
+        EXPECT_TRUE(moved.indirect.texels == lit_anew(*session, i).texels) << i;
+        EXPECT_EQ(kept(*session, i).work(), no_work);
+    }
 }
 
 TEST(KeptVolumes, AreNotChangedByViews) {
     const auto session = session_of(still_rooms());
     const HostImage wanted = lit_anew(*session, 1);
-    Request request{.variant = {.frame = 1}, .choices = chosen({"indirect/lpv"}, {"relight=changed", "slice=4"})};
+    Request request = indirect_of(1, {"relight=changed", "slice=4"});
     request.outputs = {"indirect", "indirect/lpv:visible taps", "indirect/lpv:energy"};
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(must(session->run(request)).images.at("indirect").texels == wanted.texels);
 }

@@ -73,6 +73,22 @@ TEST(ReloadedShaders, HaveOnlyWhatDependsOnThemCompiledAndExecutedAgain) {
     EXPECT_EQ(again.compiled, 0u);
 }
 
+TEST(ReloadedShaders, FindNothingThatOthersLeftToTheNextFrame) {
+    const ShaderFolder folder;
+    const auto session = scenario_session("two_rooms");
+    const auto indirect = [&](const std::string& relight) {
+        const Request request{.choices = chosen({"indirect/lpv"}, {"map_size=16", "iterations=2", relight}),
+                              .outputs = {"indirect"}};
+        return hash_of(must(session->run(request)).images.at("indirect"));
+    };
+    const auto before = indirect("relight=changed");
+    folder.change("passes/indirect/lpv/injection/resolve.comp", "1.0 / push.fixed_one", "0.5 / push.fixed_one");
+    must(session->reload_shaders(folder.path()));
+    const auto after = indirect("relight=changed");
+    EXPECT_NE(after, before);
+    EXPECT_EQ(after, indirect("relight=always"));
+}
+
 TEST(ReloadedShaders, ThatAreWrongAreSaidWithTheirPlaceAndTheLastGoodOnesStay) {
     const ShaderFolder folder;
     const auto session = scenario_session("three_panes");

@@ -49,7 +49,7 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
         .push(DecidePush{.light = keys.light,
                          .place = keys.place,
                          .linked = keys.linked,
-                         .lattice = lattice_key(grid.grid),
+                         .lattice = lattice_key(*frame.recorded, grid.grid),
                          .first = wrapped(first_cell(grid.grid)),
                          .cells = grid.grid.cells,
                          .iterations = steps,
@@ -76,7 +76,7 @@ void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, co
               .loads("Identities", identities)
               .loads("Barriers", barriers)
               .push(FacesPush{.grid = grid.place,
-                              .lattice = lattice_key(g),
+                              .lattice = lattice_key(*frame.recorded, g),
                               .first = wrapped(first_cell(g)),
                               .turn = turned(first_cell(g), g.cells)}),
           grid, gate_faces, {g.cells.x, g.cells.y, 3 * g.cells.z});

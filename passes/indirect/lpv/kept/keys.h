@@ -15,8 +15,9 @@ struct GridKeys {
 };
 GridKeys keys_of(const FrameImages&, const LpvParams&, const DeviceGrid&);
 
-/// The cells that links lie between. Those of a cascade stay in the world when the cascade moves.
-uvec2 lattice_key(const LightGrid&);
+/// The cells that links lie between. Those of a cascade stay in the world when the cascade moves. They are others for every place
+/// of the eye where a middle lies on a blocker's plane (middles.h).
+uvec2 lattice_key(const Frame&, const LightGrid&);
 /// A grid's first cell in them.
 glm::i64vec3 first_cell(const LightGrid&);
 
