@@ -39,6 +39,7 @@ struct LpvParams {
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
     uint apply_resolution;
     float damping;  // exponent; 0: off
+    uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -78,6 +79,13 @@ struct ApplyPush {
     float border;  // metres over which the grid fades at its border
     uint number;   // of the grid, from 1
 };
+
+// Groups of a dispatch over a list of tiles of 8 x 8 pixels.
+struct TileDispatch {
+    uint x, y, z;
+    uint count;
+};
+const uint tile_dispatch_width = 4096u;  // x may be 65535 at most, and 8K has 518400 tiles
 
 // Light of a cell: l0 and l1 per channel, as Y = (Y0, Y1 x, Y1 y, Y1 z) in the world's axes, W.
 struct LightCell {

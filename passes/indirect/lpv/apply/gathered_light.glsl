@@ -7,7 +7,6 @@
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 layout(constant_id = 4) const uint irradiance = irradiance_face;
-layout(constant_id = 7) const float damping = 0.0;
 
 // Where cells are a metre wide. face: of a light half a cell away that sends as much as the cell towards the surface. cell: of light through
 // all of the cell's section, which is 1.5 square metres in the mean.

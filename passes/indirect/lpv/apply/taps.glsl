@@ -2,9 +2,7 @@
 // (docs/algorithms/lighting.md 5.8).
 #ifndef PASSES_INDIRECT_LPV_TAPS_GLSL
 #define PASSES_INDIRECT_LPV_TAPS_GLSL
-#include "passes/gbuffer/surface.glsl"
-#include "passes/indirect/lpv/grid.glsl"
-#include "passes/indirect/lpv/apply/near_blockers.glsl"
+#include "passes/indirect/lpv/apply/tap_places.glsl"
 
 layout(constant_id = 3) const uint asks_taps = 0u;  // 1: not of cells that a blocker hides
 
@@ -15,30 +13,6 @@ const float least_share = 0.02;
 LightCell weighted(LightCell sum, LightCell light, float weight) {
     return LightCell(sum.red + weight * light.red, sum.green + weight * light.green, sum.blue + weight * light.blue);
 }
-
-struct LitPlace {
-    vec3 place, normal;
-};
-
-LitPlace lit_place(Surface s, uvec2 pixel) {
-    const MaterialPoint m = lit_point(s, pixel);
-    return LitPlace(view.to_world * m.position, view.to_world * facing_normal(m.lighting_model, m.normal, m.position));
-}
-
-// How far a place is from the grid's border, metres; below 0 outside.
-float depth_inside(GridPlace grid, vec3 place) {
-    const vec3 least = min(place - grid.origin, grid.origin + vec3(grid.cells) * grid.cell - place);
-    return min(least.x, min(least.y, least.z));
-}
-
-// Some cells before the surface, in cells from the grid's origin.
-vec3 place_before(GridPlace grid, LitPlace lit, float cells) { return (lit.place - grid.origin) / grid.cell + cells * lit.normal; }
-
-// The macro-cell of the place half a cell before the surface, or behind it for -0.5.
-uint macro_cell_before(GridPlace grid, LitPlace lit, float cells) { return macro_cell(grid, ivec3(floor(place_before(grid, lit, cells)))); }
-
-// Where ways from the surface begin, view space.
-vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
 
 struct SeenLight {
     LightCell light;
