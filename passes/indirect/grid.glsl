@@ -5,9 +5,6 @@
 #include "passes/indirect/light_grid.shared.h"
 #include "passes/shaders/scene.glsl"
 
-// Metres off a surface from which taps are asked about.
-const float tap_start = 0.02;
-
 bool in_grid(GridPlace grid, ivec3 cell) { return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(grid.cells))); }
 
 uint cell_index(GridPlace grid, ivec3 cell) { return uint((cell.z * int(grid.cells.y) + cell.y) * int(grid.cells.x) + cell.x); }

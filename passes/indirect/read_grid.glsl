@@ -3,7 +3,7 @@
 // The shader that includes this says where cells lie, light_of(), and which blockers are asked, is_hidden().
 #ifndef PASSES_INDIRECT_READ_GRID_GLSL
 #define PASSES_INDIRECT_READ_GRID_GLSL
-#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lit_place.glsl"
 #include "passes/indirect/ways.glsl"
 
 layout(constant_id = 72) const uint irradiance = irradiance_face;
@@ -19,22 +19,6 @@ bool is_hidden(uint nearby, vec3 from, vec3 to, inout uint tests);
 LightCell weighted(LightCell sum, LightCell light, float weight) {
     return LightCell(sum.red + weight * light.red, sum.green + weight * light.green, sum.blue + weight * light.blue);
 }
-
-struct LitPlace {
-    vec3 place, normal;
-};
-
-// How far a place is from the grid's border, metres; below 0 outside.
-float depth_inside(GridPlace grid, vec3 place) {
-    const vec3 least = min(place - grid.origin, grid.origin + vec3(grid.cells) * grid.cell - place);
-    return min(least.x, min(least.y, least.z));
-}
-
-// Some cells before the surface, in cells from the grid's origin.
-vec3 place_before(GridPlace grid, LitPlace lit, float cells) { return (lit.place - grid.origin) / grid.cell + cells * lit.normal; }
-
-// Where ways from the surface begin, view space.
-vec3 way_start(LitPlace lit) { return in_view(lit.place + lit.normal * tap_start); }
 
 struct SeenLight {
     LightCell light;

@@ -72,6 +72,20 @@ TEST(LightVolumeTaps, AskTheBlockersOfTheirMacroCellAndGetTheBitsOfAskingAll) {
     }
 }
 
+/// Of the box some tiles are near blockers and others are not.
+TEST(LightVolumeTaps, AreTheSameBitsWhereTilesNearNoBlockerHaveAShaderOfTheirOwn) {
+    const auto session = must(Session::open({scenario_frames("cornell_box", 4)[0]}, {.validation = true}));
+    for (const char* more : {"apply_resolution=full", "apply_resolution=half", "damping=2"}) {
+        const auto all = indirect_light(*session, {"occlusion=axial", more}),
+                   tiles = indirect_light(*session, {"occlusion=axial", more, "tap_tiles=on"});
+        EXPECT_TRUE(tiles.images.at("indirect").texels == all.images.at("indirect").texels) << more;
+        for (const char* counter : {"samples", "samples near blockers", "blocker tests", "hidden taps", "full resolution pixels"})
+            EXPECT_EQ(count_of(tiles, counter), count_of(all, counter)) << counter << ", " << more;
+        EXPECT_GT(count_of(all, "samples near blockers"), 100u);
+        EXPECT_LT(count_of(all, "samples near blockers"), .8 * double(count_of(all, "samples")));
+    }
+}
+
 TEST(LightVolumeTaps, AskNothingWhereNoBlockerIsNear) {
     Frame frame = scenario_frames("two_rooms", 1, 2)[1];
     for (Blocker& blocker : frame.blockers) blocker.center.y += 100;

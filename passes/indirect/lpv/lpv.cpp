@@ -153,7 +153,13 @@ Technique lpv() {
                  {.name = "damping",
                   .high = 4,
                   .fallback = 0,
-                  .help = "exponent that dims light which grows towards the inside of a surface; 0: off, 1 to 2: typical"})},
+                  .help = "exponent that dims light which grows towards the inside of a surface; 0: off, 1 to 2: typical"}),
+             param<&LpvParams::tap_tiles>(
+                 {.name = "tap_tiles",
+                  .fallback = 0,
+                  .help =
+                      "tiles near no blocker, by their macro-cells, are lit by a shader that asks none; off: one shader for all",
+                  .choices = switches})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
                    "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed", "damping=2"},
         .counters = {counter<&LpvCounters::injected>(

@@ -41,6 +41,7 @@ struct LpvParams {
     uint relight;
     uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
     float damping;  // exponent; 0: off
+    uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
 };
 
 // Vertices of a reflective shadow map.
@@ -73,6 +74,13 @@ struct ApplyPush {
     float border;  // metres over which the grid fades at its border
     uint number;   // of the grid, from 1
 };
+
+// Groups of a dispatch over a list of tiles of 8 x 8 pixels.
+struct TileDispatch {
+    uint x, y, z;
+    uint count;
+};
+const uint tile_dispatch_width = 4096u;  // x may be 65535 at most, and 8K has 518400 tiles
 
 // The same of a step of propagation, with what each channel's clamped faces are multiplied by, so that the cell sends what it
 // holds.

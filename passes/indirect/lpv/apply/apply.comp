@@ -14,6 +14,21 @@ layout(push_constant, scalar) uniform Push { ApplyPush push; };
 layout(set = 0, binding = 1, rgba16f) uniform image2DArray indirect;
 
 layout(constant_id = 6) const uint resolution = resolution_full;
+layout(constant_id = 8) const uint has_lists = 0u;  // 1: tiles are those of the list for asks_taps
+
+layout(set = 0, binding = 10, scalar) readonly buffer Dispatches { TileDispatch dispatches[]; };
+layout(set = 0, binding = 11, scalar) readonly buffer Tiles { uint tiles[]; };
+
+// Pixel and sample of the thread; beyond the picture where the list has ended.
+ivec3 place_of_thread() {
+    if (has_lists == 0u) return ivec3(gl_GlobalInvocationID);
+    const ivec3 extent = imageSize(indirect);
+    const uvec2 across = uvec2(extent.xy + 7) / 8u;
+    const uint place = gl_WorkGroupID.y * tile_dispatch_width + gl_WorkGroupID.x;
+    if (place >= dispatches[asks_taps].count) return extent;
+    const uint tile = tiles[asks_taps * across.x * across.y + place];
+    return ivec3(8u * uvec2(tile % across.x, tile / across.x) + gl_LocalInvocationID.xy, gl_WorkGroupID.z);
+}
 
 void store(ivec3 at, vec3 light, float weight) {
     const vec4 after = imageLoad(indirect, at);
@@ -34,7 +49,7 @@ vec3 light_at(LitPlace lit, ivec2 pixel) {
 }
 
 void main() {
-    const ivec3 at = ivec3(gl_GlobalInvocationID);
+    const ivec3 at = place_of_thread();
     if (any(greaterThanEqual(at, imageSize(indirect))) || at.z > 0 && is_plain(at.xy)) return;
     const Surface s = surface_at(at);
     if (!s.exists) return;

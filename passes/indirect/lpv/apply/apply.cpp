@@ -74,24 +74,78 @@ Image block_light(Graph& graph, const FrameImages& frame, const LpvParams& param
     return light;
 }
 
+/// Tiles of 8 x 8 pixels: the first list of those near no blocker, the second of the others.
+struct TileLists {
+    Buffer dispatches, tiles;
+    explicit operator bool() const { return bool(tiles); }
+};
+
+TileLists classify_tiles(Graph& graph, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
+    if (!grid.macro_cells || params.tap_tiles == 0) return {};
+    const std::uint64_t count = std::uint64_t{(frame.extent.width + 7) / 8} * ((frame.extent.height + 7) / 8);
+    TileLists lists{.dispatches = graph.create(grid.name("dispatches over tiles of grid"), 2 * sizeof(TileDispatch)),
+                    .tiles = graph.create(grid.name("tiles by near blockers of grid"), 2 * count * sizeof(std::uint32_t))};
+    graph.clear(lists.dispatches, 0);
+    sample_gbuffer(graph.compute("indirect/lpv/apply/classify_tiles.comp"), frame)
+        .loads("MacroCells", grid.macro_cells)
+        .updates("Dispatches", lists.dispatches)
+        .stores("Tiles", lists.tiles)
+        .fixes("has_macro_cells", 1u)
+        .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .fixes("damping", params.damping)
+        .push(apply_push(grid))
+        .over(frame.extent);
+    return lists;
+}
+
+/// What all steps that light samples read.
+struct Readings {
+    const FrameImages& frame;
+    const LpvParams& params;
+    Image chosen;  ///< none at full resolution
+};
+
+ComputePass light_samples(Graph& graph, const Readings& readings, const DeviceGrid& grid, const TileLists& lists) {
+    const auto& [frame, params, chosen] = readings;
+    return sample_edges(see_light(graph.compute("indirect/lpv/apply/apply.comp"), frame, params, grid), frame)
+        .samples("chosen_pixels", chosen)
+        .loads("Dispatches", lists ? lists.dispatches : grid.total)
+        .loads("Tiles", lists ? lists.tiles : grid.total)
+        .fixes("has_lists", lists ? 1u : 0u)
+        .fixes("irradiance", params.irradiance)
+        .fixes("damping", params.damping)
+        .fixes("resolution", params.apply_resolution);
+}
+
+void apply_grid(Graph& graph, const Readings& readings, const DeviceGrid& grid, Image& light) {
+    const FrameImages& frame = readings.frame;
+    const Image blocks = readings.chosen ? block_light(graph, frame, readings.params, grid, readings.chosen) : Image();
+    const TileLists lists = classify_tiles(graph, frame, readings.params, grid);
+    if (!lists) {
+        light_samples(graph, readings, grid, lists)
+            .samples("block_light", blocks)
+            .updates("indirect", light)
+            .over({frame.extent.width, frame.extent.height, frame.samples});
+        return;
+    }
+    DeviceGrid unblocked = grid;
+    unblocked.has_links = false;
+    unblocked.macro_cells = {};
+    for (const bool asks : {false, true})
+        light_samples(graph, readings, asks ? grid : unblocked, lists)
+            .samples("block_light", blocks)
+            .updates("indirect", light)
+            .indirect(lists.dispatches, asks ? sizeof(TileDispatch) : 0);
+}
+
 }  // namespace
 
 Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std::span<const DeviceGrid> grids) {
     const bool is_half = params.apply_resolution == resolution_half && !grids.empty();
-    const Image chosen = is_half ? chosen_pixels(graph, frame) : Image();
+    const Readings readings{.frame = frame, .params = params, .chosen = is_half ? chosen_pixels(graph, frame) : Image()};
     Image light = graph.create("indirect", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
     graph.clear(light, {});
-    for (const DeviceGrid& grid : std::views::reverse(grids)) {
-        const Image blocks = is_half ? block_light(graph, frame, params, grid, chosen) : Image();
-        sample_edges(see_light(graph.compute("indirect/lpv/apply/apply.comp"), frame, params, grid), frame)
-            .samples("chosen_pixels", chosen)
-            .samples("block_light", blocks)
-            .updates("indirect", light)
-            .fixes("irradiance", params.irradiance)
-            .fixes("damping", params.damping)
-            .fixes("resolution", params.apply_resolution)
-            .over({frame.extent.width, frame.extent.height, frame.samples});
-    }
+    for (const DeviceGrid& grid : std::views::reverse(grids)) apply_grid(graph, readings, grid, light);
     return light;
 }
 

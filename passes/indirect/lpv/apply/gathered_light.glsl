@@ -6,8 +6,6 @@
 
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-layout(constant_id = 7) const float damping = 0.0;
-
 // How much of the light is kept, by how it changes on its way through the surface: what grows towards the inside comes from behind.
 float kept(vec4 light, vec4 behind) {
     const vec4 change = light - behind;

@@ -1,7 +1,7 @@
 // Macro-cells of a grid: 4 x 4 x 4 cells each, with a bit per blocker of the frame. As many words as the blockers take: none is left out.
 #ifndef PASSES_INDIRECT_LPV_MACRO_CELLS_GLSL
 #define PASSES_INDIRECT_LPV_MACRO_CELLS_GLSL
-#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lit_place.glsl"
 #include "passes/indirect/lpv/lpv.shared.h"
 #include "passes/indirect/ways.glsl"
 

@@ -2,8 +2,7 @@
 // (docs/algorithms/lighting.md 5.8).
 #ifndef PASSES_INDIRECT_LPV_TAPS_GLSL
 #define PASSES_INDIRECT_LPV_TAPS_GLSL
-#include "passes/gbuffer/surface.glsl"
-#include "passes/indirect/lpv/apply/near_blockers.glsl"
+#include "passes/indirect/lpv/apply/tap_places.glsl"
 #include "passes/indirect/read_grid.glsl"
 
 layout(constant_id = 3) const uint asks_taps = 0u;  // 1: not of cells that a blocker hides
@@ -13,14 +12,6 @@ layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; 
 LightCell light_of(uint number) { return total[number]; }
 
 bool is_hidden(uint macro, vec3 from, vec3 to, inout uint tests) { return is_stopped_near(macro, from, to, tests); }
-
-LitPlace lit_place(Surface s, uvec2 pixel) {
-    const MaterialPoint m = lit_point(s, pixel);
-    return LitPlace(view.to_world * m.position, view.to_world * facing_normal(m.lighting_model, m.normal, m.position));
-}
-
-// The macro-cell of the place half a cell before the surface, or behind it for -0.5.
-uint macro_cell_before(GridPlace grid, LitPlace lit, float cells) { return macro_cell(grid, ivec3(floor(place_before(grid, lit, cells)))); }
 
 SeenLight seen_light_before(GridPlace grid, LitPlace lit, float cells) {
     const uint macro = macro_cell_before(grid, lit, cells);
