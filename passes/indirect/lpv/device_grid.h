@@ -18,19 +18,29 @@ struct DeviceGrid {
     LightGrid grid;
     GridPlace place;
     bool has_links = false;  ///< blockers stop light between cells
+    bool is_fuzzy = false;   ///< surfaces do, from the second step on
     double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two
     std::size_t number = 0;  ///< in the order of light_grids()
     Buffer sums;             ///< what is injected: LightCell in fixed point
     Buffer links;            ///< occlusion/links.comp; none without has_links
+    Buffer later_links;      ///< occlusion/fuzzy.comp, of all steps but the first; none without is_fuzzy
     Buffer total;            ///< LightCell: all that cells ever held
+    std::size_t bounce = 1;  ///< of the light in it
+    Buffer scale;            ///< a float: its fixed_one, where that is known on the device alone
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
-    std::string name(const char* what) const { return fmt::format("{} {}", what, number); }
+    std::string name(const char* what) const {
+        return fmt::format("{} {}{}", what, number, bounce > 1 ? fmt::format(", bounce {}", bounce) : "");
+    }
     /// One per cell.
     Extent threads() const { return {grid.cells.x, grid.cells.y, grid.cells.z}; }
 };
 
 /// Fixes what passes/indirect/lpv/occlusion/ways.glsl declares.
-ComputePass fix_blockers(ComputePass, const FrameImages&);
+template <typename Pass>
+Pass& fix_blockers(Pass&& pass, const FrameImages& frame) {
+    return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .fixes("portal_count", static_cast<std::uint32_t>(frame.recorded->portals.size()));
+}
 
 }  // namespace strata::indirect

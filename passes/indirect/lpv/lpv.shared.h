@@ -15,6 +15,8 @@ const uint faces_exact = 1u;              // integrated over the face
 const uint occlusion_recorded = 0u;       // as the capture's volume says
 const uint occlusion_none = 1u;
 const uint occlusion_axial = 2u;  // of blockers and portals
+const uint occlusion_fuzzy = 3u;  // of surfaces
+const uint occlusion_both = 4u;
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
 
@@ -30,6 +32,7 @@ struct LpvParams {
     uint map_size;    // texels a side of reflective shadow maps
     float injection;  // cells along the normal of what is injected
     uint irradiance;
+    uint bounces;
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.
@@ -53,6 +56,26 @@ struct InjectPush {
     float fixed_one;   // 1 in the fixed point of the grid's sums: a power of two
     float bias;
 };
+
+// Surfels (surfels/surfel.glsl): pieces of surfaces along a cell's side; cells around a grid whose surfaces count; texels by which
+// their middles lie beside those of cells' quarters, where walls like to begin and end.
+const uint surfels_a_side = 4u;
+const uint surfel_margin = 1u;
+const float surfel_shift_u = 0.213f;
+const float surfel_shift_v = 0.139f;  // another one, because squares' diagonals lie where the two are equal
+
+struct SurfelPush {
+    GridPlace grid;
+    uint axis;
+};
+
+// 1 in the fixed point of what surfaces cover of a cell's face: up to 2048 faces. Cells by which the corners of the geometry volume
+// lie lower, so that a wall in the very middle of cells belongs to the corners on one side of it whatever rounding does.
+const float cover_one = 1048576.0f;
+const float cover_shift = 1e-3f;
+
+// Fixed-point sums of l0 stay below this; those of l1 then below 2^31.
+const int most_of_a_sum = 1 << 30;
 
 struct ResolvePush {
     GridPlace grid;
@@ -89,6 +112,8 @@ struct LpvCounters {
     uint hidden_taps;
     uint samples;
     uint unfinished;
+    uint overflowed;
+    uint reflected;
 };
 
 #ifdef __cplusplus

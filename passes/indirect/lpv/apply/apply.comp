@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/gbuffer/surface_at.glsl"
+#include "passes/indirect/lpv/apply/irradiance.glsl"
 #include "passes/indirect/lpv/apply/taps.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/largest_half.glsl"
@@ -14,16 +15,6 @@ layout(push_constant, scalar) uniform Push { ApplyPush push; };
 
 layout(set = 0, binding = 1, rgba16f) uniform image2DArray indirect;
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
-
-layout(constant_id = 4) const uint irradiance = irradiance_face;
-
-// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
-// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean.
-float towards(vec4 light, vec3 n) {
-    const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));
-    const float cell = (watt0 * light.x - watt1 * dot(light.yzw, n)) / 1.5;
-    return max(0.0, irradiance == irradiance_face ? face : cell);
-}
 
 void store(ivec3 at, vec3 light, float weight) {
     const vec4 after = imageLoad(indirect, at);
