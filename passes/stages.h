@@ -41,6 +41,13 @@ struct Figure {
 using Truth = ImageSet (*)(const StageInput&);
 using Judge = std::vector<Figure> (*)(const ImageSet& result, const ImageSet& truth, const StageInput&);
 
+/// What techniques approximate: the stage's truth, or at some of their settings another one.
+struct TruthRow {
+    std::string_view name = {};  ///< empty: the stage's truth
+    Truth make = nullptr;
+    std::string_view is = "exact, in double";  ///< how far a person may trust it
+};
+
 struct StageInfo {
     Stage stage = {};  ///< set by stages(), as is its name
     std::string_view name = {};
@@ -54,6 +61,7 @@ struct StageInfo {
     std::vector<std::string_view> outputs;
     Truth truth = nullptr;                           ///< null: the stage has no technique yet
     std::string_view truth_is = "exact, in double";  ///< how far a person may trust it
+    std::vector<TruthRow> other_truths = {};         ///< of settings that approximate more or less (Technique::approximates)
     Judge judge = nullptr;
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;

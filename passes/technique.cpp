@@ -1,5 +1,7 @@
 #include "passes/technique.h"
 
+#include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 
@@ -122,6 +124,15 @@ Tolerance tolerance_at(const Tolerance& tolerance, std::string_view settings, st
     for (const ToleranceException& row : tolerance.exceptions)
         if (row.settings == settings && row.scenario == scenario) return {row.rmse, row.worst, row.because};
     return tolerance;
+}
+
+TruthRow truth_of(const Technique& technique, const Settings& settings) {
+    const StageInfo& stage = info(technique.stage);
+    const std::string_view name = technique.approximates ? technique.approximates(settings) : std::string_view();
+    if (name.empty()) return {.make = stage.truth, .is = stage.truth_is};
+    const auto row = std::ranges::find(stage.other_truths, name, &TruthRow::name);
+    assert(row != stage.other_truths.end());
+    return *row;
 }
 
 }  // namespace strata

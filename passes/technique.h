@@ -257,10 +257,15 @@ struct Technique {
     std::vector<Feature> cannot = {};
     Claims claims = {};
     DeclareFunction declare = nullptr;
+    /// Name of the stage's other truth that it approximates at these settings; empty: the stage's truth. Null: always that.
+    std::string_view (*approximates)(const Settings&) = nullptr;
     std::vector<StageWork> at_other_stages = {};
     Model model = nullptr;
     ModelKind model_is = ModelKind::paper;
     Tolerance tolerance = {};
 };
+
+/// What a technique at its settings is judged by.
+TruthRow truth_of(const Technique&, const Settings&);
 
 }  // namespace strata

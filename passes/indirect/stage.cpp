@@ -1,4 +1,5 @@
 // The stage indirect: what it writes, and when a frame does not need it.
+#include "passes/indirect/bounces.h"
 #include "passes/indirect/judge.h"
 #include "passes/indirect/truth.h"
 #include "passes/stages.h"
@@ -18,7 +19,10 @@ StageInfo stage() {
             .unwanted = unwanted,
             .outputs = {"indirect", "volume_light"},
             .truth = indirect_truth,
-            .truth_is = "one bounce gathered in double, itself off by 1 to 3 % (1600 directions per sample)",
+            .truth_is = "one bounce gathered in double, 1600 directions per sample",
+            .other_truths = {{.name = two_bounces,
+                              .make = two_bounce_truth,
+                              .is = "one and two bounces gathered in double, 1600 paths per sample"}},
             .judge = indirect_judge,
             .scenarios = {"cornell_box", "two_rooms"},
             .leaves = {"volume_light"}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -68,26 +69,33 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
 /// Gathers for one sample after the other.
 class Gathering {
 public:
-    explicit Gathering(const Frame& frame) : frame_(frame), scene_(frame, RayMask::opaque), direct_(frame), blockers_(frame) {
+    Gathering(const Frame& frame, const GatheredDirections& directions)
+        : frame_(frame), directions_(directions), scene_(frame, RayMask::opaque), direct_(frame), blockers_(frame) {
         for (std::uint32_t i = 0; i < frame.draws.size(); ++i) spaces_.push_back(draw_space(frame, i));
     }
 
-    /// The mean over a batch of directions: irradiance / pi.
-    glm::dvec3 batch(const LitSide& sample, std::uint32_t side, Random random) const {
-        const std::vector<glm::dvec2> directions = stratified(side, random);
-        std::vector<std::vector<glm::dvec2>> places;  // on each light
-        for (std::size_t i = 0; i < direct_.lights(); ++i) places.push_back(shuffled(side, random));
+    /// The mean over a batch of paths: irradiance / pi.
+    glm::dvec3 batch(const LitSide& sample, Random random) const {
+        std::vector<Leg> legs(directions_.bounces);
+        for (Leg& leg : legs) {
+            leg.directions = &leg == &legs.front() ? stratified(directions_.side, random) : shuffled(directions_.side, random);
+            for (std::size_t i = 0; i < direct_.lights(); ++i) leg.places.push_back(shuffled(directions_.side, random));
+        }
         glm::dvec3 sum(0);
-        for (std::size_t i = 0; i < directions.size(); ++i)
-            sum += radiance(sample, cosine_direction(sample.normal, directions[i]),
-                            [&](std::size_t light) { return places[light][i]; });
-        return sum / double(directions.size());
+        for (std::size_t i = 0; i < legs.front().directions.size(); ++i) sum += radiance(sample, legs, i);
+        return sum / double(legs.front().directions.size());
     }
 
 private:
-    /// What comes from a direction.
-    template <typename Places>
-    glm::dvec3 radiance(const LitSide& sample, const glm::dvec3& direction, const Places& places) const {
+    /// Of all paths from one surface to the next, in places of the unit square.
+    struct Leg {
+        std::vector<glm::dvec2> directions;
+        std::vector<std::vector<glm::dvec2>> places;  ///< on each light, as the next surface sees it
+    };
+
+    /// What comes along a path, which has these legs yet to go.
+    glm::dvec3 radiance(const LitSide& sample, std::span<const Leg> legs, std::size_t path) const {
+        const glm::dvec3 direction = cosine_direction(sample.normal, legs.front().directions[path]);
         const glm::dvec3 origin = sample.position + sample.normal * std::max(least_lift, lift_per_metre * sample.position.z);
         const std::optional<Hit> hit = scene_.closest(origin, direction, 0, endless);
         if (!hit) return glm::dvec3(0);
@@ -96,7 +104,9 @@ private:
         if (albedo == glm::dvec3(0)) return glm::dvec3(0);
         const LitSide reflecting{origin + direction * hit->distance, facing_normal(*hit, attributes, direction)};
         glm::dvec3 irradiance(0);
-        for (std::size_t i = 0; i < direct_.lights(); ++i) irradiance += direct_.irradiance(i, reflecting, places(i));
+        for (std::size_t i = 0; i < direct_.lights(); ++i)
+            irradiance += direct_.irradiance(i, reflecting, legs.front().places[i][path]);
+        if (legs.size() > 1) irradiance += std::numbers::pi * radiance(reflecting, legs.subspan(1), path);
         if (irradiance == glm::dvec3(0)) return glm::dvec3(0);
         if (!blockers_.let_through(off_surface(reflecting.position, reflecting.normal),
                                    off_surface(sample.position, sample.normal)))
@@ -115,6 +125,7 @@ private:
     }
 
     const Frame& frame_;
+    const GatheredDirections directions_;
     RayScene scene_;
     DirectLight direct_;
     LegBlockers blockers_;
@@ -150,19 +161,19 @@ LitSide sample_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std
 
 }  // namespace
 
-GatheredLight gathered_light(const StageInput& input, const GatheredDirections& directions) {
-    const Gathering gathering(input.frame);
+ReferenceImage gathered_light(const StageInput& input, const GatheredDirections& directions) {
+    const Gathering gathering(input.frame, directions);
     const ReferenceImage& normal = input.before.at("surface_normal");
-    GatheredLight result{ReferenceImage(normal.width, normal.height, normal.layers),
-                         ReferenceImage(normal.width, normal.height, normal.layers)};
+    ReferenceImage light(normal.width, normal.height, normal.layers);
+    light.standard_error.resize(light.texels.size());
     const auto gather = [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
         const LitSide at = sample_at(input, x, y, sample);
+        const std::size_t texel = normal.index(x, y, sample);
         std::vector<glm::dvec3> batches;
-        for (std::uint32_t i = 0; i < directions.batches; ++i)
-            batches.push_back(gathering.batch(at, directions.side, Random(normal.index(x, y, sample) + 1, i + 1)));
+        for (std::uint32_t i = 0; i < directions.batches; ++i) batches.push_back(gathering.batch(at, Random(texel + 1, i + 1)));
         const auto [mean, error] = estimate(batches);
-        result.light.at(x, y, sample) = glm::dvec4(mean, 1);
-        result.standard_error.at(x, y, sample) = glm::dvec4(error, 1);
+        light.texels[texel] = glm::dvec4(mean, 1);
+        light.standard_error[texel] = error;
     };
     tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < normal.width; ++x)
@@ -172,18 +183,19 @@ GatheredLight gathered_light(const StageInput& input, const GatheredDirections& 
                     gather(x, y, sample);
                     continue;
                 }
-                for (ReferenceImage* image : {&result.light, &result.standard_error}) image->at(x, y, sample) = image->at(x, y);
+                light.at(x, y, sample) = light.at(x, y);
+                light.standard_error[light.index(x, y, sample)] = light.standard_error[light.index(x, y)];
             }
     });
-    return result;
+    return light;
 }
 
-double rms_standard_error(const GatheredLight& gathered) {
-    double squares = 0;
-    for (const glm::dvec4& error : gathered.standard_error.texels) squares += glm::dot(glm::dvec3(error), glm::dvec3(error)) / 3;
-    return std::sqrt(squares / double(std::max<std::size_t>(1, gathered.standard_error.texels.size())));
-}
+ImageSet indirect_truth(const StageInput& input) { return {{"indirect", gathered_light(input)}}; }
 
-ImageSet indirect_truth(const StageInput& input) { return {{"indirect", gathered_light(input).light}}; }
+ImageSet two_bounce_truth(const StageInput& input) {
+    GatheredDirections directions = truth_directions;
+    directions.bounces = 2;
+    return {{"indirect", gathered_light(input, directions)}};
+}
 
 }  // namespace strata

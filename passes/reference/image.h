@@ -13,7 +13,8 @@ struct ReferenceImage {
     std::uint32_t width = 0, height = 0, layers = 1;
     std::uint32_t channels = 4;  ///< that mean something; the others read 0, 0, 1
     std::vector<glm::dvec4> texels;
-    std::vector<bool> undecided = {};  ///< empty, or one per texel: coverage hangs on rounding there, do not compare
+    std::vector<bool> undecided = {};             ///< empty, or one per texel: coverage hangs on rounding there, do not compare
+    std::vector<glm::dvec3> standard_error = {};  ///< of each texel's color, where texels are estimates by random numbers
 
     ReferenceImage() = default;
     ReferenceImage(std::uint32_t w, std::uint32_t h, std::uint32_t l = 1, glm::dvec4 fill = glm::dvec4(0))

@@ -13,6 +13,7 @@ using nlohmann::ordered_json;
 
 ordered_json json_of(const Measurement& row, bool is_timed) {
     ordered_json json{{"technique", row.technique}, {"settings", row.settings}};
+    if (!row.truth.empty()) json["truth"] = row.truth;
     if (!row.accuracy.not_supported.empty()) {
         json["not_supported"] = row.accuracy.not_supported;
         return json;
@@ -99,6 +100,12 @@ ordered_json json_of_answer(const Report& report) {
     return json;
 }
 
+ordered_json json_of(const ReportTruth& truth) {
+    ordered_json json{{"name", truth.name}, {"is", truth.is}};
+    if (truth.own_error) json["standard_error"] = {{"rmse", truth.own_error->rmse}, {"relative_rmse", truth.own_error->relative}};
+    return json;
+}
+
 ordered_json json_of(const Report& report) {
     ordered_json json{{"schema", "strata.report"},
                       {"schema_version", 1},
@@ -110,10 +117,11 @@ ordered_json json_of(const Report& report) {
                       {"samples", report.samples},
                       {"device", json_of(report.device)},
                       {"repeats", report.repeats},
-                      {"truth", report.truth},
+                      {"truth", report.truths.empty() ? std::string() : report.truths.front().is},
                       {"error_at", report.error_at == ErrorAt::picture ? "picture" : "stage"},
                       {"time_unit", report.time_unit},
                       {"rows", ordered_json::array()}};
+    for (const ReportTruth& truth : report.truths) json["truths"].push_back(json_of(truth));
     if (report.flicker)
         json["flicker"] = {
             {"frames", report.flicker->frames}, {"dolly_metres", *report.flicker->dolly}, {"pan_degrees", report.flicker->pan}};

@@ -146,6 +146,15 @@ std::string implementation_text(const Report& report) {
                          : wrong;
 }
 
+/// A truth other than the stage's with the rows that are measured against it.
+std::string truth_text(const Report& report, const ReportTruth& truth) {
+    if (truth.name.empty()) return fmt::format("truth: {}\n", truth.is);
+    std::string rows;
+    for (const Measurement& row : report.rows)
+        if (row.truth == truth.name) rows += (rows.empty() ? "" : ", ") + short_label(row);
+    return fmt::format("truth of {}: {}\n", rows, truth.is);
+}
+
 std::string heading(const Report& report) {
     std::string text =
         fmt::format("{} of {} frame {}, {} x {}, {} per pixel, capture {}\n", name(report.stage), report.capture_name,
@@ -157,7 +166,7 @@ std::string heading(const Report& report) {
     text += fmt::format("device {} ({}){}\n", report.device.name, report.device.driver, repeats);
     if (report.device.software) text += "a CPU renders here: times rank techniques on this driver only, they model no GPU\n";
     if (!report.skipped.empty()) return text + fmt::format("the frame does not need this stage: {}\n", report.skipped);
-    text += fmt::format("truth: {}\n", report.truth);
+    for (const ReportTruth& truth : report.truths) text += truth_text(report, truth);
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
     if (leaves_much(report))

@@ -55,6 +55,13 @@ private:
     Session* session_;
 };
 
+std::vector<ReportTruth> truths_of(const Yardsticks& yardsticks) {
+    std::vector<ReportTruth> truths;
+    for (const Yardstick& each : yardsticks.all)
+        truths.push_back({.name = std::string(each.of.name), .is = each.name, .own_error = each.own_error});
+    return truths;
+}
+
 /// Progress of a report whose steps take, in units of one run, about 4 for a row's errors, one per timed run, and a run per frame
 /// of its flicker; at the end the rows that are timed again, of which there are few.
 struct Shares {
@@ -159,15 +166,10 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     count_sorted(*frame, report);
     const Shares shares(wanted);
     tell("truth", 0);
-    auto yardstick = find_yardstick(session, wanted, view);
-    if (!yardstick) return yardstick.error();
-    if (wanted.error_at == ErrorAt::picture) {
-        auto picture = picture_truth(session, wanted.base, wanted.stage, yardstick->truth);
-        if (!picture) return picture.error();
-        yardstick->picture = *std::move(picture);
-    }
-    report.truth = yardstick->name;
-    RowMaker maker(session, wanted, *all, *yardstick, report);
+    const auto yardsticks = find_yardsticks(session, wanted, *all, *frame);
+    if (!yardsticks) return yardsticks.error();
+    report.truths = truths_of(*yardsticks);
+    RowMaker maker(session, wanted, *all, *yardsticks, report);
     const auto made = maker.make_all([&](std::string_view what, double done) { tell(what, shares.rows * done); });
     if (!made) return made.error();
     if (wanted.flicker && report.stopped.empty()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/reference/difference.h"
 #include "replay/report/answer.h"
 #include "replay/report/ranking.h"
 #include "replay/session/session.h"
@@ -52,6 +53,7 @@ struct ReportRequest {
 /// One row.
 struct Measurement {
     std::string technique, settings;  ///< settings: "falloff=20 weight=w9", only what differs from the defaults
+    std::string truth = {};           ///< ReportTruth::name
     Accuracy accuracy;
     double tolerance = 0;               ///< of the technique, for accuracy.model_rmse
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
@@ -69,10 +71,18 @@ struct Measurement {
     bool on_memory_front = false;         ///< nothing is both more accurate and smaller
 };
 
+/// What rows are measured against.
+struct ReportTruth {
+    std::string name = {};                        ///< as TruthRow has it; empty: the stage's truth
+    std::string is;                               ///< for people: TruthRow::is, or which technique stood in and how exact it is
+    std::optional<StandardError> own_error = {};  ///< of a truth that is an estimate by random numbers
+};
+
 struct Report {
     Stage stage = Stage::transparency;
-    std::string capture_name;       ///< for people; the caller's
-    std::string capture_id, truth;  ///< truth: StageInfo::truth_is or which technique stood in and how exact it is
+    std::string capture_name;  ///< for people; the caller's
+    std::string capture_id;
+    std::vector<ReportTruth> truths;  ///< of its rows; the first is that of the first row
     ErrorAt error_at = ErrorAt::stage;
     std::size_t frame = 0, repeats = 0;  ///< of the row with the most; each has its own in its spreads
     std::size_t least_repeats = 0;       ///< of the row with the fewest

@@ -69,11 +69,13 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
         session_->give_back_memory();
         tell(fmt::format("{} of {}, {}", i + 1, all_.size(), label(variant.technique->name, variant.settings)),
              double(i) / double(all_.size()));
-        auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, *yardstick_);
+        const Yardstick& yardstick = yardsticks_->all[yardsticks_->of_row[i]];
+        auto accuracy = measure_accuracy(*session_, variant, wanted_->stage, yardstick);
         if (!accuracy) return accuracy.error();
         const Tolerance tolerance = tolerance_at(variant.technique->tolerance, variant.settings, {});
         report_->rows.push_back({.technique = std::string(variant.technique->name),
                                  .settings = variant.settings,
+                                 .truth = std::string(yardstick.of.name),
                                  .accuracy = *std::move(accuracy),
                                  .tolerance = tolerance.rmse,
                                  .tolerated_worst = tolerance.worst,

@@ -14,12 +14,12 @@ std::size_t least_repeats_of(const ReportRequest&);
 class RowMaker {
 public:
     /// All of these outlive it. Rows whose time may be the unit come first.
-    RowMaker(Session& session, const ReportRequest& wanted, std::span<const Variant> all, const Yardstick& yardstick,
+    RowMaker(Session& session, const ReportRequest& wanted, std::span<const Variant> all, const Yardsticks& yardsticks,
              Report& report)
         : session_(&session),
           wanted_(&wanted),
           all_(all),
-          yardstick_(&yardstick),
+          yardsticks_(&yardsticks),
           report_(&report),
           times_(session, wanted.stage, all) {}
 
@@ -36,7 +36,7 @@ private:
     Session* session_;
     const ReportRequest* wanted_;
     std::span<const Variant> all_;
-    const Yardstick* yardstick_;
+    const Yardsticks* yardsticks_;
     Report* report_;
     RowTimes times_;
 };

@@ -1,6 +1,9 @@
 #include "replay/report/yardstick.h"
 
+#include <algorithm>
+
 #include "replay/plural.h"
+#include "replay/report/table.h"
 
 namespace strata {
 namespace {
@@ -32,19 +35,38 @@ Result<Accuracy> measure_stage(Session& session, const Variant& variant, Stage s
     return accuracy;
 }
 
-}  // namespace
+/// Of the image that is judged.
+void add_own_error(Yardstick& yardstick, const StageInfo& stage) {
+    const auto judged = yardstick.truth.find(stage.outputs.front());
+    if (judged == yardstick.truth.end()) return;
+    yardstick.own_error = standard_error(judged->second);
+    if (!yardstick.own_error) return;
+    yardstick.name += fmt::format("; its own standard error: rmse {}, relative rmse {}", short_number(yardstick.own_error->rmse),
+                                  short_number(yardstick.own_error->relative));
+}
 
-Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, const View& view) {
-    Yardstick yardstick{.name = std::string(info(wanted.stage).truth_is), .model_divisor = affordable_divisor(view)};
+/// What a request's technique of a stage is judged by.
+Result<TruthRow> truth_asked_by(const Request& request, Stage stage, const Frame& frame) {
+    const auto choices = choose(frame, request.choices);
+    if (!choices) return choices.error();
+    const Choice& choice = choices->at(stage);
+    return truth_of(*choice.technique, choice.settings);
+}
+
+/// `asks`: of which that truth is the session's answer.
+Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, const Request& asks, const TruthRow& of,
+                                 const View& view) {
+    Yardstick yardstick{.of = of, .name = std::string(of.is), .model_divisor = affordable_divisor(view)};
     if (yardstick.model_divisor == 1) {
-        auto truth = session.truth(wanted.base, wanted.stage);
+        auto truth = session.truth(asks, wanted.stage);
         if (!truth) return truth.error();
         yardstick.truth = *std::move(truth);
+        add_own_error(yardstick, info(wanted.stage));
         return yardstick;
     }
     for (const Technique* technique : techniques_of(wanted.stage)) {
         if (!technique->abilities.stands_in_for_truth) continue;
-        Request request = wanted.base;
+        Request request = asks;
         request.choices.use(*technique);
         Request reduced = request;
         reduced.variant.extent_divisor = yardstick.model_divisor;
@@ -63,6 +85,35 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
                 "{} x {} at {} per pixel is too large for the truth of {} in double, and no technique can stand in; record a "
                 "smaller frame",
                 view.width, view.height, plural(view.samples, "sample"), name(wanted.stage));
+}
+
+}  // namespace
+
+Result<Yardsticks> find_yardsticks(Session& session, const ReportRequest& wanted, std::span<const Variant> rows,
+                                   const Frame& frame) {
+    const auto of_base = truth_asked_by(wanted.base, wanted.stage, frame);
+    if (!of_base) return of_base.error();
+    View view = frame.view;
+    if (wanted.base.variant.samples) view.samples = wanted.base.variant.samples;
+    Yardsticks found;
+    for (const Variant& row : rows) {
+        const auto of = truth_asked_by(row.request, wanted.stage, frame);
+        if (!of) return of.error();
+        const auto known = std::ranges::find(found.all, of->name, [](const Yardstick& each) { return each.of.name; });
+        found.of_row.push_back(std::size_t(known - found.all.begin()));
+        if (known != found.all.end()) continue;
+        // The base where it will do: a row may be of a technique that cannot do the frame.
+        const Request& asks = of->name == of_base->name ? wanted.base : row.request;
+        auto yardstick = find_yardstick(session, wanted, asks, *of, view);
+        if (!yardstick) return yardstick.error();
+        if (wanted.error_at == ErrorAt::picture) {
+            auto picture = picture_truth(session, wanted.base, wanted.stage, yardstick->truth);
+            if (!picture) return picture.error();
+            yardstick->picture = *std::move(picture);
+        }
+        found.all.push_back(*std::move(yardstick));
+    }
+    return found;
 }
 
 Result<Accuracy> measure_accuracy(Session& session, const Variant& variant, Stage stage, const Yardstick& yardstick) {

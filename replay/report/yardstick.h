@@ -1,7 +1,9 @@
 // What the rows of a report are measured against: the stage's truth, or what stands in for it where a frame is too large.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "replay/report/picture_error.h"
 #include "replay/report/report.h"
@@ -11,13 +13,20 @@ namespace strata {
 
 /// With the extent at which models are affordable.
 struct Yardstick {
+    TruthRow of;
     ImageSet truth;
     std::string name;
+    std::optional<StandardError> own_error = {};
     std::uint32_t model_divisor = 1;
     std::optional<PictureTruth> picture = {};  ///< with ErrorAt::picture
 };
 
-Result<Yardstick> find_yardstick(Session&, const ReportRequest&, const View&);
+/// One per truth that some of the rows approximate, in the order of the rows.
+struct Yardsticks {
+    std::vector<Yardstick> all;
+    std::vector<std::size_t> of_row;  ///< places in `all`
+};
+Result<Yardsticks> find_yardsticks(Session&, const ReportRequest&, std::span<const Variant>, const Frame&);
 
 /// A row's errors against it, and against its technique's model.
 Result<Accuracy> measure_accuracy(Session&, const Variant&, Stage, const Yardstick&);

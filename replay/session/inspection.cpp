@@ -265,7 +265,8 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     const auto inspected = inspect(request, stage);
     if (!inspected) return inspected.error();
     if (const auto on = check_going(); !on) return on.error();
-    ImageSet images = info(stage).truth({loaded_->frame, found_->images, &found_->fragments});
+    const Choice& choice = inspected->choice;
+    ImageSet images = truth_of(*choice.technique, choice.settings).make({loaded_->frame, found_->images, &found_->fragments});
     leave_out_sides(loaded_->frame, device().snap_steps, images);
     drop_large_fragments(memo_budget_bytes);
     return images;

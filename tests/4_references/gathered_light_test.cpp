@@ -11,6 +11,7 @@
 #include "passes/gbuffer/truth.h"
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/truth.h"
+#include "passes/reference/difference.h"
 #include "passes/reference/lights.h"
 #include "tests/4_references/tiny_frame.h"
 
@@ -27,7 +28,7 @@ struct Receiver {
 
 /// Every pixel sees the same receiver, a meter before the eye, by rays that are parallel but for 1e-9: each pixel is one more
 /// estimate of the same light.
-GatheredLight gathered(Frame frame, const Receiver& receiver, const GatheredDirections& directions, std::uint32_t size = 1) {
+ReferenceImage gathered(Frame frame, const Receiver& receiver, const GatheredDirections& directions, std::uint32_t size = 1) {
     const Frame narrow = tiny::frame(size, size, 1, 1e-9);
     frame.view = narrow.view;
     frame.view.origin = receiver.position - glm::dvec3(0, 0, 1);
@@ -38,7 +39,7 @@ GatheredLight gathered(Frame frame, const Receiver& receiver, const GatheredDire
 
 /// Irradiance / pi, red.
 double light_at(const Frame& frame, const Receiver& receiver, const GatheredDirections& directions = {.side = 96, .batches = 1}) {
-    return gathered(frame, receiver, directions).light.at(0, 0).x;
+    return gathered(frame, receiver, directions).at(0, 0).x;
 }
 
 /// A Lambert rectangle center +- u +- v.
@@ -87,11 +88,12 @@ Frame closed_box() {
 }
 
 /// The mean over a rectangle of light that arrives there, at the middles of steps x steps parts.
-double mean_light(const Frame& frame, const Rectangle& on, const glm::dvec3& normal, int steps) {
+double mean_light(const Frame& frame, const Rectangle& on, const glm::dvec3& normal, int steps,
+                  const GatheredDirections& directions = {.side = 48, .batches = 1}) {
     double sum = 0;
     for (int i = 0; i < steps * steps; ++i) {
         const glm::dvec2 p = 2.0 * (glm::dvec2(i % steps, i / steps) + 0.5) / double(steps) - 1.0;
-        sum += light_at(frame, {on.center + on.u * p.x + on.v * p.y, normal}, {.side = 48, .batches = 1});
+        sum += light_at(frame, {on.center + on.u * p.x + on.v * p.y, normal}, directions);
     }
     return sum / (steps * steps);
 }
@@ -131,15 +133,59 @@ TEST(gathered_light, on_all_walls_of_a_closed_box_is_the_flux_of_its_lamp_times_
     EXPECT_NEAR(mean_light(frame, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {0, 0, -1}, 8) * pi * area, 0.5 * flux, 0.004 * flux);
 }
 
+// docs/algorithms/lighting.md 8, (2): of B = M (1 + rho + rho^2 + ...) two bounces are rho and rho^2.
+TEST(gathered_light, of_two_bounces_in_an_evenly_lit_box_is_its_albedo_and_its_square) {
+    Frame frame = closed_box();
+    for (const glm::vec3 along : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)})
+        for (const float sign : {-1.0f, 1.0f}) frame.lights.push_back(directional(sign * along, 3));
+    for (const Receiver& receiver :
+         {Receiver{{0.3, -0.9, 0.5}, glm::normalize(glm::dvec3(1, 2, 3))}, Receiver{{1, 0.99, -0.99}, {-1, 0, 0}}})
+        EXPECT_NEAR(light_at(frame, receiver, {.side = 8, .batches = 1, .bounces = 2}) * pi, (0.5 + 0.25) * 3, 1e-9);
+}
+
+TEST(gathered_light, of_two_bounces_brings_all_that_walls_of_a_box_reflect_twice) {
+    Frame frame = closed_box();
+    frame.lights = {Light{.intensity = glm::vec3(2), .range = 1e5f, .shadow = {.casts = true}}};
+    const double flux = 4 * pi * 2, area = 24;
+    const GatheredDirections two{.side = 48, .batches = 1, .bounces = 2};
+    EXPECT_NEAR(mean_light(frame, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {0, 0, -1}, 8, two) * pi * area, 0.75 * flux, 0.006 * flux);
+}
+
+/// Two squares that face each other: what the second reflects back of what the first sent it, by sums over both.
+TEST(gathered_light, of_two_bounces_between_squares_is_what_their_form_factors_say) {
+    LitSquare lit;  // the light passes the square at z = 1, which casts no shadow, and which it lights from behind
+    const std::uint32_t opposite = add_rectangle(lit.frame, {.center = {0, 0, 1}}, 0.8f);
+    lit.frame.lights[0].shadow.casts = false;
+    constexpr int steps = 24;
+    const auto middle = [](int i, double z) {
+        return glm::dvec3((i % steps + 0.5) / steps - 0.5, (i / steps + 0.5) / steps - 0.5, z);
+    };
+    const auto kernel = [](const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 way = b - a;
+        return way.z * way.z / (pi * glm::dot(way, way) * glm::dot(way, way)) / (steps * steps);
+    };
+    const Receiver receiver{{0.1, 0.05, 0.001}, {0, 0, 1}};
+    double wanted = 0;
+    for (int i = 0; i < steps * steps; ++i) {
+        double received = 0;
+        for (int k = 0; k < steps * steps; ++k) received += radiosity * kernel(middle(i, 1), middle(k, 0));
+        wanted += 0.8 * received * kernel(receiver.position, middle(i, 1));
+    }
+    EXPECT_EQ(light_at(lit.frame, receiver), 0) << "the square opposite is lit on its back alone";
+    EXPECT_NEAR(light_at(lit.frame, receiver, {.side = 320, .batches = 1, .bounces = 2}) * pi, wanted, 0.04 * wanted);
+    tiny::material(lit.frame, opposite).lighting_model = LightingModel::unlit;
+    EXPECT_EQ(light_at(lit.frame, receiver, {.side = 8, .batches = 1, .bounces = 2}), 0);
+}
+
 TEST(gathered_light, errs_by_its_own_standard_error_which_stratification_makes_shrink_faster_than_noise) {
     const LitSquare lit;
     const double wanted = radiosity * above_square / pi;
     double before = 0;
     for (const std::uint32_t side : {8u, 16u, 32u}) {
-        const GatheredLight many = gathered(lit.frame, lit.receiver, {.side = side, .batches = 4}, 16);
-        const double expected = rms_standard_error(many);
+        const ReferenceImage many = gathered(lit.frame, lit.receiver, {.side = side, .batches = 4}, 16);
+        const double expected = standard_error(many)->rmse;
         double squares = 0, sum = 0;
-        for (const glm::dvec4& texel : many.light.texels) {
+        for (const glm::dvec4& texel : many.texels) {
             squares += (texel.x - wanted) * (texel.x - wanted) / 256;
             sum += texel.x / 256;
         }
@@ -154,17 +200,17 @@ TEST(gathered_light, errs_by_its_own_standard_error_which_stratification_makes_s
 
 TEST(gathered_light, is_the_same_in_every_run_and_at_every_sample_of_one_surface) {
     const LitSquare lit;
-    const GatheredLight once = gathered(lit.frame, lit.receiver, {.side = 4, .batches = 2}, 4);
-    EXPECT_EQ(once.light.texels, gathered(lit.frame, lit.receiver, {.side = 4, .batches = 2}, 4).light.texels);
+    const ReferenceImage once = gathered(lit.frame, lit.receiver, {.side = 4, .batches = 2}, 4);
+    EXPECT_EQ(once.texels, gathered(lit.frame, lit.receiver, {.side = 4, .batches = 2}, 4).texels);
     Frame frame = lit.frame;
     frame.view = tiny::frame(1, 1, 4, 1e-9).view;
     ImageSet before{{"surface_normal", ReferenceImage(1, 1, 4, {0, 0, -1, 1})}, {"surface_material", ReferenceImage(1, 1, 4)}};
     before["surface_normal"].at(0, 0, 3) = {0, 1, 0, 1};
-    const ReferenceImage light = gathered_light({frame, before}, {.side = 4, .batches = 1}).light;
+    const ReferenceImage light = gathered_light({frame, before}, {.side = 4, .batches = 1});
     EXPECT_EQ(light.at(0, 0, 1), light.at(0, 0, 0));
     EXPECT_NE(light.at(0, 0, 3), light.at(0, 0, 0)) << "another surface";
     before["surface_normal"].at(0, 0, 2) = glm::dvec4(0);
-    EXPECT_EQ(gathered_light({frame, before}, {.side = 4, .batches = 1}).light.at(0, 0, 2), glm::dvec4(0)) << "no surface";
+    EXPECT_EQ(gathered_light({frame, before}, {.side = 4, .batches = 1}).at(0, 0, 2), glm::dvec4(0)) << "no surface";
 }
 
 TEST(gathered_light, comes_from_what_is_lit_and_reflects_diffusely) {
@@ -281,7 +327,7 @@ struct Rooms {
 Rooms two_rooms(std::uint32_t frame) {
     const Frame built = (*find_scenario("two_rooms"))->build(frame, {.width = 48, .height = 27, .frames = 8});
     const ImageSet before = gbuffer_truth({built, {}});
-    const ReferenceImage light = gathered_light({built, before}, {.side = 6, .batches = 1}).light;
+    const ReferenceImage light = gathered_light({built, before}, {.side = 6, .batches = 1});
     Rooms rooms;
     std::size_t lit_samples = 0;
     for (std::uint32_t y = 0; y < light.height; ++y)

@@ -50,6 +50,17 @@ TEST(difference, is_of_every_color_channel_every_texel_and_every_layer) {
         }
 }
 
+TEST(standard_error, is_what_the_rmse_of_an_estimate_is_expected_to_be) {
+    Pair pair;
+    EXPECT_FALSE(standard_error(pair.truth)) << "exact";
+    pair.truth.standard_error.resize(4);
+    pair.truth.standard_error[2] = {3, 0, 4};
+    EXPECT_DOUBLE_EQ(standard_error(pair.truth)->rmse, 5 / std::sqrt(12.));
+    EXPECT_DOUBLE_EQ(standard_error(pair.truth)->relative, 5 / std::sqrt(12 * 9.));
+    pair.truth.undecided = {false, false, true, false};
+    EXPECT_EQ(standard_error(pair.truth)->rmse, 0);
+}
+
 TEST(difference, leaves_out_what_is_undecided_on_either_side) {
     Pair pair;
     pair.got.texels[0].x = pair.got.texels[3].x = 100;

@@ -7,7 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/reference/decoded.h"
+#include "passes/registry.h"
 #include "replay/images/host_image.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -21,6 +23,8 @@ Request indirect_of(std::size_t frame, const std::vector<std::string>& sets = {}
 
 /// The door closed in the first, open in the second.
 std::vector<Frame> two_rooms() { return scenario_frames("two_rooms", 1, 2); }
+
+constexpr double brightest_albedo = .78;  // of both scenarios
 
 /// Brightness of the samples in each of the two rooms.
 struct Rooms {
@@ -51,17 +55,22 @@ double mean(const std::vector<double>& values) {
 TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
     const std::vector<Frame> frames = two_rooms();
     const auto session = must(Session::open(frames, {.validation = true}));
-    for (const char* propagation : {"linear", "clamped", "energy_true"})
-        for (const char* iterations : {"16", "64"}) {
-            const std::vector<std::string> sets{std::string("propagation=") + propagation,
-                                                std::string("iterations=") + iterations};
-            const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0, sets))));
-            ASSERT_GT(closed.dark.size(), 500u);
-            EXPECT_EQ(std::ranges::count(closed.dark, 0.), std::ssize(closed.dark)) << propagation << ", " << iterations;
-            EXPECT_GT(mean(closed.lit), .1);
-            const Rooms open = rooms_of(frames[1], must(session->run(indirect_of(1, sets))));
-            EXPECT_GT(mean(open.dark), 1e-3 * mean(open.lit)) << propagation << ", " << iterations;
-        }
+    const std::vector<std::vector<std::string>> settings{{"propagation=linear", "iterations=16"},
+                                                         {"propagation=linear", "iterations=64"},
+                                                         {"propagation=clamped", "iterations=16"},
+                                                         {"propagation=clamped", "iterations=64"},
+                                                         {"propagation=energy_true", "iterations=16"},
+                                                         {"propagation=energy_true", "iterations=64"},
+                                                         {"bounces=2"},
+                                                         {"bounces=2", "irradiance=face", "occlusion=both"}};
+    for (const std::vector<std::string>& sets : settings) {
+        const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0, sets))));
+        ASSERT_GT(closed.dark.size(), 500u);
+        EXPECT_EQ(std::ranges::count(closed.dark, 0.), std::ssize(closed.dark)) << testing::PrintToString(sets);
+        EXPECT_GT(mean(closed.lit), .1);
+        const Rooms open = rooms_of(frames[1], must(session->run(indirect_of(1, sets))));
+        EXPECT_GT(mean(open.dark), 1e-3 * mean(open.lit)) << testing::PrintToString(sets);
+    }
 }
 
 /// The rooms, the eye and all else turned around the vertical through the middle of the wall, in a grid that stays along the
@@ -112,10 +121,10 @@ TEST(LightVolumes, LeakWhereNoBlockerIsAskedOrEveryTapCounts) {
     EXPECT_GT(mean(rooms_of(frames[0], must(session->run(indirect_of(0, {"taps=all"})))).dark), 1e-3);
 }
 
-NumberTable energy_of(Session& session, std::size_t frame, const std::vector<std::string>& sets) {
+NumberTable table_of(Session& session, const std::string& name, std::size_t frame, const std::vector<std::string>& sets) {
     Request request = indirect_of(frame, sets);
-    request.outputs = {"indirect/lpv:energy"};
-    return must(session.run(request)).tables.at("indirect/lpv:energy");
+    request.outputs = {"indirect/lpv:" + name};
+    return must(session.run(request)).tables.at("indirect/lpv:" + name);
 }
 
 TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
@@ -124,8 +133,9 @@ TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
     for (const std::size_t frame : {0, 1})
         for (const char* propagation : {"linear", "energy_true"})
             for (const char* faces : {"centre", "exact"}) {
-                const NumberTable table = energy_of(
-                    *session, frame, {std::string("propagation=") + propagation, std::string("faces=") + faces, "iterations=64"});
+                const NumberTable table =
+                    table_of(*session, "energy", frame,
+                             {std::string("propagation=") + propagation, std::string("faces=") + faces, "iterations=64"});
                 ASSERT_EQ(table.rows.size(), 65u);
                 const double injected = table.rows.front()[1];
                 EXPECT_GT(injected, 50) << "W";
@@ -138,11 +148,43 @@ TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
             }
 }
 
+TEST(LightVolumes, BounceTwiceAsTheirModelSays) {
+    for (const char* scenario : {"cornell_box", "two_rooms"})
+        for (const std::vector<std::string>& sets :
+             {std::vector<std::string>{"bounces=2"}, {"bounces=2", "irradiance=face", "occlusion=both"}}) {
+            Request request = on_scenario(scenario, 1);
+            request.choices = chosen({"indirect/lpv"}, sets);
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::indirect, Against::model));
+            expect_proven_within_tolerance(accuracy, *must(find_technique("indirect/lpv")), request, scenario);
+        }
+}
+
+/// What surfels are made of by differences from pixel to pixel, where a mesh has no normals.
+TEST(LightVolumes, BounceTwiceTheSameWithoutVertexNormals) {
+    std::vector<Frame> frames{scenario_frames("cornell_box").front(), scenario_frames("cornell_box").front()};
+    for (Mesh& mesh : frames[1].meshes) mesh.normals.clear(), mesh.tangents.clear();
+    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto energy = [&](std::size_t frame) { return table_of(*session, "bounces", frame, {"bounces=2"}).rows[1][1]; };
+    EXPECT_NEAR(energy(1) / energy(0), 1, 1e-3);
+}
+
+// docs/algorithms/lighting.md N11: a loop of bounces ends where each brings less than the one before.
+TEST(LightVolumes, ReflectNoMoreTheSecondTimeThanTheirSurfacesMay) {
+    const auto session = must(Session::open({two_rooms()[1], scenario_frames("cornell_box").front()}, {.validation = true}));
+    for (const std::size_t frame : {0, 1}) {
+        const NumberTable table = table_of(*session, "bounces", frame, {"bounces=2"});
+        ASSERT_EQ(table.rows.size(), 2u);
+        EXPECT_GT(table.rows[1][1], .05 * table.rows[0][1]);
+        EXPECT_LT(table.rows[1][1], brightest_albedo * table.rows[0][1]);
+    }
+}
+
 TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
     std::vector<Frame> frames{two_rooms()[1], two_rooms()[1]};
     for (Light& light : frames[1].lights) light.intensity *= 8;  // exact
     const auto session = must(Session::open(frames, {.validation = true}));
-    const auto dim = must(session->run(indirect_of(0))), bright = must(session->run(indirect_of(1)));
+    const std::vector<std::string> sets{"bounces=2", "occlusion=both"};  // in whatever fixed point
+    const auto dim = must(session->run(indirect_of(0, sets))), bright = must(session->run(indirect_of(1, sets)));
     std::size_t compared = 0;
     for (std::uint32_t y = 0; y < dim.height; ++y)
         for (std::uint32_t x = 0; x < dim.width; ++x)
@@ -157,9 +199,10 @@ TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
 
 TEST(LightVolumes, AreTheSameInEveryRun) {
     const auto session = must(Session::open(two_rooms(), {.validation = true}));
-    const auto first = must(session->run(indirect_of(1)));
+    const std::vector<std::string> sets{"bounces=2", "occlusion=both"};
+    const auto first = must(session->run(indirect_of(1, sets)));
     session->forget_memo();
-    const auto again = must(session->run(indirect_of(1)));
+    const auto again = must(session->run(indirect_of(1, sets)));
     EXPECT_TRUE(first.images.at("indirect").texels == again.images.at("indirect").texels);
 }
 

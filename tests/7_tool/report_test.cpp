@@ -178,6 +178,23 @@ TEST(StoppedReport, SaysNothingOfTimesThatWereNotMeasured) {
     EXPECT_EQ(pooled(std::array{report}).captures, 0u);
 }
 
+TEST(Report, SaysHowFarATruthMadeOfRandomDirectionsIsExpectedToBeOff) {
+    const auto session = scenario_session("cornell_box");
+    const ReportRequest wanted{
+        .base = {.variant = {.extent_divisor = 4}}, .stage = Stage::indirect, .methods = {"ambient"}, .repeats = 1};
+    const Report report = must(make_report(*session, wanted));
+    ASSERT_EQ(report.truths.size(), 1u);
+    const StandardError own = report.truths.front().own_error.value();
+    const auto json = nlohmann::json::parse(as_json(report));
+    EXPECT_EQ(json["truths"][0]["standard_error"]["rmse"], own.rmse);
+    EXPECT_EQ(json["truths"][0]["standard_error"]["relative_rmse"], own.relative);
+    EXPECT_THAT(as_text(report), HasSubstr(fmt::format("; its own standard error: rmse {}, relative rmse {}\n",
+                                                       short_number(own.rmse), short_number(own.relative))));
+    // Below a tenth of what the method errs, or errors would not be the method's.
+    EXPECT_LT(own.relative, .03);
+    EXPECT_LT(10 * own.rmse, report.rows.front().accuracy.method.front().value);
+}
+
 /// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
 TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     const auto session = scenario_session("interpenetrating_panes");

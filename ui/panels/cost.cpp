@@ -215,7 +215,7 @@ private:
         }
         widgets.text("summary",
                      fmt::format("{} of {}, {} each; truth: {}", plural(report.rows.size(), "setting"), name(report.stage),
-                                 plural(report.repeats, "turn"), report.truth),
+                                 plural(report.repeats, "turn"), report.truths.front().is),
                      &palette().dim);
         widgets.help(fmt::format(
             "measured on {}{}", report.device.name,

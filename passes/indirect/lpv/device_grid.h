@@ -18,19 +18,25 @@ struct DeviceGrid {
     LightGrid grid;
     GridPlace place;
     bool has_links = false;  ///< blockers stop light between cells
+    bool is_fuzzy = false;   ///< surfaces do, from the second step on
     double fixed_one = 1;    ///< 1 in the fixed point of its sums: a power of two
     std::size_t number = 0;  ///< in the order of light_grids()
     Buffer sums;             ///< what is injected: LightCell in fixed point
     Buffer links;            ///< occlusion/links.comp; none without has_links
+    Buffer later_links;      ///< occlusion/fuzzy.comp, of all steps but the first; none without is_fuzzy
     Buffer total;            ///< LightCell: all that cells ever held
     Buffer macro_cells;      ///< apply/macro_cells.comp; none: taps ask all blockers
     // Of a grid that is kept over frames (kept/); none of them otherwise.
-    Buffer gates;      ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
-    Buffer starting;   ///< bits of the grids that are lit anew in this frame, by starting_bit()
-    Buffer even, odd;  ///< StepCell: light of steps, where a later frame goes on with it
+    Buffer gates;            ///< how many groups its steps have in this frame: three words a gate of lpv.shared.h
+    Buffer starting;         ///< bits of the grids that are lit anew in this frame, by starting_bit()
+    Buffer even, odd;        ///< StepCell: light of steps, where a later frame goes on with it
+    std::size_t bounce = 1;  ///< of the light in it
+    Buffer scale;            ///< a float: its fixed_one, where that is known on the device alone
 
     std::uint32_t cells() const { return grid.cells.x * grid.cells.y * grid.cells.z; }
-    std::string name(const char* what) const { return fmt::format("{} {}", what, number); }
+    std::string name(const char* what) const {
+        return fmt::format("{} {}{}", what, number, bounce > 1 ? fmt::format(", bounce {}", bounce) : "");
+    }
     /// One per cell.
     Extent threads() const { return {grid.cells.x, grid.cells.y, grid.cells.z}; }
     /// Grids from the 32nd on share a bit.
@@ -41,6 +47,10 @@ struct DeviceGrid {
 ComputePass gated(ComputePass, const DeviceGrid&, std::uint32_t gate, Extent threads);
 
 /// Fixes what passes/indirect/ways.glsl declares.
-ComputePass fix_blockers(ComputePass, const FrameImages&);
+template <typename Pass>
+Pass& fix_blockers(Pass&& pass, const FrameImages& frame) {
+    return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .fixes("portal_count", static_cast<std::uint32_t>(frame.recorded->portals.size()));
+}
 
 }  // namespace strata::indirect

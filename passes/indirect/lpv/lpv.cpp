@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "passes/choice_names.h"
+#include "passes/indirect/bounces.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/apply/views.h"
+#include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/volumes.h"
@@ -21,8 +23,11 @@ namespace {
 constexpr auto propagations =
     choice_names({{propagation_linear, "linear"}, {propagation_clamped, "clamped"}, {propagation_energy_true, "energy_true"}});
 constexpr auto face_rules = choice_names({{faces_centre, "centre"}, {faces_exact, "exact"}});
-constexpr auto occlusions =
-    choice_names({{occlusion_recorded, "recorded"}, {occlusion_none, "none"}, {occlusion_axial, "axial"}});
+constexpr auto occlusions = choice_names({{occlusion_recorded, "recorded"},
+                                          {occlusion_none, "none"},
+                                          {occlusion_axial, "axial"},
+                                          {occlusion_fuzzy, "fuzzy"},
+                                          {occlusion_both, "both"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr std::string_view switches[] = {"off", "on"};
@@ -63,13 +68,39 @@ Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (grids.empty()) return numbers;
     DeviceGrid& grid = grids.front();
     propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer& light) {
-        fix_links(fix_faces(graph.compute("indirect/lpv/propagation/energy.comp"), params), grid)
+        fix_links(fix_faces(graph.compute("indirect/lpv/propagation/energy.comp"), params), grid, step)
             .loads("Before", light)
             .updates("numbers", numbers)
             .push(EnergyPush{.grid = grid.place, .step = step})
             .groups({1, 1, 1});
     });
     return numbers;
+}
+
+Image bounces_table(Graph& graph, FrameImages& frame, const Settings& settings) {
+    const auto params = settings.as<LpvParams>();
+    std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
+    inject_lights(graph, frame, params, grids);
+    Image numbers = graph.create("energy of bounces", {.extent = {1, params.bounces}, .format = Format::rgba32f});
+    graph.clear(numbers, {});
+    if (grids.empty()) return numbers;
+    DeviceGrid grid = grids.front();
+    for (std::uint32_t bounce = 0; bounce < params.bounces; ++bounce) {
+        if (bounce > 0) grid = reflected(graph, frame, params, grid);
+        propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer& light) {
+            if (step > 0) return;
+            fix_links(fix_faces(graph.compute("indirect/lpv/propagation/energy.comp"), params), grid, step)
+                .loads("Before", light)
+                .updates("numbers", numbers)
+                .push(EnergyPush{.grid = grid.place, .step = bounce})
+                .groups({1, 1, 1});
+        });
+    }
+    return numbers;
+}
+
+std::string_view approximates(const Settings& settings) {
+    return settings.as<LpvParams>().bounces > 1 ? two_bounces : std::string_view();
 }
 
 }  // namespace
@@ -102,9 +133,10 @@ Technique lpv() {
                                        .help = "radiance at the center of a face, or integrated over it",
                                        .choices = face_rules}),
              param<&LpvParams::occlusion>({.name = "occlusion",
-                                           .high = 2,
+                                           .high = 4,
                                            .fallback = occlusion_recorded,
-                                           .help = "what stops light between cells; axial: blockers with their portals",
+                                           .help = "what stops light between cells; axial: blockers with their portals; "
+                                                   "fuzzy: surfaces",
                                            .choices = occlusions}),
              param<&LpvParams::taps>({.name = "taps",
                                       .high = 1,
@@ -159,9 +191,16 @@ Technique lpv() {
                   .fallback = 0,
                   .help =
                       "tiles near no blocker, by their macro-cells, are lit by a shader that asks none; off: one shader for all",
-                  .choices = switches})},
+                  .choices = switches}),
+             param<&LpvParams::bounces>({.name = "bounces",
+                                         .low = 1,
+                                         .high = 2,
+                                         .fallback = 1,
+                                         .help = "reflections of light on its way; 2: surfaces reflect once more what grids "
+                                                 "brought them"})},
         .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed", "damping=2"},
+                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed", "damping=2",
+                   "bounces=2", "occlusion=fuzzy", "occlusion=both"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -184,7 +223,12 @@ Technique lpv() {
                      counter<&LpvCounters::cells_relit>(
                          {.name = "cells relit", .help = "cells whose light was injected in this frame, summed over all grids"}),
                      counter<&LpvCounters::faces_rebuilt>(
-                         {.name = "faces rebuilt", .help = "faces between cells that were tested against all blockers"})},
+                         {.name = "faces rebuilt", .help = "faces between cells that were tested against all blockers"}),
+                     counter<&LpvCounters::overflowed>(
+                         {.name = "overflowed", .help = "sums of light in a cell that left their fixed point", .is_fatal = true}),
+                     counter<&LpvCounters::reflected>(
+                         {.name = "reflected",
+                          .help = "pieces of surfaces injected for a second bounce, summed over all grids"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",
@@ -206,9 +250,14 @@ Technique lpv() {
         .tables = {{.name = "energy",
                     .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
-                    .declare = energy_table}},
+                    .declare = energy_table},
+                   {.name = "bounces",
+                    .help = "energy that surfaces reflect into the first grid, by earlier bounces of the light",
+                    .columns = {{"earlier bounces", ""}, {"injected", "W"}},
+                    .declare = bounces_table}},
         .beyond_device = beyond_device,
         .declare = declare,
+        .approximates = approximates,
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
                       .worst = 8e-2,

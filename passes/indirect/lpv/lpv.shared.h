@@ -16,6 +16,8 @@ const uint faces_exact = 1u;              // integrated over the face
 const uint occlusion_recorded = 0u;       // as the capture's volume says
 const uint occlusion_none = 1u;
 const uint occlusion_axial = 2u;  // of blockers and portals
+const uint occlusion_fuzzy = 3u;  // of surfaces
+const uint occlusion_both = 4u;
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
 
@@ -39,9 +41,10 @@ struct LpvParams {
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
     uint apply_resolution;
     uint relight;
-    uint slice;  // steps of propagation per frame with relight_changed; 0: all of them
-    float damping;  // exponent; 0: off
+    uint slice;      // steps of propagation per frame with relight_changed; 0: all of them
+    float damping;   // exponent; 0: off
     uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
+    uint bounces;
 };
 
 // Vertices of a reflective shadow map.
@@ -58,6 +61,26 @@ struct InjectPush {
     float fixed_one;   // 1 in the fixed point of the grid's sums: a power of two
     float bias;
 };
+
+// Surfels (surfels/surfel.glsl): pieces of surfaces along a cell's side; cells around a grid whose surfaces count; texels by
+// which their middles lie beside those of cells' quarters, where walls like to begin and end.
+const uint surfels_a_side = 4u;
+const uint surfel_margin = 1u;
+const float surfel_shift_u = 0.213f;
+const float surfel_shift_v = 0.139f;  // another one, because squares' diagonals lie where the two are equal
+
+struct SurfelPush {
+    GridPlace grid;
+    uint axis;
+};
+
+// 1 in the fixed point of what surfaces cover of a cell's face: up to 2048 faces. Cells by which the corners of the geometry
+// volume lie lower, so that a wall in the very middle of cells belongs to the corners on one side of it whatever rounding does.
+const float cover_one = 1048576.0f;
+const float cover_shift = 1e-3f;
+
+// Fixed-point sums of l0 stay below this; those of l1 then below 2^31.
+const int most_of_a_sum = 1 << 30;
 
 struct ResolvePush {
     GridPlace grid;
@@ -95,7 +118,7 @@ struct HandOnPush {
     float border;
     uint asks_taps;
     uint irradiance;
-    uint number;      // of the grid, and of grids
+    uint number;  // of the grid, and of grids
     uint count;
     uint first_cell;  // the record of its first cell
 };
@@ -113,6 +136,8 @@ struct LpvCounters {
     uint full_resolution;
     uint cells_relit;
     uint faces_rebuilt;
+    uint overflowed;
+    uint reflected;
 };
 
 // Steps of a grid whose groups kept/decide.comp counts, with relight_changed. Steps of propagation follow.

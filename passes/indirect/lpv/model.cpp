@@ -3,6 +3,7 @@
 #include "passes/indirect/lpv/model.h"
 
 #include <algorithm>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -10,8 +11,11 @@
 #include <tbb/parallel_for.h>
 
 #include "passes/indirect/lpv/apply/half_resolution_model.h"
+#include "passes/indirect/lpv/injection/bounce_model.h"
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
+#include "passes/indirect/lpv/occlusion/fuzzy_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
+#include "passes/indirect/lpv/surfels/surfels_model.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/light_sets.h"
 
@@ -23,7 +27,12 @@ bool adds_light(const Light& light) { return light.intensity.x > 0 || light.inte
 
 bool is_axial(const Grid& grid, const LpvParams& params) {
     if (params.occlusion == occlusion_recorded) return grid.occlusion == VolumeOcclusion::axial;
-    return params.occlusion == occlusion_axial;
+    return params.occlusion == occlusion_axial || params.occlusion == occlusion_both;
+}
+
+bool is_fuzzy(const Grid& grid, const LpvParams& params) {
+    if (params.occlusion == occlusion_recorded) return grid.occlusion == VolumeOcclusion::fuzzy_geometry;
+    return params.occlusion == occlusion_fuzzy || params.occlusion == occlusion_both;
 }
 
 /// What the lights of a frame make its surfaces reflect.
@@ -57,17 +66,50 @@ private:
     std::vector<VirtualLight> local_;
 };
 
-LitGrid lit(const Grid& grid, const Sources& sources, std::span<const Barrier> barriers, const LpvParams& params) {
+/// A grid and what its light travels by.
+struct Way {
+    Grid grid;
+    Links first, later;  ///< of the first step and of those after it
+    InjectionRule injection;
+    PropagationRule propagation;
+    std::uint32_t iterations = 0;
+};
+
+/// All that cells ever hold of virtual lights.
+Field brought(const Way& way, std::span<const VirtualLight> lights) {
+    Field light = injected(way.grid, lights, way.injection);
+    for (Channel& channel : light) {
+        if (way.iterations == 0) break;
+        // The sum over all steps is what is there at first and what goes on from the first step.
+        const Channel next =
+            propagated(way.later, next_step(way.first, channel, way.propagation), way.propagation, way.iterations - 1);
+        std::ranges::transform(channel, next, channel.begin(), std::plus{});
+    }
+    return light;
+}
+
+LitGrid lit(const Frame& frame, const Grid& grid, const Sources& sources, std::span<const Barrier> barriers,
+            const LpvParams& params) {
     const std::span<const Barrier> in_the_way = is_axial(grid, params) ? barriers : std::span<const Barrier>();
     LitGrid result{.grid = grid};
     result.irradiance = params.irradiance;
     result.damping = double(params.damping);
     if (params.taps == taps_visible) result.tap_barriers = in_the_way;
-    result.light = injected(grid, sources.around(grid), {.bias = double(params.injection), .barriers = in_the_way});
-    const Links open = links(grid, in_the_way);
-    const std::uint32_t iterations = params.iterations == 0 ? grid.iterations : params.iterations;
-    const PropagationRule rule{.propagation = params.propagation, .faces = params.faces};
-    for (Channel& channel : result.light) channel = propagated(open, channel, rule, iterations);
+    const bool asks_surfels = is_fuzzy(grid, params) || params.bounces > 1;
+    const std::vector<Surfel> pieces = asks_surfels ? surfels(frame, grid) : std::vector<Surfel>();
+    const Links by_blockers = links(grid, in_the_way);
+    const Way way{.grid = grid,
+                  .first = by_blockers,
+                  .later = is_fuzzy(grid, params) ? with_surfels(grid, by_blockers, pieces) : by_blockers,
+                  .injection = {.bias = double(params.injection), .barriers = in_the_way},
+                  .propagation = {.propagation = params.propagation, .faces = params.faces},
+                  .iterations = params.iterations == 0 ? grid.iterations : params.iterations};
+    result.light = brought(way, sources.around(grid));
+    if (params.bounces > 1) {
+        const Field again = brought(way, reflected(pieces, result));
+        for (std::size_t channel = 0; channel < again.size(); ++channel)
+            std::ranges::transform(result.light[channel], again[channel], result.light[channel].begin(), std::plus{});
+    }
     return result;
 }
 
@@ -78,7 +120,7 @@ LitVolumes lit_volumes(const Frame& frame, const LpvParams& params) {
     const std::vector<Grid> all = grids(frame);
     if (all.empty()) return volumes;
     const Sources sources(frame, params);
-    for (const Grid& grid : all) volumes.grids.push_back(lit(grid, sources, volumes.barriers, params));
+    for (const Grid& grid : all) volumes.grids.push_back(lit(frame, grid, sources, volumes.barriers, params));
     return volumes;
 }
 

@@ -1,6 +1,9 @@
 #include "passes/indirect/lpv/volumes.h"
 
+#include <algorithm>
+
 #include "passes/indirect/lpv/apply/apply.h"
+#include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/kept/kept.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
@@ -9,14 +12,37 @@
 namespace strata::indirect {
 namespace {
 
-bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
-    if (occlusion == occlusion_recorded) return grid.occlusion == VolumeOcclusion::axial;
-    return occlusion == occlusion_axial;
+/// As recorded, or as chosen for all grids.
+std::uint32_t occlusion_of(const LightGrid& grid, std::uint32_t chosen) {
+    if (chosen != occlusion_recorded) return chosen;
+    switch (grid.occlusion) {
+        case VolumeOcclusion::axial:
+            return occlusion_axial;
+        case VolumeOcclusion::fuzzy_geometry:
+            return occlusion_fuzzy;
+        default:
+            return occlusion_none;
+    }
+}
+
+/// Adds the light of the second bounce.
+void bounce_again(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid) {
+    DeviceGrid again = reflected(graph, frame, params, grid);
+    propagate(graph, frame, params, again);
+    graph.compute("indirect/lpv/propagation/add.comp")
+        .loads("More", again.total)
+        .updates("Total", grid.total)
+        .push(grid.place)
+        .over(grid.threads());
 }
 
 void light(Graph& graph, const FrameImages& frame, const LpvParams& params, std::vector<DeviceGrid>& grids) {
     inject_lights(graph, frame, params, grids);
-    for (DeviceGrid& grid : grids) propagate(graph, frame, params, grid);
+    for (DeviceGrid& grid : grids) {
+        find_macro_cells(graph, frame, params, grid);
+        propagate(graph, frame, params, grid);
+        if (params.bounces > 1) bounce_again(graph, frame, params, grid);
+    }
 }
 
 }  // namespace
@@ -25,18 +51,16 @@ ComputePass gated(ComputePass pass, const DeviceGrid& grid, std::uint32_t gate, 
     return grid.gates ? pass.indirect(grid.gates, gate * sizeof(uvec3)) : pass.over(threads);
 }
 
-ComputePass fix_blockers(ComputePass pass, const FrameImages& frame) {
-    return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
-        .fixes("portal_count", static_cast<std::uint32_t>(frame.recorded->portals.size()));
-}
-
 std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> made;
     for (const LightGrid& grid : light_grids(*frame.recorded)) {
         const glm::dvec3 origin = grid.origin - frame.recorded->view.origin;
+        const std::uint32_t occlusion = occlusion_of(grid, params.occlusion);
+        const bool is_axial = occlusion == occlusion_axial || occlusion == occlusion_both;
         DeviceGrid g{.grid = grid,
                      .place = {.origin = glm::vec3(origin), .cell = float(grid.cell), .cells = grid.cells},
-                     .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
+                     .has_links = is_axial && !frame.recorded->blockers.empty(),
+                     .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),
                      .number = made.size()};
         g.sums = graph.create(g.name("injected light of grid"), std::uint64_t{g.cells()} * sizeof(LightCell));
@@ -48,17 +72,18 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
 std::vector<DeviceGrid> lit_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
     light(graph, frame, params, grids);
-    for (DeviceGrid& grid : grids) find_macro_cells(graph, frame, params, grid);
     return grids;
 }
 
 std::vector<DeviceGrid> shown_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
-    if (params.relight == relight_always) return lit_grids(graph, frame, params);
     std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
-    KeptGrids kept = recall(graph, frame, params, grids);
+    // What surfaces in pieces do to light is not kept.
+    const bool asks_surfels = params.bounces > 1 || std::ranges::any_of(grids, &DeviceGrid::is_fuzzy);
+    const bool is_kept = params.relight == relight_changed && !asks_surfels;
+    KeptGrids kept;
+    if (is_kept) kept = recall(graph, frame, params, grids);
     light(graph, frame, params, grids);
-    keep(graph, grids, kept);
-    for (DeviceGrid& grid : grids) find_macro_cells(graph, frame, params, grid);
+    if (is_kept) keep(graph, grids, kept);
     return grids;
 }
 

@@ -2,23 +2,18 @@
 // point, so that the order of the sums does not matter (docs/algorithms/lighting.md 5.2 and 5.3).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/grid.glsl"
-#include "passes/indirect/lpv/lpv.shared.h"
-#include "passes/indirect/ways.glsl"
+#include "passes/indirect/lpv/injection/receiving_cell.glsl"
 #include "passes/shaders/finished.glsl"
 #include "passes/shaders/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { InjectPush push; };
-layout(constant_id = 3) const uint guards = 0u;  // 1: not into cells that a blocker hides from the surface
 layout(constant_id = 22) const uint light_features = every_light_feature;
 
 layout(set = 0, binding = 0) uniform sampler2DArray position;
 layout(set = 0, binding = 1) uniform sampler2DArray normal;
 layout(set = 0, binding = 2) uniform sampler2DArray albedo;
-layout(set = 0, binding = 3, scalar) buffer Sums { int sums[]; };
-layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 // W/sr of a light of some size, from its middle.
 vec3 size_share(LightRecord light, vec3 towards) {
@@ -50,53 +45,11 @@ vec3 arriving(LightRecord light, vec3 place, uvec2 texel) {
     return sent_towards(light, place) * solid_angle;
 }
 
-// +x, -x, +y, -y, +z, -z of it.
-ivec3 neighbor(ivec3 cell, uint i) {
-    cell[i / 2u] += i % 2u == 0u ? 1 : -1;
-    return cell;
-}
-
-// The cell before the surface; where a blocker hides it, the one a whole cell before, then neighbors by their distance. None: x < 0.
-ivec3 guarded_cell(vec3 surface, vec3 n, ivec3 first, vec3 biased) {
-    const vec3 from = in_view(surface + 0.01 * n);
-    if (!is_stopped(from, in_view(middle_of(push.grid, first)))) return first;
-    const ivec3 farther = cell_of(push.grid, surface + n * push.grid.cell);
-    if (in_grid(push.grid, farther) && !is_stopped(from, in_view(middle_of(push.grid, farther)))) return farther;
-    uint tried = 0u;
-    for (uint turn = 0u; turn < 6u; ++turn) {
-        uint next = 0u;
-        float nearest = 1e30;
-        for (uint i = 0u; i < 6u; ++i) {
-            const float away = distance(middle_of(push.grid, neighbor(first, i)), biased);
-            if ((tried & (1u << i)) == 0u && away < nearest) next = i, nearest = away;
-        }
-        tried |= 1u << next;
-        const ivec3 cell = neighbor(first, next);
-        if (in_grid(push.grid, cell) && !is_stopped(from, in_view(middle_of(push.grid, cell)))) return cell;
-    }
-    return ivec3(-1);
-}
-
-void add(uint cell, uint channel, float flux, vec3 n) {
-    const vec4 lobe = vec4(watt0, watt1 * n) * (flux * push.fixed_one);
-    for (uint i = 0u; i < 4u; ++i) atomicAdd(sums[cell * 12u + channel * 4u + i], int(roundEven(lobe[i])));
-}
-
 void inject(vec3 surface, vec3 n, vec3 flux) {
-    const vec3 biased = surface + n * (push.bias * push.grid.cell);
-    const ivec3 first = cell_of(push.grid, biased);
-    if (!in_grid(push.grid, first)) {
-        atomicAdd(counters.outside, 1u);
-        return;
-    }
-    const ivec3 cell = guards == 0u ? first : guarded_cell(surface, n, first, biased);
-    if (cell.x < 0) {
-        atomicAdd(counters.dropped, 1u);
-        return;
-    }
-    if (cell != first) atomicAdd(counters.guarded, 1u);
+    const ivec3 cell = receiving_cell(push.grid, surface, n, push.bias);
+    if (cell.x < 0) return;
     atomicAdd(counters.injected, 1u);
-    for (uint channel = 0u; channel < 3u; ++channel) add(cell_index(push.grid, cell), channel, flux[channel], n);
+    add_lobe(cell_index(push.grid, cell), flux, n, push.fixed_one);
 }
 
 // W of a texel's surface; nothing where it is not finite.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "passes/indirect/lpv/occlusion/fuzzy.h"
+
 namespace strata::indirect {
 namespace {
 
@@ -24,13 +26,16 @@ std::uint32_t iterations(const LpvParams& params, const DeviceGrid& grid) {
     return params.iterations > 0 ? params.iterations : grid.grid.iterations;
 }
 
-ComputePass fix_links(ComputePass pass, const DeviceGrid& grid) {
-    return pass.loads("Links", grid.has_links ? grid.links : grid.sums).fixes("has_links", grid.has_links ? 1u : 0u);
+ComputePass fix_links(ComputePass pass, const DeviceGrid& grid, std::uint32_t step) {
+    const bool is_fuzzy = grid.is_fuzzy && step > 0;
+    const Buffer& links = is_fuzzy ? grid.later_links : grid.has_links ? grid.links : grid.sums;
+    return pass.loads("Links", links).fixes("has_links", is_fuzzy || grid.has_links ? 1u : 0u);
 }
 
 void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid,
                const std::function<void(std::uint32_t step, const Buffer& light)>& look) {
     find_links(graph, frame, grid);
+    if (grid.is_fuzzy && !grid.later_links) find_fuzzy_links(graph, frame, grid);
     const std::uint64_t bytes = std::uint64_t{grid.cells()} * sizeof(StepCell);
     Buffer now = grid.even ? grid.even : graph.create(grid.name("light of even steps of grid"), bytes);
     Buffer next = grid.odd ? grid.odd : graph.create(grid.name("light of odd steps of grid"), bytes);
@@ -39,11 +44,13 @@ void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, 
               .loads("Sums", grid.sums)
               .stores("Step", now)
               .stores("Total", grid.total)
+              .loads("Scale", grid.scale ? grid.scale : grid.sums)
+              .fixes("has_scale", grid.scale ? 1u : 0u)
               .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)}),
           grid, gate_cells, grid.threads());
     look(0, now);
     for (std::uint32_t step = 0; step < iterations(params, grid); ++step) {
-        gated(fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid)
+        gated(fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid, step)
                   .loads("Before", now)
                   .stores("After", next)
                   .updates("Total", grid.total)

@@ -11,10 +11,10 @@ namespace strata::indirect {
 /// Steps that a grid takes.
 std::uint32_t iterations(const LpvParams&, const DeviceGrid&);
 
-/// Fixes and binds what propagation/faces.glsl and occlusion/links.glsl declare. Without links nothing is read of the buffer that
-/// stands for them.
+/// Fixes and binds what propagation/faces.glsl and occlusion/links.glsl declare, the links as a step from 0 on has them. Without
+/// links nothing is read of the buffer that stands for them.
 ComputePass fix_faces(ComputePass, const LpvParams&);
-ComputePass fix_links(ComputePass, const DeviceGrid&);
+ComputePass fix_links(ComputePass, const DeviceGrid&, std::uint32_t step);
 
 /// Finds the links, and calls look(step, light) with what the cells hold before each step and after the last.
 void propagate(

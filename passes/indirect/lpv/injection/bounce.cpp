@@ -1,0 +1,34 @@
+#include "passes/indirect/lpv/injection/bounce.h"
+
+#include "passes/indirect/lpv/surfels/surfels.h"
+
+namespace strata::indirect {
+
+DeviceGrid reflected(Graph& graph, const FrameImages& frame, const LpvParams& params, const DeviceGrid& lit) {
+    DeviceGrid next = lit;
+    ++next.bounce;
+    next.total = {};
+    next.scale = graph.create(next.name("fixed point of grid"), sizeof(float));
+    graph.compute("indirect/lpv/injection/brightest.comp")
+        .loads("Total", lit.total)
+        .stores("Scale", next.scale)
+        .push(lit.place)
+        .groups({1, 1, 1});
+    next.sums = graph.create(next.name("injected light of grid"), std::uint64_t{lit.cells()} * sizeof(LightCell));
+    graph.clear(next.sums, 0);
+    draw_surfels(graph, frame, lit, "indirect/lpv/injection/reflect", [&](DrawPass& draw) {
+        fix_blockers(draw, frame)
+            .loads("Total", lit.total)
+            .loads("MacroCells", lit.macro_cells ? lit.macro_cells : lit.total)
+            .fixes("has_macro_cells", lit.macro_cells ? 1u : 0u)
+            .loads("Scale", next.scale)
+            .updates("Sums", next.sums)
+            .fixes("guards", lit.has_links ? 1u : 0u)
+            .fixes("asks_taps", lit.has_links && params.taps == taps_visible ? 1u : 0u)
+            .fixes("irradiance", irradiance_cell)
+            .fixes("bias", params.injection);
+    });
+    return next;
+}
+
+}  // namespace strata::indirect

@@ -1,0 +1,65 @@
+// The cell that takes what a piece of a surface sends out, and the fixed point in which it does (docs/algorithms/lighting.md 5.3).
+#ifndef PASSES_INDIRECT_LPV_RECEIVING_CELL_GLSL
+#define PASSES_INDIRECT_LPV_RECEIVING_CELL_GLSL
+#include "passes/indirect/grid.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/ways.glsl"
+
+layout(constant_id = 11) const uint guards = 0u;  // 1: not into cells that a blocker hides from the surface
+
+layout(set = 0, binding = 3, scalar) buffer Sums { int sums[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
+
+// +x, -x, +y, -y, +z, -z of it.
+ivec3 neighbor(ivec3 cell, uint i) {
+    cell[i / 2u] += i % 2u == 0u ? 1 : -1;
+    return cell;
+}
+
+// The cell before the surface; where a blocker hides it, the one a whole cell before, then neighbors by their distance. None: x < 0.
+ivec3 guarded_cell(GridPlace grid, vec3 surface, vec3 n, ivec3 first, vec3 biased) {
+    const vec3 from = in_view(surface + 0.01 * n);
+    if (!is_stopped(from, in_view(middle_of(grid, first)))) return first;
+    const ivec3 farther = cell_of(grid, surface + n * grid.cell);
+    if (in_grid(grid, farther) && !is_stopped(from, in_view(middle_of(grid, farther)))) return farther;
+    uint tried = 0u;
+    for (uint turn = 0u; turn < 6u; ++turn) {
+        uint next = 0u;
+        float nearest = 1e30;
+        for (uint i = 0u; i < 6u; ++i) {
+            const float away = distance(middle_of(grid, neighbor(first, i)), biased);
+            if ((tried & (1u << i)) == 0u && away < nearest) next = i, nearest = away;
+        }
+        tried |= 1u << next;
+        const ivec3 cell = neighbor(first, next);
+        if (in_grid(grid, cell) && !is_stopped(from, in_view(middle_of(grid, cell)))) return cell;
+    }
+    return ivec3(-1);
+}
+
+// None: x < 0. Places are relative to the eye, along the world's axes; bias in cells.
+ivec3 receiving_cell(GridPlace grid, vec3 surface, vec3 n, float bias) {
+    const vec3 biased = surface + n * (bias * grid.cell);
+    const ivec3 first = cell_of(grid, biased);
+    if (!in_grid(grid, first)) {
+        atomicAdd(counters.outside, 1u);
+        return ivec3(-1);
+    }
+    const ivec3 cell = guards == 0u ? first : guarded_cell(grid, surface, n, first, biased);
+    if (cell.x < 0) atomicAdd(counters.dropped, 1u);
+    else if (cell != first) atomicAdd(counters.guarded, 1u);
+    return cell;
+}
+
+// W per channel, of a surface that reflects as Lambert's does. Sums of l0 are never negative.
+void add_lobe(uint cell, vec3 flux, vec3 n, float fixed_one) {
+    for (uint channel = 0u; channel < 3u; ++channel) {
+        const vec4 lobe = vec4(watt0, watt1 * n) * (flux[channel] * fixed_one);
+        for (uint i = 0u; i < 4u; ++i) {
+            const int part = int(roundEven(lobe[i])), before = atomicAdd(sums[cell * 12u + channel * 4u + i], part);
+            if (i == 0u && before < most_of_a_sum && before + part >= most_of_a_sum) atomicAdd(counters.overflowed, 1u);
+        }
+    }
+}
+
+#endif
