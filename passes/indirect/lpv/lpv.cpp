@@ -6,6 +6,7 @@
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/indirect/lpv/views/views.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/technique.h"
 
@@ -134,7 +135,26 @@ Technique lpv() {
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",
                    .unit = "cells",
                    .high = 8,
-                   .declare = visible_taps}},
+                   .declare = visible_taps},
+                  {.name = "cells",
+                   .help = "a sphere per lit cell: the radiant intensity it sends where the sphere's surface points",
+                   .unit = "W/sr",
+                   .high = .5,
+                   .declare = cells_view,
+                   .channels = {"red", "green", "blue"}},
+                  {.name = "injected",
+                   .help = "a sphere per cell with injected light: its radiant intensity before propagation",
+                   .unit = "W/sr",
+                   .high = .5,
+                   .declare = injected_view,
+                   .channels = {"red", "green", "blue"}},
+                  {.name = "axial occlusion",
+                   .help = "share of light that blockers stop at the faces of the surface's cell, the larger of two per axis",
+                   .unit = "share",
+                   .high = 1,
+                   .declare = axial_occlusion_view,
+                   .channels = {"across x", "across y", "across z"},
+                   .if_zero = "no blocker stops light between the cells at these surfaces"}},
         .tables = {{.name = "energy",
                     .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
