@@ -151,6 +151,7 @@ struct DebugTable {
     std::vector<TableColumn> columns;  ///< 1 to 4
     std::uint32_t tile = 0;            ///< pixels a side of the tiles, counted row by row, of column "tile"; 0: it has none
     Image (*declare)(Graph&, FrameImages&, const Settings&) = nullptr;
+    bool is_curves = false;  ///< the columns are curves over the first one
 };
 
 /// Variants of a technique's shader, of which every tile is shaded by one: its shading modes.
