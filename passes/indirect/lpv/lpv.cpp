@@ -6,6 +6,7 @@
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/indirect/lpv/ratios.h"
 #include "passes/indirect/lpv/views/views.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/technique.h"
@@ -160,6 +161,7 @@ Technique lpv() {
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
                     .declare = energy_table,
                     .is_curves = true}},
+        .claims = {.ratios = lpv_ratios()},
         .declare = declare,
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
