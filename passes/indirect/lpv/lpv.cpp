@@ -23,6 +23,7 @@ constexpr auto face_rules = choice_names({{faces_centre, "centre"}, {faces_exact
 constexpr auto occlusions =
     choice_names({{occlusion_recorded, "recorded"}, {occlusion_none, "none"}, {occlusion_axial, "axial"}});
 constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradiance_cell, "cell"}});
+constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -116,9 +117,33 @@ Technique lpv() {
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
                                            .fallback = .5,
-                                           .help = "offset of injected light along the surface's normal, cells"})},
-        .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face"},
+                                           .help = "offset of injected light along the surface's normal, cells"}),
+             param<&LpvParams::cell_scale>({.name = "cell_scale",
+                                            .high = 2,
+                                            .fallback = cells_recorded,
+                                            .help = "width of cells as a multiple of the recorded one; the extent stays, so 1/2 "
+                                                    "is 8 times the cells",
+                                            .choices = cell_scales})},
+        .points = {"iterations=8",
+                   "iterations=32",
+                   "iterations=64",
+                   "propagation=linear",
+                   "propagation=clamped",
+                   "faces=exact",
+                   "occlusion=none",
+                   "taps=all",
+                   "occlusion=none taps=all",
+                   "map_size=64",
+                   "irradiance=face",
+                   "irradiance=face iterations=8",
+                   "irradiance=face iterations=32",
+                   "cell_scale=2",
+                   "cell_scale=2 iterations=8",
+                   "cell_scale=2 irradiance=face",
+                   "cell_scale=1/2",
+                   "cell_scale=1/2 iterations=64",
+                   "cell_scale=1/2 irradiance=face",
+                   "cell_scale=1/2 irradiance=face iterations=32"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(

@@ -21,6 +21,10 @@ const uint taps_visible = 1u;  // those that no blocker hides from the surface
 const uint irradiance_face = 0u;  // as of a light half a cell away that sends what the cells do
 const uint irradiance_cell = 1u;  // the mean over a cell of what travels through it
 
+const uint cells_half = 0u;  // as wide as recorded, times a power of two
+const uint cells_recorded = 1u;
+const uint cells_double = 2u;
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -30,6 +34,7 @@ struct LpvParams {
     uint map_size;    // texels a side of reflective shadow maps
     float injection;  // cells along the normal of what is injected
     uint irradiance;
+    uint cell_scale;  // cells_...
 };
 
 // A grid of cubic cells. Positions are relative to the eye, along the world's axes.

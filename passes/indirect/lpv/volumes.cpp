@@ -1,11 +1,16 @@
 #include "passes/indirect/lpv/volumes.h"
 
+#include <cmath>
+
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/scene/scene_facts.h"
 
 namespace strata::indirect {
 namespace {
+
+/// Width of cells, as a multiple of the recorded one.
+double cell_scale(const LpvParams& params) { return std::exp2(double(params.cell_scale) - double(cells_recorded)); }
 
 bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
     if (occlusion == occlusion_recorded) return grid.occlusion == VolumeOcclusion::axial;
@@ -21,7 +26,7 @@ ComputePass fix_blockers(ComputePass pass, const FrameImages& frame) {
 
 std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> made;
-    for (const LightGrid& grid : light_grids(*frame.recorded)) {
+    for (const LightGrid& grid : light_grids(*frame.recorded, cell_scale(params))) {
         const glm::dvec3 origin = grid.origin - frame.recorded->view.origin;
         DeviceGrid g{.grid = grid,
                      .place = {.origin = glm::vec3(origin), .cell = float(grid.cell), .cells = grid.cells},
