@@ -151,6 +151,7 @@ struct DebugTable {
     std::vector<TableColumn> columns;  ///< 1 to 4
     std::uint32_t tile = 0;            ///< pixels a side of the tiles, counted row by row, of column "tile"; 0: it has none
     Image (*declare)(Graph&, FrameImages&, const Settings&) = nullptr;
+    bool is_curves = false;  ///< the columns are curves over the first one
 };
 
 /// Variants of a technique's shader, of which every tile is shaded by one: its shading modes.
@@ -215,6 +216,12 @@ struct KnownFailure {
     std::string_view because;
 };
 
+/// What is changed in a scenario's frame before it is measured.
+struct FrameChange {
+    std::string_view name = {};  ///< "64 lights"; empty: nothing is changed
+    void (*change)(Frame&) = nullptr;
+};
+
 /// How many times as long one way takes as another, as a source states it: `strata bench` measures it. A way is settings of the
 /// technique ("slices=64 bits=16"; none: its defaults), or another technique of its stage by name, with its settings.
 struct TimeRatio {
@@ -228,6 +235,8 @@ struct TimeRatio {
     std::vector<std::string_view> counters = {};  ///< that explain it, of either way
     /// In place of `steps`: stages of which every step counts, whichever technique it belongs to.
     std::vector<Stage> stages = {};
+    /// What differs between the frames of the two ways.
+    FrameChange of_frame = {}, against_frame = {};
 };
 
 /// What is stated of a technique, and measured.

@@ -6,6 +6,12 @@
 namespace strata {
 namespace {
 
+/// With the extent kept: more cells or fewer.
+LightVolume rescaled(LightVolume volume, double cell_scale) {
+    if (cell_scale != 1) volume.cells = glm::uvec3(glm::ceil(glm::dvec3(volume.cells) / cell_scale));
+    return volume;
+}
+
 double widest_cell(const LightVolume& volume) {
     const glm::dvec3 size = 2.0 * glm::dvec3(volume.half_extent) / glm::dvec3(volume.cells);
     return std::max({size.x, size.y, size.z});
@@ -33,13 +39,13 @@ LightGrid cascade(const Frame& frame, const LightVolume& volume, std::uint32_t n
 
 }  // namespace
 
-std::vector<LightGrid> light_grids(const Frame& frame) {
+std::vector<LightGrid> light_grids(const Frame& frame, double cell_scale) {
     std::vector<LightGrid> grids;
     for (const LightVolume& volume : frame.light_volumes)
-        if (volume.kind == VolumeKind::fixed_local) grids.push_back(local_grid(volume));
+        if (volume.kind == VolumeKind::fixed_local) grids.push_back(local_grid(rescaled(volume, cell_scale)));
     for (const LightVolume& volume : frame.light_volumes) {
         if (volume.kind != VolumeKind::cascaded_global) continue;
-        for (std::uint32_t i = 0; i < volume.cascades; ++i) grids.push_back(cascade(frame, volume, i));
+        for (std::uint32_t i = 0; i < volume.cascades; ++i) grids.push_back(cascade(frame, rescaled(volume, cell_scale), i));
     }
     return grids;
 }

@@ -20,7 +20,8 @@ struct LightGrid {
 };
 
 /// A volume's cells are cubes as wide as the widest of what its extent and number of cells say. In the order in which a point
-/// takes the first that holds it: local volumes as recorded, then cascades, of each volume the finest first.
-std::vector<LightGrid> light_grids(const Frame&);
+/// takes the first that holds it: local volumes as recorded, then cascades, of each volume the finest first. With a scale other
+/// than 1, cells are so many times as wide as recorded, and as many more or fewer.
+std::vector<LightGrid> light_grids(const Frame&, double cell_scale = 1);
 
 }  // namespace strata

@@ -11,8 +11,11 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json json_of(const TimedWay& way) {
-    ordered_json json{
-        {"technique", way.technique}, {"settings", way.settings}, {"ms", json_of(way.ms)}, {"counters", ordered_json::object()}};
+    ordered_json json{{"technique", way.technique}, {"settings", way.settings}};
+    if (!way.frame.empty()) json["frame"] = way.frame;
+    json["ms"] = json_of(way.ms);
+    json["stage_bytes"] = way.stage_bytes;
+    json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : way.counters) json["counters"][counter.name] = counter.value;
     return json;
 }

@@ -25,9 +25,11 @@ Table table_of(const Bench& bench) {
 }
 
 std::string way_text(const TimedWay& way) {
-    std::vector<std::string> parts{fmt::format("{} +-{} ms", short_number(way.ms.median), short_number(way.ms.mad))};
+    std::vector<std::string> parts{fmt::format("{} +-{} ms", short_number(way.ms.median), short_number(way.ms.mad)),
+                                   fmt::format("{:.2f} MiB", double(way.stage_bytes) / 0x1p20)};
     for (const CounterRecord& counter : way.counters) parts.push_back(fmt::format("{} {}", counter.name, counter.value));
-    return fmt::format("{}: {}", label(way.technique, way.settings), fmt::join(parts, ", "));
+    const std::string frame = way.frame.empty() ? "" : ", " + way.frame;
+    return fmt::format("{}{}: {}", label(way.technique, way.settings), frame, fmt::join(parts, ", "));
 }
 
 std::string details_of(const MeasuredRatio& row) {

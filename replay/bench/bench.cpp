@@ -26,9 +26,14 @@ Result<void> check(Session& session, const Variant& way) {
 }
 
 Result<std::pair<Variant, Variant>> ways_of(Session& session, const Claim& claim) {
+    const bool changes = claim.ratio->of_frame.change || claim.ratio->against_frame.change;
+    if (changes && !claim.against_frame)
+        return fail(Fault::usage, "it changes the frames of scenario {}: measure it without a capture", claim.ratio->scenario);
     const auto of = variant_of(*claim.technique, claim.ratio->of, claim.base);
     if (!of) return of.error();
-    const auto against = variant_of(*claim.technique, claim.ratio->against, claim.base);
+    Request base = claim.base;
+    base.variant.frame = claim.against_frame.value_or(base.variant.frame);
+    const auto against = variant_of(*claim.technique, claim.ratio->against, base);
     if (!against) return against.error();
     for (const Variant* way : {&*of, &*against})
         if (const auto fits = check(session, *way); !fits) return fits.error();
@@ -54,7 +59,12 @@ std::vector<double> times_of(const Run& run, const Technique& technique, const T
 }
 
 TimedWay timed_way(const Variant& variant, const Run& run, const TimeRatio& ratio) {
-    TimedWay way{std::string(variant.technique->name), variant.settings, spread_of(times_of(run, *variant.technique, ratio)), {}};
+    TimedWay way{.technique = std::string(variant.technique->name),
+                 .settings = variant.settings,
+                 .ms = spread_of(times_of(run, *variant.technique, ratio)),
+                 .counters = {}};
+    const auto bytes = run.stage_bytes.find(std::string(name(variant.technique->stage)));
+    if (bytes != run.stage_bytes.end()) way.stage_bytes = bytes->second;
     for (const CounterRecord& counter : run.counters)
         if (counter.technique == way.technique && std::ranges::count(ratio.counters, counter.name) > 0)
             way.counters.push_back(counter);
@@ -65,8 +75,9 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
     const auto ways = ways_of(session, claim);
     if (!ways) return ways.error();
     const auto& [of, against] = *ways;
-    const std::string pair = fmt::format("{} against {} in frame {}", label(of.technique->name, of.settings),
-                                         label(against.technique->name, against.settings), claim.base.variant.frame);
+    const std::string pair =
+        fmt::format("{} in frame {} against {} in frame {}", label(of.technique->name, of.settings), of.request.variant.frame,
+                    label(against.technique->name, against.settings), against.request.variant.frame);
     if (!timed.contains(pair)) {
         auto runs = session.time(std::array{of.request, against.request}, repeats);
         if (!runs) return runs.error();
@@ -78,13 +89,16 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
     if (times.empty() || units.empty())
         return fail(Fault::usage, "{} has none of these steps here", (times.empty() ? of : against).technique->name);
     if (std::ranges::min(units) <= 0) return fail(Fault::device_lacks, "the device's clock is too coarse for so small a frame");
-    return MeasuredRatio{.claim = claim,
-                         .width = runs[0].width,
-                         .height = runs[0].height,
-                         .samples = runs[0].samples,
-                         .of = timed_way(of, runs[0], *claim.ratio),
-                         .against = timed_way(against, runs[1], *claim.ratio),
-                         .ratio = ratio_of(times, units)};
+    MeasuredRatio measured{.claim = claim,
+                           .width = runs[0].width,
+                           .height = runs[0].height,
+                           .samples = runs[0].samples,
+                           .of = timed_way(of, runs[0], *claim.ratio),
+                           .against = timed_way(against, runs[1], *claim.ratio),
+                           .ratio = ratio_of(times, units)};
+    measured.of.frame = claim.ratio->of_frame.name;
+    measured.against.frame = claim.ratio->against_frame.name;
+    return measured;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Ratios of times that techniques state (Technique::ratios), measured: both ways in turn within one run, and what either counts.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct Claim {
     const TimeRatio* ratio = nullptr;
     Request base;       ///< frame, other stages' choices
     std::string scene;  ///< for people: the scenario's or the capture's name
+    /// The frame of the way that is measured against; none: that of `base`.
+    std::optional<std::size_t> against_frame = {};
 };
 
 /// One of the two ways.
@@ -24,6 +27,8 @@ struct TimedWay {
     std::string technique, settings;
     Spread ms;                            ///< of the steps that count
     std::vector<CounterRecord> counters;  ///< those that the ratio names and the technique has
+    std::string frame = {};               ///< what is changed in its frame, for people: "64 lights"
+    std::uint64_t stage_bytes = 0;        ///< images and buffers first used by the technique
 };
 
 struct MeasuredRatio {

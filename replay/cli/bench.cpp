@@ -58,21 +58,43 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
     return claims;
 }
 
-/// A frame of every scenario that the ratios are measured on; the claims get their places.
-Result<std::vector<Frame>> frames_of(std::span<Claim> claims, PixelExtent extent) {
-    std::vector<Frame> frames;
-    std::vector<std::string_view> built;
-    for (Claim& claim : claims) {
-        const auto place = std::ranges::find(built, claim.ratio->scenario);
-        claim.scene = claim.ratio->scenario;
-        claim.base.variant.frame = static_cast<std::size_t>(place - built.begin());
-        if (place != built.end()) continue;
-        const auto scenario = find_scenario(claim.ratio->scenario);
+/// Frames of scenarios, each built once.
+class ScenarioFrames {
+public:
+    explicit ScenarioFrames(PixelExtent extent) : extent_(extent) {}
+
+    Result<std::size_t> place_of(std::string_view name, const FrameChange& change) {
+        const std::pair key(name, change.name);
+        const auto place = std::ranges::find(built_, key);
+        if (place != built_.end()) return static_cast<std::size_t>(place - built_.begin());
+        const auto scenario = find_scenario(name);
         if (!scenario) return scenario.error();
-        built.push_back(claim.ratio->scenario);
-        frames.push_back((*scenario)->build(0, {.width = extent.first, .height = extent.second}));
+        built_.push_back(key);
+        frames_.push_back((*scenario)->build(0, {.width = extent_.first, .height = extent_.second}));
+        if (change.change) change.change(frames_.back());
+        return frames_.size() - 1;
     }
-    return frames;
+    std::vector<Frame> taken() { return std::move(frames_); }
+
+private:
+    PixelExtent extent_;
+    std::vector<std::pair<std::string_view, std::string_view>> built_;  ///< scenario, and what is changed in it
+    std::vector<Frame> frames_;
+};
+
+/// The frames that the ratios are measured on; the claims get their places.
+Result<std::vector<Frame>> frames_of(std::span<Claim> claims, PixelExtent extent) {
+    ScenarioFrames frames(extent);
+    for (Claim& claim : claims) {
+        claim.scene = claim.ratio->scenario;
+        const auto of = frames.place_of(claim.ratio->scenario, claim.ratio->of_frame);
+        if (!of) return of.error();
+        const auto against = frames.place_of(claim.ratio->scenario, claim.ratio->against_frame);
+        if (!against) return against.error();
+        claim.base.variant.frame = *of;
+        claim.against_frame = *against;
+    }
+    return frames.taken();
 }
 
 /// Frames of scenarios at the extent that was asked for, or at the one that suits the device.

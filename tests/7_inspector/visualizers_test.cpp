@@ -99,6 +99,25 @@ TEST(Visualizers, ThePinnedPixelHasTheSpectrumThatTheSessionCountsForItsTile) {
     EXPECT_THAT(desk.said("Visualizers/selected/tables/spectra/0"), HasSubstr(fmt::format("tiles {:.0f}", rows.front()[1])));
 }
 
+TEST(Visualizers, CurvesAreATablesColumnsOverItsFirst) {
+    const NumberTable table{.columns = {{"step", ""}, {"held", "W"}, {"escaped", "W"}}, .rows = {{0, 5, 0}, {1, 3, 2}}};
+    const std::vector<PlotSeries> curves = curves_of(table);
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].label, "held");
+    EXPECT_THAT(curves[0].points, ElementsAre(glm::dvec2(0, 5), glm::dvec2(1, 3)));
+    EXPECT_THAT(curves[1].points, ElementsAre(glm::dvec2(0, 0), glm::dvec2(1, 2)));
+}
+
+TEST(Visualizers, ATableOfCurvesIsPlotted) {
+    Desk& desk = gallery();
+    desk.model().select_frame(frame_of("two_rooms"));
+    must(desk.player->wait());
+    must(desk.player->click("Visualizers/indirect/lpv/visible taps"));
+    must(desk.player->wait());
+    EXPECT_NO_THROW(desk.widget("Visualizers/selected/tables/energy/curves/field"));
+    EXPECT_THAT(desk.said("Visualizers/selected/tables/energy/0"), HasSubstr("held"));
+}
+
 TEST(Visualizers, CountersOfWhatHadNoRoomAreThoseOfTheRun) {
     Desk& desk = gallery();
     must(desk.player->click("Visualizers/lighting/tiled/overflow"));

@@ -86,6 +86,20 @@ TEST(BenchVerb, EveryPublishedRatioHasASourceAndEveryCounterIsOneOfEitherWays) {
         }
 }
 
+TEST(BenchVerb, MeasuresAWayInAChangedFrameOfTheScenario) {
+    const Finished made = strata("bench lpv --only '4 lights, against 1' --size 32x18 --repeats 1 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json row = json::parse(made.out)["rows"][0];
+    EXPECT_EQ(row["of"]["frame"], "4 lights");
+    EXPECT_EQ(row["against"]["frame"], "1 light");
+    EXPECT_GT(row["of"]["counters"]["injected"], row["against"]["counters"]["injected"]);
+    EXPECT_GT(row["of"]["stage_bytes"], 0);
+    ASSERT_EQ(strata("record two_rooms -o rooms.strata").code, 0);
+    const Finished of_capture = strata("bench lpv rooms.strata --only '4 lights, against 1' --repeats 1");
+    EXPECT_NE(of_capture.code, 0);
+    EXPECT_THAT(of_capture.err, HasSubstr("measure it without a capture"));
+}
+
 TEST(BenchVerb, TakesACaptureAndWritesTheJsonBesideTheTable) {
     ASSERT_EQ(strata("record one_pane -o pane.strata").code, 0);
     const Finished made = strata(command_of_one() + " -o ratios.json" + " pane.strata");

@@ -11,7 +11,7 @@ namespace strata::ui {
 namespace {
 
 constexpr std::size_t rows_at_first = 3, rows_at_most = 256;
-constexpr float label_width = 116;
+constexpr float label_width = 116, curve_height = 160;
 
 /// A bar of the colors, with its ends in the view's unit.
 void draw_legend(const Model& model, Widgets& widgets, const DebugView& view) {
@@ -81,6 +81,11 @@ void draw_overflow(Widgets& widgets, const Replay& replay, const Technique& tech
     }
 }
 
+void draw_curves(Widgets& widgets, const NumberTable& table, PlotView& view) {
+    const PlotAxis x{std::string(table.columns[0].name)}, y{std::string(table.columns.back().unit)};
+    draw_plot(widgets, {"curves", x, y, {ImGui::GetContentRegionAvail().x, curve_height}}, curves_of(table), view);
+}
+
 /// Which slice of a view.
 std::string text_of(double at, double half) { return fmt::format("{:.4g} \xc2\xb1 {:.3g}", at, half); }
 
@@ -131,7 +136,7 @@ void ViewReadouts::draw_numbers(const Model& model, Services& services, const Vi
     const auto updating = widgets.updating(updating_word(is_of_label, services.replayer, choice.view->name));
     if (choice.found) draw_pixel(model, widgets, *choice.found);
     if (const auto replay = services.replayer.shown("A")) draw_overflow(widgets, *replay, *choice.technique);
-    if (choice.found) draw_tables(widgets, *choice.found);
+    if (choice.found) draw_tables(widgets, *choice.technique, *choice.found);
 }
 
 void ViewReadouts::draw_slice(Model& model, Services& services, const ViewChoice& choice) {
@@ -250,12 +255,14 @@ void ViewReadouts::draw_waves_of(Model& model, Widgets& widgets, const TileWaves
     }
 }
 
-void ViewReadouts::draw_tables(Widgets& widgets, const TechniqueViews& found) const {
+void ViewReadouts::draw_tables(Widgets& widgets, const Technique& technique, const TechniqueViews& found) {
     const auto scope = widgets.in("tables");
     for (const auto& [name, table] : found.tables) {
         const std::size_t first = std::min(rows_at_first, table.rows.size());
         const auto of = widgets.in(name);
         widgets.text("name", fmt::format("{}: {}", name, plural(table.rows.size(), "row")), &palette().accent);
+        const auto declared = std::ranges::find(technique.tables, name, &DebugTable::name);
+        if (declared != technique.tables.end() && declared->is_curves) draw_curves(widgets, table, plots_[name]);
         ImGui::PushTextWrapPos(0);
         for (std::size_t r = 0; r < first; ++r) widgets.text(fmt::format("{}", r), row_text(table, r));
         ImGui::PopTextWrapPos();

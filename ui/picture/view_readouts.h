@@ -2,6 +2,9 @@
 // are a pixel's, what overflowed, waves per SIMD, the tables.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "ui/panel.h"
 #include "ui/picture/mode_waves.h"
 #include "ui/picture/views.h"
@@ -37,7 +40,7 @@ private:
     void draw_waves_result(Model&, Services&, const Technique&);
     void start_waves(const Model&, Services&, const Technique&);
     void draw_waves_of(Model&, Widgets&, const TileWaves&);
-    void draw_tables(Widgets&, const TechniqueViews&) const;
+    void draw_tables(Widgets&, const Technique&, const TechniqueViews&);
 
     /// What a slice was made of.
     struct Slice {
@@ -63,6 +66,8 @@ private:
     JobOf<TileWaves> waves_job_;
     Keyed<WavesOf, std::shared_ptr<const TileWaves>> waves_;
     std::string waves_error_;  ///< of what was asked last
+
+    std::map<std::string, PlotView> plots_;  ///< of the tables that are curves
 };
 
 }  // namespace strata::ui

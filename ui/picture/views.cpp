@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "ui/window/theme.h"
+
 namespace strata::ui {
 namespace {
 
@@ -125,6 +127,16 @@ std::vector<const Param*> params_of(const Technique& technique, const DebugView&
     for (const Param& param : technique.params)
         if (has_word(view.help, param.name)) found.push_back(&param);
     return found;
+}
+
+std::vector<PlotSeries> curves_of(const NumberTable& table) {
+    std::vector<PlotSeries> curves;
+    for (std::size_t c = 1; c < table.columns.size(); ++c) {
+        PlotSeries curve{.label = std::string(table.columns[c].name), .points = {}, .color = color_of_stage(c)};
+        for (const std::vector<double>& row : table.rows) curve.points.emplace_back(row[0], row[c]);
+        curves.push_back(std::move(curve));
+    }
+    return curves;
 }
 
 bool counts_overflow(const Counter& counter) {

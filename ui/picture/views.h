@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "replay/session/session.h"
+#include "ui/widgets/plot.h"
 #include "ui/window/imgui_layer.h"
 
 namespace strata::ui {
@@ -49,6 +50,9 @@ std::vector<PixelRow> rows_of_pixel(const TechniqueViews&, glm::ivec2 pixel);
 
 /// The technique's parameters that the view's help names.
 std::vector<const Param*> params_of(const Technique&, const DebugView&);
+/// The columns of a table over its first one.
+std::vector<PlotSeries> curves_of(const NumberTable&);
+
 /// Whether it counts what had no room.
 bool counts_overflow(const Counter&);
 

@@ -14,6 +14,13 @@ double finest_cell(const LightVolume& volume) {
     return std::max({sizes.x, sizes.y, sizes.z});
 }
 
+/// As many cells as it takes to fill the volume; one that would stick out by less than a whole cell is needed, too.
+glm::uvec3 filling_cells(const glm::uvec3& recorded, double cell_scale) {
+    glm::uvec3 cells;
+    for (glm::length_t i = 0; i < 3; ++i) cells[i] = std::uint32_t(std::ceil(recorded[i] / cell_scale));
+    return cells;
+}
+
 Grid local_grid(const LightVolume& volume) {
     const double size = finest_cell(volume);
     return {.cells = volume.cells,
@@ -37,11 +44,13 @@ Grid cascade_grid(const LightVolume& volume, std::uint32_t cascade, const glm::d
 
 }  // namespace
 
-std::vector<Grid> grids(const Frame& frame) {
+std::vector<Grid> grids(const Frame& frame, double cell_scale) {
     std::vector<Grid> result;
-    for (const LightVolume& volume : frame.light_volumes)
+    std::vector<LightVolume> volumes = frame.light_volumes;
+    for (LightVolume& volume : volumes) volume.cells = filling_cells(volume.cells, cell_scale);
+    for (const LightVolume& volume : volumes)
         if (volume.kind == VolumeKind::fixed_local) result.push_back(local_grid(volume));
-    for (const LightVolume& volume : frame.light_volumes) {
+    for (const LightVolume& volume : volumes) {
         if (volume.kind != VolumeKind::cascaded_global) continue;
         for (std::uint32_t k = 0; k < volume.cascades; ++k) result.push_back(cascade_grid(volume, k, frame.view.origin));
     }

@@ -24,7 +24,8 @@ struct Grid {
 };
 
 /// Local volumes in the order of the frame, then the cascades of global volumes, finest first.
-std::vector<Grid> grids(const Frame&);
+/// Cells so many times as wide as recorded, in the recorded extent.
+std::vector<Grid> grids(const Frame&, double cell_scale = 1);
 
 std::size_t cell_count(const Grid&);
 /// Position of a cell in arrays: (z ny + y) nx + x.

@@ -10,6 +10,8 @@
 #include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/indirect/lpv/ratios.h"
+#include "passes/indirect/lpv/views/views.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
@@ -32,6 +34,7 @@ constexpr auto irradiances = choice_names({{irradiance_face, "face"}, {irradianc
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
+constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 /// A transparent fragment asks about the way to eight cells of each grid, after its lights, and has no counter that tells when a
@@ -197,10 +200,35 @@ Technique lpv() {
                                          .high = 2,
                                          .fallback = 1,
                                          .help = "reflections of light on its way; 2: surfaces reflect once more what grids "
-                                                 "brought them"})},
-        .points = {"iterations=8", "iterations=32", "propagation=linear", "propagation=clamped", "faces=exact", "occlusion=none",
-                   "taps=all", "map_size=64", "irradiance=face", "apply_resolution=half", "relight=changed", "damping=2",
-                   "bounces=2", "occlusion=fuzzy", "occlusion=both"},
+                                                 "brought them"}),
+             param<&LpvParams::cell_scale>({.name = "cell_scale",
+                                            .high = 2,
+                                            .fallback = cells_recorded,
+                                            .help = "width of cells as a multiple of the recorded one; the extent stays, so 1/2 "
+                                                    "is 8 times the cells",
+                                            .choices = cell_scales})},
+        .points = {"iterations=8",
+                   "iterations=32",
+                   "iterations=64",
+                   "propagation=linear",
+                   "propagation=clamped",
+                   "faces=exact",
+                   "occlusion=none",
+                   "occlusion=fuzzy",
+                   "occlusion=both",
+                   "taps=all",
+                   "occlusion=none taps=all",
+                   "map_size=64",
+                   "irradiance=face",
+                   "irradiance=face iterations=8",
+                   "cell_scale=2",
+                   "cell_scale=1/2",
+                   "cell_scale=1/2 iterations=64",
+                   "cell_scale=1/2 irradiance=face",
+                   "apply_resolution=half",
+                   "damping=2",
+                   "bounces=2",
+                   "relight=changed"},
         .counters = {counter<&LpvCounters::injected>(
                          {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
                      counter<&LpvCounters::guarded>(
@@ -246,16 +274,37 @@ Technique lpv() {
                    .unit = "grid",
                    .high = 8,
                    .declare = lighting_volume,
-                   .if_zero = "no grid lights a surface"}},
+                   .if_zero = "no grid lights a surface"},
+                  {.name = "cells",
+                   .help = "a sphere per lit cell: the radiant intensity it sends where the sphere's surface points",
+                   .unit = "W/sr",
+                   .high = .5,
+                   .declare = cells_view,
+                   .channels = {"red", "green", "blue"}},
+                  {.name = "injected",
+                   .help = "a sphere per cell with injected light: its radiant intensity before propagation",
+                   .unit = "W/sr",
+                   .high = .5,
+                   .declare = injected_view,
+                   .channels = {"red", "green", "blue"}},
+                  {.name = "axial occlusion",
+                   .help = "share of light that blockers stop at the faces of the surface's cell, the larger of two per axis",
+                   .unit = "share",
+                   .high = 1,
+                   .declare = axial_occlusion_view,
+                   .channels = {"across x", "across y", "across z"},
+                   .if_zero = "no blocker stops light between the cells at these surfaces"}},
         .tables = {{.name = "energy",
                     .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
                     .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
-                    .declare = energy_table},
+                    .declare = energy_table,
+                    .is_curves = true},
                    {.name = "bounces",
                     .help = "energy that surfaces reflect into the first grid, by earlier bounces of the light",
                     .columns = {{"earlier bounces", ""}, {"injected", "W"}},
                     .declare = bounces_table}},
         .beyond_device = beyond_device,
+        .claims = {.ratios = lpv_ratios()},
         .declare = declare,
         .approximates = approximates,
         .model = lpv_model,

@@ -29,6 +29,10 @@ const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
 const uint relight_always = 0u;   // in every frame
 const uint relight_changed = 1u;  // where something that determines the light differs from the last time (kept/)
 
+const uint cells_half = 0u;  // as wide as recorded, times a power of two
+const uint cells_recorded = 1u;
+const uint cells_double = 2u;
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -45,6 +49,7 @@ struct LpvParams {
     float damping;   // exponent; 0: off
     uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
     uint bounces;
+    uint cell_scale;  // cells_...
 };
 
 // Vertices of a reflective shadow map.

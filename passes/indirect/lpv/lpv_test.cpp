@@ -70,6 +70,23 @@ TEST(LightVolumes, LieWhereTheFrameSays) {
     EXPECT_EQ(all[2].fade_cells, 2);
 }
 
+TEST(LightVolumes, FillTheSameExtentWithCellsOfAnyScale) {
+    Frame frame;
+    frame.light_volumes = {{.half_extent = vec3(8, 4, 8), .cells = uvec3(32, 16, 32), .cascades = 2},
+                           {.kind = VolumeKind::fixed_local, .half_extent = vec3(4, 2, 1), .cells = uvec3(9, 8, 8)}};
+    for (const double scale : {0.5, 2.0}) {
+        const std::vector<Grid> recorded = grids(frame), all = grids(frame, scale);
+        ASSERT_EQ(all.size(), 3u);
+        EXPECT_EQ(all[1].cell_size, scale * recorded[1].cell_size) << "cascades";
+        EXPECT_EQ(dvec3(all[1].cells) * all[1].cell_size, dvec3(16, 8, 16));
+        EXPECT_EQ(all[2].cell_size, 2 * all[1].cell_size);
+        // 9 cells of 8 / 9 m become 18 of 4 / 9 m, or 5 of 1.6 m.
+        EXPECT_EQ(all[0].cells, scale < 1 ? uvec3(18, 16, 16) : uvec3(5, 4, 4));
+        EXPECT_NEAR(all[0].cell_size, scale < 1 ? 4. / 9 : 1.6, 1e-15);
+        EXPECT_EQ(cell_middle(all[0], glm::ivec3(0)) + cell_middle(all[0], glm::ivec3(all[0].cells) - 1), dvec3(0));
+    }
+}
+
 TEST(LightVolumes, StandStillWhileTheEyeMovesWithinACell) {
     Frame frame;
     frame.light_volumes = {{.half_extent = vec3(8), .cells = uvec3(32)}};

@@ -3,6 +3,7 @@
 #include "passes/indirect/lpv/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -117,7 +118,7 @@ LitGrid lit(const Frame& frame, const Grid& grid, const Sources& sources, std::s
 
 LitVolumes lit_volumes(const Frame& frame, const LpvParams& params) {
     LitVolumes volumes{.barriers = barriers(frame), .grids = {}};
-    const std::vector<Grid> all = grids(frame);
+    const std::vector<Grid> all = grids(frame, std::ldexp(1.0, int(params.cell_scale) - int(cells_recorded)));
     if (all.empty()) return volumes;
     const Sources sources(frame, params);
     for (const Grid& grid : all) volumes.grids.push_back(lit(frame, grid, sources, volumes.barriers, params));

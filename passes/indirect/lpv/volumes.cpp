@@ -1,6 +1,7 @@
 #include "passes/indirect/lpv/volumes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/bounce.h"
@@ -11,6 +12,9 @@
 
 namespace strata::indirect {
 namespace {
+
+/// Width of cells, as a multiple of the recorded one.
+double cell_scale(const LpvParams& params) { return std::exp2(double(params.cell_scale) - double(cells_recorded)); }
 
 /// As recorded, or as chosen for all grids.
 std::uint32_t occlusion_of(const LightGrid& grid, std::uint32_t chosen) {
@@ -53,7 +57,7 @@ ComputePass gated(ComputePass pass, const DeviceGrid& grid, std::uint32_t gate, 
 
 std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const LpvParams& params) {
     std::vector<DeviceGrid> made;
-    for (const LightGrid& grid : light_grids(*frame.recorded)) {
+    for (const LightGrid& grid : light_grids(*frame.recorded, cell_scale(params))) {
         const glm::dvec3 origin = grid.origin - frame.recorded->view.origin;
         const std::uint32_t occlusion = occlusion_of(grid, params.occlusion);
         const bool is_axial = occlusion == occlusion_axial || occlusion == occlusion_both;

@@ -21,10 +21,9 @@ vec2 moment_aside() {
 
 vec3 aside_of(vec3 d, vec3 f) { return moment_aside().x * d + moment_aside().y * f; }
 
-// W through a face of the neighbor in direction `moment`, which has the length of the face's moment.
+// W through a face of the neighbor in direction `moment`, which has the length of the face's moment; not less than nothing.
 float flux(vec4 light, float angle, vec3 moment) {
-    const float through = angle * y0 * light.x + y1 * dot(light.yzw, moment);
-    return propagation == propagation_linear ? through : max(through, 0.0);
+    return max(angle * y0 * light.x + y1 * dot(light.yzw, moment), 0.0);
 }
 
 vec3 unit(uint axis, float direction) {
@@ -33,8 +32,18 @@ vec3 unit(uint axis, float direction) {
     return d;
 }
 
+// The sum below where no face is clamped, in closed form: what opposite faces send of l0 and of l1 along the axis cancels.
+vec4 through_unclamped_faces(vec4 light, uint axis, float direction) {
+    const float along = y1 * light[axis + 1u];
+    vec4 sum = vec4(0.0, 2.0 * moment_aside().y * y1 * light.yzw);
+    sum[axis + 1u] = direction * angle_ahead * y0 * light.x + moment_ahead() * along;
+    sum.x = (angle_ahead + 4.0 * angle_aside) * y0 * light.x + direction * (moment_ahead() + 4.0 * moment_aside().x) * along;
+    return sum;
+}
+
 // W that a cell sends along an axis, and the sum of the faces' directions weighted by it.
 vec4 through_faces(vec4 light, uint axis, float direction) {
+    if (propagation == propagation_linear) return through_unclamped_faces(light, axis, direction);
     const vec3 d = unit(axis, direction);
     const float ahead = flux(light, angle_ahead, moment_ahead() * d);
     vec4 sum = ahead * vec4(1.0, d);

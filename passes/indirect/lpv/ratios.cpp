@@ -1,0 +1,111 @@
+#include "passes/indirect/lpv/ratios.h"
+
+#include "capture_format/frame.h"
+
+namespace strata::indirect {
+namespace {
+
+/// The first volume with so many cells each way in the same extent.
+template <std::uint32_t cells>
+void with_cells(Frame& frame) {
+    frame.light_volumes.front().cells = glm::uvec3(cells);
+}
+
+/// The first lights of a hall, each shining in all directions, in a volume.
+template <std::size_t lights>
+void with_lights(Frame& frame) {
+    frame.lights.resize(lights);
+    for (Light& light : frame.lights) light.type = LightType::omni;
+    frame.light_volumes = {
+        {.kind = VolumeKind::fixed_local, .center = {0, 2.5, 0}, .half_extent = {7, 3.5f, 31}, .cells = {7, 4, 31}}};
+}
+
+constexpr FrameChange cells_16{"16^3 cells", with_cells<16>}, cells_32{"32^3 cells", with_cells<32>},
+    cells_48{"48^3 cells", with_cells<48>}, cells_64{"64^3 cells", with_cells<64>}, lights_1{"1 light", with_lights<1>},
+    lights_4{"4 lights", with_lights<4>}, lights_16{"16 lights", with_lights<16>}, lights_64{"64 lights", with_lights<64>};
+
+/// A published ratio.
+struct Statement {
+    double ratio = 0;
+    std::string_view source;
+};
+// Both count cells, texels and iterations, and time nothing.
+constexpr Statement per_cell{8, "bytes and operations in proportion to cells, docs/algorithms/lighting.md 5.9"},
+    per_texel{4, "additions in proportion to texels, docs/algorithms/lighting.md 5.9"},
+    per_iteration{4, "bytes and operations in proportion to iterations, docs/algorithms/lighting.md 5.9"};
+
+}  // namespace
+
+std::vector<TimeRatio> lpv_ratios() {
+    using Names = std::vector<std::string_view>;
+    const Names stage = {}, propagation = {"/propagate"}, apply = {"/apply"}, injection = {"/map", "/inject"},
+                inject = {"/inject"};
+    const Names injected = {"injected"}, taps = {"samples", "hidden taps"}, none = {};
+    // Maps of fewer texels, so that 64 lights fit into a minute.
+    constexpr std::string_view few_texels = "map_size=32 iterations=1";
+    struct Row {
+        std::string_view name, of, against, scenario;
+        const Names &steps, &counters;
+        FrameChange of_frame = {}, against_frame = {};
+        std::optional<Statement> stated = {};
+    };
+    const Row rows[] = {
+        {"propagation: the closed form, against five faces clamped", "propagation=linear", "propagation=clamped", "cornell_box",
+         propagation, none},
+        {"propagation: the closed form, against five faces that keep the energy", "propagation=linear", "propagation=energy_true",
+         "cornell_box", propagation, none},
+        {"propagation: faces that keep the energy, against clamped", "propagation=energy_true", "propagation=clamped",
+         "cornell_box", propagation, none},
+        {"propagation: integrals over faces, against their middles", "faces=exact", "faces=centre", "cornell_box", propagation,
+         none},
+        {"propagation: 64 iterations, against 16",
+         "iterations=64",
+         "iterations=16",
+         "cornell_box",
+         propagation,
+         none,
+         {},
+         {},
+         per_iteration},
+        {"propagation: links with blockers, against open ones", "occlusion=axial", "occlusion=none", "two_rooms", propagation,
+         none},
+        {"propagation: 32^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_32, cells_16, per_cell},
+        {"propagation: 48^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_48, cells_16},
+        {"propagation: 64^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_64, cells_16},
+        {"propagation: 64^3 cells, against 32^3", "", "", "cornell_box", propagation, none, cells_64, cells_32, per_cell},
+        {"the stage: 32^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_32, cells_16},
+        {"the stage: 48^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_48, cells_16},
+        {"the stage: 64^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_64, cells_16},
+        {"the stage: blockers, against none", "occlusion=axial", "occlusion=none", "two_rooms", stage, taps},
+        {"apply: cells that blockers do not hide, against all eight", "taps=visible", "taps=all", "two_rooms", apply, taps},
+        {"injection: maps of 256^2 texels, against 128^2",
+         "map_size=256",
+         "map_size=128",
+         "two_rooms",
+         inject,
+         injected,
+         {},
+         {},
+         per_texel},
+        {"injection: 4 lights, against 1", few_texels, few_texels, "hall_of_lights_64", injection, injected, lights_4, lights_1},
+        {"injection: 16 lights, against 1", few_texels, few_texels, "hall_of_lights_64", injection, injected, lights_16,
+         lights_1},
+        {"injection: 64 lights, against 1", few_texels, few_texels, "hall_of_lights_64", injection, injected, lights_64,
+         lights_1},
+    };
+    std::vector<TimeRatio> ratios;
+    for (const Row& row : rows)
+        ratios.push_back({.name = row.name,
+                          .of = row.of,
+                          .against = row.against,
+                          .steps = row.steps,
+                          .published = row.stated ? std::optional(row.stated->ratio) : std::nullopt,
+                          .source = row.stated ? row.stated->source : "",
+                          .scenario = row.scenario,
+                          .counters = row.counters,
+                          .of_frame = row.of_frame,
+                          .against_frame = row.against_frame});
+    return ratios;
+}
+
+}  // namespace strata::indirect

@@ -1,0 +1,12 @@
+// What light propagation volumes cost, as ratios, for `strata bench`.
+#pragma once
+
+#include <vector>
+
+#include "passes/technique.h"
+
+namespace strata::indirect {
+
+std::vector<TimeRatio> lpv_ratios();
+
+}  // namespace strata::indirect

@@ -1,0 +1,88 @@
+#include "passes/indirect/lpv/views/views.h"
+
+#include <ranges>
+#include <vector>
+
+#include "passes/gbuffer/surface_at.h"
+#include "passes/indirect/lpv/injection/injection.h"
+#include "passes/indirect/lpv/propagation/propagation.h"
+#include "passes/indirect/lpv/views/views.shared.h"
+#include "passes/indirect/lpv/volumes.h"
+
+namespace strata::indirect {
+namespace {
+
+/// A picture, and the view depth of what it shows at each pixel.
+struct DeepPicture {
+    Image color, nearest;
+};
+
+DeepPicture backdrop(Graph& graph, const FrameImages& frame) {
+    DeepPicture picture{.color = graph.create("volumes' picture", {.extent = frame.extent, .format = Format::rgba32f}),
+                        .nearest = graph.create("volumes' nearest", {.extent = frame.extent, .format = Format::r32f})};
+    if (frame.gbuffer0) {
+        sample_gbuffer(graph.compute("indirect/lpv/views/backdrop.comp"), frame)
+            .stores("picture", picture.color)
+            .stores("nearest", picture.nearest)
+            .over(frame.extent);
+    } else {
+        graph.clear(picture.color, {});
+        graph.clear(picture.nearest, {{1e30}});
+    }
+    return picture;
+}
+
+/// `light` of each grid, LightCell.
+Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light) {
+    DeepPicture picture = backdrop(graph, frame);
+    if (grids.empty()) return picture.color;
+    Buffer places = graph.create("places of grids", grids.size() * sizeof(GridPlace));
+    graph.clear(places, 0);
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        graph.compute("indirect/lpv/views/spheres.comp")
+            .loads("Light", light[i])
+            .updates("Places", places)
+            .updates("picture", picture.color)
+            .updates("nearest", picture.nearest)
+            .push(SpheresPush{.grid = grids[i].place, .number = static_cast<std::uint32_t>(i)})
+            .over(frame.extent);
+    return picture.color;
+}
+
+}  // namespace
+
+Image cells_view(Graph& graph, FrameImages& frame, const Settings& settings) {
+    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, settings.as<LpvParams>());
+    std::vector<Buffer> light;
+    for (const DeviceGrid& grid : grids) light.push_back(grid.total);
+    return spheres(graph, frame, grids, light);
+}
+
+Image injected_view(Graph& graph, FrameImages& frame, const Settings& settings) {
+    const auto params = settings.as<LpvParams>();
+    std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
+    inject_lights(graph, frame, params, grids);
+    std::vector<Buffer> light;
+    for (DeviceGrid& grid : grids)
+        propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer&) {
+            if (step > 0) return;
+            light.push_back(graph.create(grid.name("light of step 0 of grid"), graph.record(grid.total).bytes));
+            graph.copy(grid.total, light.back());
+        });
+    return spheres(graph, frame, grids, light);
+}
+
+Image axial_occlusion_view(Graph& graph, FrameImages& frame, const Settings& settings) {
+    Image picture = graph.create("axial occlusion", {.extent = frame.extent, .format = Format::rgba32f});
+    graph.clear(picture, {});
+    if (!frame.gbuffer0) return picture;
+    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, settings.as<LpvParams>());
+    for (const DeviceGrid& grid : std::views::reverse(grids))
+        sample_gbuffer(fix_links(graph.compute("indirect/lpv/views/axial_occlusion.comp"), grid), frame)
+            .updates("picture", picture)
+            .push(grid.place)
+            .over(frame.extent);
+    return picture;
+}
+
+}  // namespace strata::indirect

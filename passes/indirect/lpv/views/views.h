@@ -1,0 +1,16 @@
+// What grids hold, as pictures.
+#pragma once
+
+#include "passes/frame_images.h"
+#include "passes/technique.h"
+
+namespace strata::indirect {
+
+/// Cells as spheres, shaded by what they hold after propagation.
+Image cells_view(Graph&, FrameImages&, const Settings&);
+/// The same of what was injected.
+Image injected_view(Graph&, FrameImages&, const Settings&);
+/// What blockers take of the light through the faces of the cell that a surface lies in, by axis.
+Image axial_occlusion_view(Graph&, FrameImages&, const Settings&);
+
+}  // namespace strata::indirect
