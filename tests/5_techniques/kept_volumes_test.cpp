@@ -188,7 +188,7 @@ TEST(KeptVolumes, AreTheSameInAnyOrderOfFrames) {
     const auto session = session_of(frames);
     std::vector<HostImage> wanted;
     for (std::size_t i = 0; i < frames.size(); ++i) wanted.push_back(lit_anew(*session, i));
-    for (const std::size_t i : {0, 3, 1, 4, 2, 3, 3, 0, 4, 1, 0, 2, 4, 3, 0})
+    for (const std::size_t i : {0u, 3u, 1u, 4u, 2u, 3u, 3u, 0u, 4u, 1u, 0u, 2u, 4u, 3u, 0u})
         EXPECT_TRUE(kept(*session, i).indirect.texels == wanted[i].texels) << i;
 }
 
@@ -316,7 +316,7 @@ std::vector<Frame> rooms_around_middles(const std::vector<glm::dvec3>& eyes_move
 TEST(KeptVolumes, AreLitAnewForAnotherEyeWhereItDecidesOnWhichSideOfAWallAMiddleIs) {
     const auto session = session_of(rooms_around_middles({{0, 0, 0}, {.37, .11, -.23}, {-.13, .29, .41}, {.77, -.31, .17}}));
     kept(*session, 0);
-    for (const std::size_t i : {1, 2, 3, 0}) {
+    for (const std::size_t i : {1u, 2u, 3u, 0u}) {
         const Lit moved = kept(*session, i);
         EXPECT_EQ(moved.cells, room_cells);
         EXPECT_EQ(moved.faces, faces_in({24, 10, 14}));

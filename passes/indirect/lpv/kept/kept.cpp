@@ -1,7 +1,6 @@
 #include "passes/indirect/lpv/kept/kept.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "passes/indirect/lpv/kept/kept.shared.h"
 #include "passes/indirect/lpv/kept/keys.h"
