@@ -20,7 +20,7 @@ StageInfo stage() {
             .truth = indirect_truth,
             .truth_is = "one bounce gathered in double, itself off by 1 to 3 % (1600 directions per sample)",
             .judge = indirect_judge,
-            .scenarios = {"cornell_box", "two_rooms"}};
+            .scenarios = {"cornell_box", "two_rooms", "courtyard"}};
 }
 
 }  // namespace strata::indirect
