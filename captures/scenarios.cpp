@@ -72,6 +72,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::cornell_box},
     {"two_rooms", "How much of a room's bounced light passes a thin wall with a closed door, and how much an open one?", 80, 45,
      scenario::two_rooms},
+    {"courtyard", "Does sunlight that bounces into an arcade stay steady while the cascades follow a walking eye?", 80, 45,
+     scenario::courtyard},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

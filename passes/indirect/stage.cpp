@@ -24,7 +24,7 @@ StageInfo stage() {
                               .make = two_bounce_truth,
                               .is = "one and two bounces gathered in double, 1600 paths per sample"}},
             .judge = indirect_judge,
-            .scenarios = {"cornell_box", "two_rooms"},
+            .scenarios = {"cornell_box", "two_rooms", "courtyard"},
             .leaves = {"volume_light"}};
 }
 

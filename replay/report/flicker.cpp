@@ -31,23 +31,28 @@ std::optional<glm::dvec2> depth_range(const Frame& frame, std::span<const std::u
     return range.x <= range.y ? std::optional(range) : std::nullopt;
 }
 
-/// The first technique that stands in for the stage's truth and can do the frame.
-Result<Request> stand_in(Session& session, Stage stage, Request base) {
+/// The first technique that stands in for the stage's truth and can do the frame; nothing where none does.
+Result<std::optional<Request>> stand_in(Session& session, Stage stage, Request base) {
     const auto planned = session.plan(base);
     if (!planned) return planned.error();
     for (const Technique* technique : techniques_of(stage)) {
         if (!technique->abilities.stands_in_for_truth || unsupported(*technique, planned->features)) continue;
         base.choices.use(*technique);
-        return base;
+        return std::optional(std::move(base));
     }
-    return fail(Fault::usage, "flicker is measured against a technique that stands in for the truth; {} has none for this frame",
-                name(stage));
+    return std::optional<Request>();
 }
 
 Result<ReferenceImage> picture(Session& session, Request request, Stage stage) {
     const std::string output(info(stage).outputs.front());
     request.outputs = {output};
     return session.run(request).and_then([&](auto& run) { return in_double(run.images.at(output)); });
+}
+
+Result<ReferenceImage> truth_in_double(Session& session, const Request& request, Stage stage) {
+    return session.truth(request, stage).and_then([&](auto& truth) {
+        return std::move(truth.at(std::string(info(stage).outputs.front())));
+    });
 }
 
 }  // namespace
@@ -87,7 +92,8 @@ Result<std::vector<double>> measure_flicker(Session& session, const ReportReques
             request.variant.eye = {.dolly = *walk.dolly * way, .pan = glm::radians(walk.pan) * way};
             return request;
         };
-        const auto truth = picture(session, placed(*exact), wanted.stage);
+        const auto truth = *exact ? picture(session, placed(**exact), wanted.stage)
+                                  : truth_in_double(session, placed(wanted.base), wanted.stage);
         if (!truth) return truth.error();
         for (std::size_t r = 0; r < rows.size(); ++r) {
             const auto got = picture(session, placed(rows[r]), wanted.stage);

@@ -27,8 +27,9 @@ private:
 /// that lies before the eye, metres. Nothing where nothing does.
 std::optional<double> default_dolly(const Frame&);
 
-/// Of each of the rows, on the stage's first output, against the technique that stands in for the stage's truth. The report wants
-/// flicker, and its walk has a dolly.
+/// Of each of the rows, on the stage's first output, against the technique that stands in for the stage's truth; where none does,
+/// against the truth in double, which takes as long per frame as the report's own. The report wants flicker, and its walk has a
+/// dolly.
 Result<std::vector<double>> measure_flicker(Session&, const ReportRequest&, std::span<const Request> rows, const Progress&);
 
 }  // namespace strata
