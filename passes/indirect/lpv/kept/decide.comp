@@ -17,50 +17,65 @@ layout(set = 0, binding = 3, scalar) buffer Starting { uint starting; };
 const uvec2 none = uvec2(0u);
 const KeptState nothing = KeptState(none, none, none, none, none, uvec3(0u), 0u, 0u, 0u);
 
-uvec3 groups_if(bool open, uvec3 threads, uint size) { return open ? (threads + size - 1u) / size : uvec3(0u); }
+// What a grid has to do in this frame.
+struct Task {
+    bool starts, ends, finds_links;
+    uint from, to;  // steps of propagation
+};
 
-void main() {
-    const KeptState before = state;
+Task task_of(KeptState before) {
     const bool shows_this_place = before.shown != none && before.place == push.place;
-    const bool is_done = shows_this_place && before.shown == push.light;
-    // Light that was begun is ended first: with lights that change in every frame no light would ever be shown.
-    const bool goes_on = !is_done && shows_this_place && push.slice > 0u && before.coming != none;
-    const bool starts = !is_done && !goes_on;
-    const uint from = goes_on ? before.steps : 0u;
-    // Where there is nothing to show meanwhile, all at once.
+    if (shows_this_place && before.shown == push.light) return Task(false, false, false, 0u, 0u);
+    // Where there is nothing to show meanwhile, all at once. Light that was begun is ended first: with lights that change in every frame no
+    // light would ever be shown.
     const bool is_sliced = shows_this_place && push.slice > 0u;
-    const uint to = is_done ? 0u : is_sliced ? min(from + push.slice, push.iterations) : push.iterations;
-    const bool ends = !is_done && to == push.iterations;
-    const bool links = starts && before.linked != push.linked && push.linked != none;
+    const bool starts = !is_sliced || before.coming == none;
+    const uint from = starts ? 0u : before.steps;
+    const uint to = is_sliced ? min(from + push.slice, push.iterations) : push.iterations;
+    return Task(starts, to == push.iterations, starts && before.linked != push.linked && push.linked != none, from, to);
+}
 
+bool is_idle(Task w) { return !w.starts && !w.ends && w.from == w.to; }
+
+KeptState state_after(KeptState before, Task w) {
     KeptState after = before;
-    if (starts) {
+    if (w.starts) {
         after.coming = push.light;
         after.place = push.place;
     }
-    if (links) {
+    if (w.finds_links) {
         after.linked = push.linked;
         after.lattice = push.lattice;
         after.first = push.first;
         after.blockers = push.blockers;
         after.portals = push.portals;
     }
-    if (!is_done) after.steps = to;
-    if (ends) after.shown = after.coming;
-    if (ends || is_done) after.coming = none;
-    work.before = before;
-    work.after = after;
-    if (!is_done) state = nothing;
-    if (starts) atomicOr(starting, push.starting_bit);
+    after.steps = w.to;
+    if (w.ends) after.shown = after.coming;
+    if (w.ends || is_idle(w)) after.coming = none;
+    return after;
+}
 
-    const uvec3 maps = uvec3(push.map_size, push.map_size, 1u);
-    gates[gate_cells] = groups_if(starts, push.cells, 4u);
-    gates[gate_one_map] = groups_if(starts, maps, 8u);
-    gates[gate_one_map].z = starts ? 1u : 0u;
-    gates[gate_six_maps] = groups_if(starts, maps, 8u);
-    gates[gate_six_maps].z = starts ? 6u : 0u;
-    gates[gate_faces] = groups_if(links, push.cells * uvec3(1u, 1u, 3u), 4u);
-    gates[gate_barriers] = links ? uvec3((push.blockers + push.portals + 63u) / 64u, 1u, 1u) : uvec3(0u);
-    gates[gate_show] = groups_if(ends, push.cells, 4u);
-    for (uint step = 0u; step < push.iterations; ++step) gates[gate_first_step + step] = groups_if(step >= from && step < to, push.cells, 4u);
+uvec3 groups_if(bool open, uvec3 threads, uvec3 size) { return open ? (threads + size - 1u) / size : uvec3(0u); }
+
+void write_gates(Task w) {
+    const uvec3 cube = uvec3(4u), square = uvec3(8u, 8u, 1u);
+    gates[gate_cells] = groups_if(w.starts, push.cells, cube);
+    gates[gate_one_map] = groups_if(w.starts, uvec3(push.map_size, push.map_size, 1u), square);
+    gates[gate_six_maps] = groups_if(w.starts, uvec3(push.map_size, push.map_size, 6u), square);
+    gates[gate_faces] = groups_if(w.finds_links, push.cells * uvec3(1u, 1u, 3u), cube);
+    gates[gate_barriers] = groups_if(w.finds_links, uvec3(push.blockers + push.portals, 1u, 1u), uvec3(64u, 1u, 1u));
+    gates[gate_show] = groups_if(w.ends, push.cells, cube);
+    for (uint step = 0u; step < push.iterations; ++step)
+        gates[gate_first_step + step] = groups_if(step >= w.from && step < w.to, push.cells, cube);
+}
+
+void main() {
+    const KeptState before = state;
+    const Task w = task_of(before);
+    work.before = before;
+    work.after = state_after(before, w);
+    if (!is_idle(w)) state = nothing;
+    if (w.starts) atomicOr(starting, push.starting_bit);
+    write_gates(w);
 }
