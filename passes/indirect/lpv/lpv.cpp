@@ -147,7 +147,11 @@ Technique lpv() {
                          {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
                      counter<&LpvCounters::full_resolution>(
                          {.name = "full resolution pixels",
-                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"})},
+                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"}),
+                     counter<&LpvCounters::tiles>(
+                         {.name = "tiles", .help = "tiles of 8x8 pixels with a surface, summed over grids, with tap_tiles=on"}),
+                     counter<&LpvCounters::tiles_near_blockers>(
+                         {.name = "tiles near blockers", .help = "of these, those lit by the shader that asks blockers"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",

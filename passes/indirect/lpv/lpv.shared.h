@@ -110,6 +110,8 @@ struct LpvCounters {
     uint samples_near_blockers;
     uint blocker_tests;
     uint full_resolution;
+    uint tiles;
+    uint tiles_near_blockers;
 };
 
 #ifdef __cplusplus
