@@ -145,7 +145,7 @@ Technique lpv() {
                          {.name = "samples near blockers", .help = "samples with a blocker near their macro-cell"}),
                      counter<&LpvCounters::blocker_tests>(
                          {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
-                     counter<&LpvCounters::full_resolution>(
+                     counter<&LpvCounters::full_resolution_pixels>(
                          {.name = "full resolution pixels",
                           .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"}),
                      counter<&LpvCounters::tiles>(

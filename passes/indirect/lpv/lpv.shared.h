@@ -38,7 +38,7 @@ struct LpvParams {
     uint irradiance;
     uint macro_cells;  // whether taps ask only the blockers of their macro-cell
     uint apply_resolution;
-    float damping;  // exponent; 0: off
+    float damping;   // exponent; 0: off
     uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
 };
 
@@ -109,7 +109,7 @@ struct LpvCounters {
     uint unfinished;
     uint samples_near_blockers;
     uint blocker_tests;
-    uint full_resolution;
+    uint full_resolution_pixels;
     uint tiles;
     uint tiles_near_blockers;
 };
