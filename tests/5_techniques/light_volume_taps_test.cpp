@@ -57,6 +57,7 @@ Frame with_random_blockers(std::size_t count, unsigned seed) {
     return frame;
 }
 
+// Over 5 s of CPU: the count of blockers is a constant of shaders, so that every frame compiles its own.
 TEST(LightVolumeTaps, AskTheBlockersOfTheirMacroCellAndGetTheBitsOfAskingAll) {
     const auto session =
         must(Session::open({scenario_frames("two_rooms", 1, 2)[1], with_random_blockers(33, 2), with_random_blockers(100, 3)},
@@ -75,12 +76,16 @@ TEST(LightVolumeTaps, AskTheBlockersOfTheirMacroCellAndGetTheBitsOfAskingAll) {
 /// Of the box some tiles are near blockers and others are not.
 TEST(LightVolumeTaps, AreTheSameBitsWhereTilesNearNoBlockerHaveAShaderOfTheirOwn) {
     const auto session = must(Session::open({scenario_frames("cornell_box", 4)[0]}, {.validation = true}));
-    for (const char* more : {"apply_resolution=full", "apply_resolution=half", "damping=2"}) {
-        const auto all = indirect_light(*session, {"occlusion=axial", more}),
-                   tiles = indirect_light(*session, {"occlusion=axial", more, "tap_tiles=on"});
+    for (const char* more : {"apply_resolution=half", "damping=2"}) {
+        const auto all = indirect_light(*session, {"occlusion=axial", "iterations=4", more}),
+                   tiles = indirect_light(*session, {"occlusion=axial", "iterations=4", more, "tap_tiles=on"});
         EXPECT_TRUE(tiles.images.at("indirect").texels == all.images.at("indirect").texels) << more;
         for (const char* counter : {"samples", "samples near blockers", "blocker tests", "hidden taps", "full resolution pixels"})
             EXPECT_EQ(count_of(tiles, counter), count_of(all, counter)) << counter << ", " << more;
+        EXPECT_EQ(count_of(all, "tiles"), 0u);
+        EXPECT_EQ(count_of(tiles, "tiles"), 64u) << "of 8x8 pixels";
+        EXPECT_GT(count_of(tiles, "tiles near blockers"), 10u);
+        EXPECT_LT(count_of(tiles, "tiles near blockers"), 60u);
         EXPECT_GT(count_of(all, "samples near blockers"), 100u);
         EXPECT_LT(count_of(all, "samples near blockers"), .8 * double(count_of(all, "samples")));
     }
@@ -196,56 +201,54 @@ TEST(LightVolumeTaps, AreReadByAQuarterOfThePixelsWithLittleError) {
 TEST(LightVolumeTaps, AreDampedOnlyWhereThatIsAskedFor) {
     const auto session = must(Session::open({scenario_frames("two_rooms", 1, 2)[1]}, {.validation = true}));
     const auto plain = indirect_light(*session, {}), off = indirect_light(*session, {"damping=0"}),
-               least = indirect_light(*session, {"damping=1e-6"}), damped = indirect_light(*session, {"damping=2"});
+               least = indirect_light(*session, {"damping=1e-6"});
     EXPECT_TRUE(plain.images.at("indirect").texels == off.images.at("indirect").texels);
     EXPECT_EQ(count_of(plain, "blocker tests"), count_of(off, "blocker tests"));
     EXPECT_GT(count_of(least, "blocker tests"), 1.5 * double(count_of(off, "blocker tests")));
     EXPECT_LT(relative_error(least.images.at("indirect"), plain.images.at("indirect")), 1e-3);
-    EXPECT_GT(relative_error(damped.images.at("indirect"), plain.images.at("indirect")), .02);
 }
 
-void expect_what_the_model_says(Frame frame, const std::vector<std::string>& sets) {
-    const auto session = must(Session::open({std::move(frame)}, {.validation = true}));
+void expect_what_the_model_says(Session& session, const std::vector<std::string>& sets) {
     const Request request{.choices = chosen({lpv}, sets)};
-    const Accuracy accuracy = must(session->judge(request, Stage::indirect, Against::model));
+    const Accuracy accuracy = must(session.judge(request, Stage::indirect, Against::model));
     expect_within_tolerance(accuracy, *must(find_technique(lpv)), request);
     EXPECT_GT(accuracy.compared - accuracy.trivial, 1000u);
 }
 
 TEST(LightVolumeTaps, AreWhatTheModelSaysAtHalfResolution) {
-    for (const std::uint32_t samples : {1u, 4u})
-        expect_what_the_model_says(at_240(scenario_frames("two_rooms", samples, 2)[1]), {"apply_resolution=half"});
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const auto session = must(Session::open({at_240(scenario_frames("two_rooms", samples, 2)[1])}, {.validation = true}));
+        expect_what_the_model_says(*session, {"apply_resolution=half"});
+    }
 }
 
 TEST(LightVolumeTaps, AreWhatTheModelSaysWithDamping) {
-    const Frame frame = scenario_frames("two_rooms", 1, 2)[1];
-    for (const char* taps : {"taps=visible", "taps=all"}) expect_what_the_model_says(frame, {taps, "damping=2"});
-    expect_what_the_model_says(frame, {"apply_resolution=half", "damping=0.5"});
+    const auto session = must(Session::open({scenario_frames("two_rooms", 1, 2)[1]}, {.validation = true}));
+    expect_what_the_model_says(*session, {"damping=2"});
+    expect_what_the_model_says(*session, {"apply_resolution=half", "taps=all", "damping=0.5"});
 }
 
 /// Floors on both sides of the wall are closer than neighbors at half resolution may be.
 TEST(LightVolumeTaps, CrossNoWallAtHalfResolution) {
     const Frame frame = at_240(scenario_frames("two_rooms", 1, 2)[0]);
     const auto session = must(Session::open({frame}, {.validation = true}));
-    for (const char* macro_cells : {"macro_cells=on", "macro_cells=off"}) {
-        const auto run = indirect_light(*session, {"apply_resolution=half", macro_cells});
-        std::size_t dark = 0, lit = 0, leaking = 0;
-        for (std::uint32_t y = 0; y < run.height; ++y)
-            for (std::uint32_t x = 0; x < run.width; ++x) {
-                const glm::dvec4 normal = texel(run.images.at("surface_normal"), x, y);
-                if (normal.w <= 0) continue;
-                const SurfacePoint p = decoded_surface(frame, {normal, glm::dvec4(0), glm::dvec4(0)}, x, y);
-                const double side = (frame.view.origin + glm::transpose(glm::dmat3(frame.view.to_view)) * p.position).x;
-                if (std::abs(side) < .04) continue;  // the door
-                const bool has_light = glm::dvec3(texel(run.images.at("indirect"), x, y)) != glm::dvec3(0);
-                (side < 0 ? lit : dark) += 1;
-                leaking += side > 0 && has_light;
-            }
-        EXPECT_GT(lit, 5000u);
-        EXPECT_GT(dark, 5000u);
-        EXPECT_EQ(leaking, 0u) << macro_cells;
-        EXPECT_LT(count_of(run, "full resolution pixels"), .1 * double(count_of(run, "samples"))) << "most are upsampled";
-    }
+    const auto run = indirect_light(*session, {"apply_resolution=half"});
+    std::size_t dark = 0, lit = 0, leaking = 0;
+    for (std::uint32_t y = 0; y < run.height; ++y)
+        for (std::uint32_t x = 0; x < run.width; ++x) {
+            const glm::dvec4 normal = texel(run.images.at("surface_normal"), x, y);
+            if (normal.w <= 0) continue;
+            const SurfacePoint p = decoded_surface(frame, {normal, glm::dvec4(0), glm::dvec4(0)}, x, y);
+            const double side = (frame.view.origin + glm::transpose(glm::dmat3(frame.view.to_view)) * p.position).x;
+            if (std::abs(side) < .04) continue;  // the door
+            const bool has_light = glm::dvec3(texel(run.images.at("indirect"), x, y)) != glm::dvec3(0);
+            (side < 0 ? lit : dark) += 1;
+            leaking += side > 0 && has_light;
+        }
+    EXPECT_GT(lit, 5000u);
+    EXPECT_GT(dark, 5000u);
+    EXPECT_EQ(leaking, 0u);
+    EXPECT_LT(count_of(run, "full resolution pixels"), .1 * double(count_of(run, "samples"))) << "most are upsampled";
 }
 
 }  // namespace

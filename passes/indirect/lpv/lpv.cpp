@@ -245,7 +245,7 @@ Technique lpv() {
                          {.name = "samples near blockers", .help = "samples with a blocker near their macro-cell"}),
                      counter<&LpvCounters::blocker_tests>(
                          {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
-                     counter<&LpvCounters::full_resolution>(
+                     counter<&LpvCounters::full_resolution_pixels>(
                          {.name = "full resolution pixels",
                           .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"}),
                      counter<&LpvCounters::cells_relit>(
@@ -255,8 +255,11 @@ Technique lpv() {
                      counter<&LpvCounters::overflowed>(
                          {.name = "overflowed", .help = "sums of light in a cell that left their fixed point", .is_fatal = true}),
                      counter<&LpvCounters::reflected>(
-                         {.name = "reflected",
-                          .help = "pieces of surfaces injected for a second bounce, summed over all grids"})},
+                         {.name = "reflected", .help = "pieces of surfaces injected for a second bounce, summed over all grids"}),
+                     counter<&LpvCounters::tiles>(
+                         {.name = "tiles", .help = "tiles of 8x8 pixels with a surface, summed over grids, with tap_tiles=on"}),
+                     counter<&LpvCounters::tiles_near_blockers>(
+                         {.name = "tiles near blockers", .help = "of these, those lit by the shader that asks blockers"})},
         .counter_bytes = sizeof(LpvCounters),
         .views = {{.name = "visible taps",
                    .help = "of the eight interpolated cells, those that no blocker hides from the surface",

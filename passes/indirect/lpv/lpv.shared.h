@@ -143,6 +143,9 @@ struct LpvCounters {
     uint faces_rebuilt;
     uint overflowed;
     uint reflected;
+    uint full_resolution_pixels;
+    uint tiles;
+    uint tiles_near_blockers;
 };
 
 // Steps of a grid whose groups kept/decide.comp counts, with relight_changed. Steps of propagation follow.

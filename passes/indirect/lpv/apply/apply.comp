@@ -43,7 +43,7 @@ vec3 light_at(LitPlace lit, ivec2 pixel) {
     if (resolution == resolution_half) {
         const vec4 light = upsampled_light(push.grid, lit, pixel);
         if (light.a >= least_fit) return light.rgb / light.a;
-        atomicAdd(counters.full_resolution, 1u);
+        atomicAdd(counters.full_resolution_pixels, 1u);
     }
     return gathered_light(push.grid, lit);
 }

@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { ApplyPush push; };
 layout(set = 0, binding = 1, scalar) buffer Dispatches { TileDispatch dispatches[]; };
 layout(set = 0, binding = 2, scalar) writeonly buffer Tiles { uint tiles[]; };
+layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 shared uint found;  // 1: a surface; 2: a blocker near one
 
@@ -29,6 +30,8 @@ void append(uint list, uint tile, uint tile_count, uint samples) {
     atomicMax(dispatches[list].x, min(place + 1u, tile_dispatch_width));
     atomicMax(dispatches[list].y, place / tile_dispatch_width + 1u);
     atomicMax(dispatches[list].z, samples);
+    atomicAdd(counters.tiles, 1u);
+    atomicAdd(counters.tiles_near_blockers, list);
 }
 
 void main() {
