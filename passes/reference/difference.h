@@ -1,7 +1,6 @@
 // How far one image is from another.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "passes/reference/image.h"
@@ -16,14 +15,6 @@ struct Difference {
     double bias = 0;  ///< mean of got - wanted
     std::size_t compared = 0;
 };
-
-/// How far an image of estimates is expected to be from what it estimates, as Difference has it.
-struct StandardError {
-    double rmse = 0;
-    double relative = 0;
-};
-/// Over every decided texel. Nothing where the image is no estimate.
-std::optional<StandardError> standard_error(const ReferenceImage&);
 
 /// Images of one extent.
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/reference/difference.h"
+#include "passes/reference/standard_error.h"
 #include "replay/report/answer.h"
 #include "replay/report/ranking.h"
 #include "replay/session/session.h"

@@ -11,8 +11,8 @@
 #include "passes/gbuffer/truth.h"
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/truth.h"
-#include "passes/reference/difference.h"
 #include "passes/reference/lights.h"
+#include "passes/reference/standard_error.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {

@@ -13,6 +13,7 @@
 #include "passes/indirect/judge.h"
 #include "passes/lighting/judge.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/standard_error.h"
 #include "passes/transparency/judge.h"
 #include "tests/4_references/tiny_frame.h"
 

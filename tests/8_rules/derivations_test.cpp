@@ -23,6 +23,7 @@ struct Exception {
 /// Headers of passes/reference/ that anybody may include.
 constexpr std::array plain_values = {
     Exception{"passes/reference/image.h", "texels in double with their extent: nothing in it is derived from a frame"},
+    Exception{"passes/reference/standard_error.h", "two numbers that say how exact a truth is, for reports"},
     Exception{"passes/reference/ltc_table.h", "constants fitted once (fit_ltc), uploaded as they are"},
 };
 
