@@ -65,7 +65,7 @@ struct StageInfo {
     Judge judge = nullptr;
     /// Scenarios (captures/scenarios.h) that isolate what the stage can get wrong, the plainest first.
     std::vector<std::string_view> scenarios;
-    /// Images of frame_images.h that its techniques may leave to later stages beside its outputs: its truth says nothing of them.
+    /// Outputs of which its truth says nothing: the technique's own stay where the truth stands for the others.
     std::vector<std::string_view> leaves = {};
 };
 
