@@ -5,6 +5,7 @@
 #include "passes/choice_names.h"
 #include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/injection/injection.h"
+#include "passes/indirect/lpv/occlusion/small_portals.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/technique.h"
@@ -58,6 +59,10 @@ Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
             .groups({1, 1, 1});
     });
     return numbers;
+}
+
+std::vector<std::string> notes(const FrameImages& frame, const Settings& settings) {
+    return notes_on_small_portals(*frame.recorded, light_grids(*frame.recorded), settings.as<LpvParams>().occlusion);
 }
 
 }  // namespace
@@ -143,7 +148,8 @@ Technique lpv() {
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
                       .worst = 8e-2,
-                      .because = "half floats; virtual point lights within a rounding of a cell's border fall to either side"}};
+                      .because = "half floats; virtual point lights within a rounding of a cell's border fall to either side"},
+        .notes = notes};
 }
 
 }  // namespace strata::indirect

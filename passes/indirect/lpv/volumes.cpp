@@ -5,14 +5,11 @@
 #include "passes/scene/scene_facts.h"
 
 namespace strata::indirect {
-namespace {
 
 bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
     if (occlusion == occlusion_recorded) return grid.occlusion == VolumeOcclusion::axial;
     return occlusion == occlusion_axial;
 }
-
-}  // namespace
 
 ComputePass fix_blockers(ComputePass pass, const FrameImages& frame) {
     return pass.fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))

@@ -7,6 +7,9 @@
 
 namespace strata::indirect {
 
+/// Whether blockers stop light between the cells of a grid; occlusion_*.
+bool is_axial(const LightGrid&, std::uint32_t occlusion);
+
 /// Empty.
 std::vector<DeviceGrid> make_grids(Graph&, const FrameImages&, const LpvParams&);
 
