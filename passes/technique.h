@@ -272,6 +272,8 @@ struct Technique {
     Model model = nullptr;
     ModelKind model_is = ModelKind::paper;
     Tolerance tolerance = {};
+    /// What a run should say of its frame at these settings: what is recorded too finely for the method. Null: nothing.
+    std::vector<std::string> (*notes)(const FrameImages&, const Settings&) = nullptr;
 };
 
 /// What a technique at its settings is judged by.

@@ -325,7 +325,7 @@ Frame courtyard(std::uint32_t frame, const ScenarioOptions& options) {
                                     .half_extent = {7, 3.5f, 7},
                                     .cells = {28, 14, 28},
                                     .cascades = 2,
-                                    .iterations = 16}};
+                                    .iterations = 8}};
     return std::move(builder.frame);
 }
 

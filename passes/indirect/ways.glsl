@@ -14,10 +14,19 @@ float height_over(BlockerRecord blocker, vec3 place) {
     return precise_dot(blocker.normal, offset);
 }
 
+// Metres within which a place lies on the plane. It belongs to the side that this direction of the world points to: blockers in one plane,
+// whichever way they face and however their heights are rounded, agree about it.
+const float on_plane = 1e-3;
+const vec3 side_of_plane = vec3(1.0, 0.37, 0.14);
+
+bool is_before(BlockerRecord blocker, float height) {
+    return height >= (dot(view.to_world * blocker.normal, side_of_plane) > 0.0 ? -on_plane : on_plane);
+}
+
 // Where the way crosses the plane: (a, b) / w in its (u, v); w = 0 where it does not.
 vec3 way_crossing(BlockerRecord blocker, vec3 from, vec3 to) {
     const float a = height_over(blocker, from), b = height_over(blocker, to);
-    if (a >= 0.0 == b >= 0.0) return vec3(0.0);
+    if (is_before(blocker, a) == is_before(blocker, b)) return vec3(0.0);
     const vec3 v = precise_cross(blocker.normal, blocker.u);
     precise const vec3 p = from - blocker.center, q = to - blocker.center;
     precise const float s = abs(b), t = abs(a);

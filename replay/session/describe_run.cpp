@@ -98,6 +98,16 @@ std::vector<UnsupportedChoice> not_supported(const Declaration& d, const Feature
     return choices;
 }
 
+std::vector<std::string> notes_of_techniques(const Declaration& d) {
+    std::vector<std::string> notes;
+    for (const auto& [stage, choice] : d.choices) {
+        const Technique& technique = *choice.technique;
+        if (!technique.notes || !std::ranges::count(d.frame.acts, &technique, &DeclaredAct::technique)) continue;
+        std::ranges::copy(technique.notes(d.images, choice.settings), std::back_inserter(notes));
+    }
+    return notes;
+}
+
 std::string choice_line(const Choice& choice) {
     std::string line(choice.technique->name);
     for (const std::string& setting : choice.settings.lines()) line += " " + setting;

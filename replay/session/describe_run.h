@@ -28,6 +28,8 @@ using SortTimes = std::map<std::string, std::vector<double>>;
 void add_costs(Run&, const std::vector<std::vector<StepCost>>& repeats, const SortTimes&);
 /// The techniques of the frame's acts that cannot do one of its features.
 std::vector<UnsupportedChoice> not_supported(const Declaration&, const Features&);
+/// What the techniques of the frame's acts say of it (Technique::notes).
+std::vector<std::string> notes_of_techniques(const Declaration&);
 /// "technique key=value ..."
 std::string choice_line(const Choice&);
 

@@ -251,6 +251,7 @@ Run DeviceSession::finished(const Declaration& d, const Execution& execution, st
     run.not_supported = not_supported(d, loaded_->features);
     for (const UnsupportedChoice& choice : run.not_supported)
         run.notes.push_back(fmt::format("{} cannot do {}: what it shows is wrong", choice.technique, choice.reason));
+    std::ranges::copy(notes_of_techniques(d), std::back_inserter(run.notes));
     if (const std::size_t replaced = shader_sets_.empty() ? 0 : shader_sets_.back()->compiled.size())
         run.notes.push_back(fmt::format("{} replaced at run time", plural(replaced, "shader")));
     run.pipelines_created = execution.pipelines_created;

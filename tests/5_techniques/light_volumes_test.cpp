@@ -4,53 +4,15 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/reference/decoded.h"
 #include "passes/registry.h"
-#include "replay/images/host_image.h"
+#include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
-#include "tests/support/session.h"
 
 namespace strata {
 namespace {
 
-Request indirect_of(std::size_t frame, const std::vector<std::string>& sets = {}) {
-    Request request{.variant = {.frame = frame}, .choices = chosen({"indirect/lpv"}, sets)};
-    request.outputs = {"indirect", "surface_normal"};
-    return request;
-}
-
-/// The door closed in the first, open in the second.
-std::vector<Frame> two_rooms() { return scenario_frames("two_rooms", 1, 2); }
-
 constexpr double brightest_albedo = .78;  // of both scenarios
-
-/// Brightness of the samples in each of the two rooms.
-struct Rooms {
-    std::vector<double> lit, dark;
-};
-Rooms rooms_of(const Frame& frame, const Run& run) {
-    Rooms rooms;
-    const HostImage& normals = run.images.at("surface_normal");
-    for (std::uint32_t y = 0; y < run.height; ++y)
-        for (std::uint32_t x = 0; x < run.width; ++x) {
-            const glm::dvec4 normal = texel(normals, x, y);
-            if (normal.w <= 0) continue;
-            const SurfacePoint p = decoded_surface(frame, {normal, glm::dvec4(0), glm::dvec4(0)}, x, y);
-            const double side = (frame.view.origin + glm::transpose(glm::dmat3(frame.view.to_view)) * p.position).x;
-            if (std::abs(side) < .08) continue;  // the door and its way through the wall
-            const glm::dvec4 light = texel(run.images.at("indirect"), x, y);
-            (side < 0 ? rooms.lit : rooms.dark).push_back(light.x + light.y + light.z);
-        }
-    return rooms;
-}
-
-double mean(const std::vector<double>& values) {
-    double sum = 0;
-    for (const double value : values) sum += value;
-    return sum / double(values.size());
-}
 
 TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
     const std::vector<Frame> frames = two_rooms();
@@ -71,33 +33,6 @@ TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
         const Rooms open = rooms_of(frames[1], must(session->run(indirect_of(1, sets))));
         EXPECT_GT(mean(open.dark), 1e-3 * mean(open.lit)) << testing::PrintToString(sets);
     }
-}
-
-/// The rooms, the eye and all else turned around the vertical through the middle of the wall, in a grid that stays along the
-/// axes.
-Frame turned(Frame frame, double yaw) {
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), yaw, glm::dvec3(0, 1, 0)));
-    const auto around = [&](const glm::dvec3& p) { return turn * (p - glm::dvec3(0, 0, -2)) + glm::dvec3(0, 0, -2); };
-    const auto turn_direction = [&](glm::vec3& d) { d = glm::vec3(turn * glm::dvec3(d)); };
-    frame.view.origin = around(frame.view.origin);
-    frame.view.to_view = frame.view.to_view * glm::transpose(turn);
-    for (Draw& draw : frame.draws)
-        for (glm::dmat4* place : {&draw.to_world, &draw.previous_to_world}) {
-            const glm::dvec3 at = around(glm::dvec3((*place)[3]));
-            *place = glm::dmat4(turn) * *place;
-            (*place)[3] = glm::dvec4(at, 1);
-        }
-    for (Light& light : frame.lights) light.position = around(light.position);
-    for (Blocker& blocker : frame.blockers) {
-        blocker.center = around(blocker.center);
-        turn_direction(blocker.u), turn_direction(blocker.v);
-    }
-    for (Portal& portal : frame.portals) {
-        portal.center = around(portal.center);
-        turn_direction(portal.u), turn_direction(portal.v);
-    }
-    for (LightVolume& volume : frame.light_volumes) volume.half_extent = {5.6f, 2, 5.6f}, volume.cells = {28, 10, 28};
-    return frame;
 }
 
 TEST(LightVolumes, LeaveItDarkBehindObliqueWallsToo) {

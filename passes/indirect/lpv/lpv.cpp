@@ -9,6 +9,7 @@
 #include "passes/indirect/lpv/apply/views.h"
 #include "passes/indirect/lpv/injection/bounce.h"
 #include "passes/indirect/lpv/injection/injection.h"
+#include "passes/indirect/lpv/occlusion/small_portals.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/ratios.h"
 #include "passes/indirect/lpv/views/views.h"
@@ -104,6 +105,11 @@ Image bounces_table(Graph& graph, FrameImages& frame, const Settings& settings) 
 
 std::string_view approximates(const Settings& settings) {
     return settings.as<LpvParams>().bounces > 1 ? two_bounces : std::string_view();
+}
+
+std::vector<std::string> notes(const FrameImages& frame, const Settings& settings) {
+    const auto params = settings.as<LpvParams>();
+    return notes_on_small_portals(*frame.recorded, light_grids(*frame.recorded, cell_scale(params)), params.occlusion);
 }
 
 }  // namespace
@@ -313,7 +319,8 @@ Technique lpv() {
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
                       .worst = 8e-2,
-                      .because = "half floats; virtual point lights within a rounding of a cell's border fall to either side"}};
+                      .because = "half floats; virtual point lights within a rounding of a cell's border fall to either side"},
+        .notes = notes};
 }
 
 }  // namespace strata::indirect

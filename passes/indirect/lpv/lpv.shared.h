@@ -138,7 +138,6 @@ struct LpvCounters {
     uint unfinished;
     uint samples_near_blockers;
     uint blocker_tests;
-    uint full_resolution;
     uint cells_relit;
     uint faces_rebuilt;
     uint overflowed;

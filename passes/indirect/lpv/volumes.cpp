@@ -13,9 +13,6 @@
 namespace strata::indirect {
 namespace {
 
-/// Width of cells, as a multiple of the recorded one.
-double cell_scale(const LpvParams& params) { return std::exp2(double(params.cell_scale) - double(cells_recorded)); }
-
 /// As recorded, or as chosen for all grids.
 std::uint32_t occlusion_of(const LightGrid& grid, std::uint32_t chosen) {
     if (chosen != occlusion_recorded) return chosen;
@@ -51,6 +48,13 @@ void light(Graph& graph, const FrameImages& frame, const LpvParams& params, std:
 
 }  // namespace
 
+double cell_scale(const LpvParams& params) { return std::exp2(double(params.cell_scale) - double(cells_recorded)); }
+
+bool is_axial(const LightGrid& grid, std::uint32_t occlusion) {
+    const std::uint32_t kind = occlusion_of(grid, occlusion);
+    return kind == occlusion_axial || kind == occlusion_both;
+}
+
 ComputePass gated(ComputePass pass, const DeviceGrid& grid, std::uint32_t gate, Extent threads) {
     return grid.gates ? pass.indirect(grid.gates, gate * sizeof(uvec3)) : pass.over(threads);
 }
@@ -60,10 +64,9 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
     for (const LightGrid& grid : light_grids(*frame.recorded, cell_scale(params))) {
         const glm::dvec3 origin = grid.origin - frame.recorded->view.origin;
         const std::uint32_t occlusion = occlusion_of(grid, params.occlusion);
-        const bool is_axial = occlusion == occlusion_axial || occlusion == occlusion_both;
         DeviceGrid g{.grid = grid,
                      .place = {.origin = glm::vec3(origin), .cell = float(grid.cell), .cells = grid.cells},
-                     .has_links = is_axial && !frame.recorded->blockers.empty(),
+                     .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
                      .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),
                      .number = made.size()};

@@ -7,6 +7,12 @@
 
 namespace strata::indirect {
 
+/// Width of cells, as a multiple of the recorded one.
+double cell_scale(const LpvParams&);
+
+/// Whether blockers stop light between the cells of a grid; occlusion_*.
+bool is_axial(const LightGrid&, std::uint32_t occlusion);
+
 /// Empty.
 std::vector<DeviceGrid> make_grids(Graph&, const FrameImages&, const LpvParams&);
 

@@ -84,7 +84,9 @@ LightMaps maps_over(const SceneFacts& facts, const Light& light, const LightGrid
 }
 
 bool injects(const Light& light, const LightGrid& grid) {
-    if (strongest(light) <= 0 || light.type == LightType::directional) return strongest(light) > 0;
+    // Flux that is no number would be in the scale of all sums.
+    if (!std::isfinite(most_flux(light, grid)) || strongest(light) <= 0) return false;
+    if (light.type == LightType::directional) return true;
     // A surface may be a cell beside the cell that it lights.
     const glm::dvec3 low = grid.origin - grid.cell, high = grid.origin + (glm::dvec3(grid.cells) + 1.) * grid.cell;
     return glm::distance(glm::clamp(light.position, low, high), light.position) < double(light.range);

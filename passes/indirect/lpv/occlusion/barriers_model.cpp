@@ -1,9 +1,14 @@
 #include "passes/indirect/lpv/occlusion/barriers_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace strata::indirect::in_double {
 namespace {
+
+// docs/algorithms/lighting.md 5.8: metres within which a point is on a plane, and where in the world it belongs to then.
+constexpr double on_plane = 1e-3;
+constexpr glm::dvec3 side_of_plane(1, 0.37, 0.14);
 
 /// The portal projected onto the blocker along its normal: the rectangle over the projected u side with the projected height.
 Hole hole_in(const Barrier& barrier, const Portal& portal) {
@@ -46,8 +51,10 @@ std::vector<Barrier> barriers(const Frame& frame) {
 Meeting meets(const Barrier& barrier, const Segment& segment, double slack) {
     const double from = glm::dot(barrier.normal, segment.from - barrier.center);
     const double to = glm::dot(barrier.normal, segment.to - barrier.center);
-    if ((from >= 0) == (to >= 0)) return Meeting::misses;
-    const glm::dvec3 at = glm::mix(segment.from, segment.to, from / (from - to)) - barrier.center;
+    const double begin = glm::dot(barrier.normal, side_of_plane) > 0 ? -on_plane : on_plane;
+    if ((from >= begin) == (to >= begin)) return Meeting::misses;
+    const double share = std::abs(from) / (std::abs(from) + std::abs(to));
+    const glm::dvec3 at = glm::mix(segment.from, segment.to, share) - barrier.center;
     const glm::dvec2 place(glm::dot(at, barrier.u), glm::dot(at, barrier.v));
     if (glm::any(glm::greaterThan(glm::abs(place), barrier.half_extent + slack))) return Meeting::misses;
     const bool is_open = std::ranges::any_of(barrier.holes, [&](const Hole& hole) { return is_within(hole, place); });

@@ -162,8 +162,9 @@ struct Box {
     Held outside() const {
         const Grid grid = grid_of(24);
         const Channel sum = propagated(links(grid, barriers(frame)), lit_cell(grid, {12, 11, 12}), unclamped, 32);
+        // Middles of cells lie on the lower wall: they belong to one side, whichever.
         return held_by(grid, sum, [&](const dvec3& p) {
-            return glm::any(glm::greaterThan(glm::abs(glm::transpose(axes) * (p - center)), dvec3(half)));
+            return glm::any(glm::greaterThan(glm::abs(glm::transpose(axes) * (p - center)), dvec3(half + 1e-6)));
         });
     }
 };
@@ -214,6 +215,24 @@ TEST(BlockedLight, DoesNotPassBetweenBlockersThatShareAnEdge) {
         Frame frame;
         frame.blockers = {wall_across_x({4, 2.5 - half_gap, 4.5}, 2), wall_across_x({4, 6.5 + half_gap, 4.5}, 2)};
         EXPECT_EQ(is_blocked(barriers(frame), between, slack_of(1)), half_gap < 1e-6);
+    }
+}
+
+/// docs/algorithms/lighting.md 5.8: pieces of one wall through middles of cells, which face either way or lie off by less than a
+/// millimeter.
+TEST(BlockedLight, DoesNotGoAroundASeamThatMiddlesOfCellsLieOn) {
+    for (const double off : {0., 1e-7, -1e-7}) {
+        Frame frame;
+        frame.blockers = {wall_across_x({4.5, 2, 4}, 2.5), wall_across_x({4.5 + off, 7, 4}, 2.5)};
+        for (Blocker& wall : frame.blockers) wall.half_v = 9;
+        for (const bool turns : {false, true}) {
+            if (turns) frame.blockers[1].u *= -1.f;
+            const Grid grid = grid_of(8);
+            const Channel sum = propagated(links(grid, barriers(frame)), lit_cell(grid, {2, 4, 4}), unclamped, 16);
+            const Held held = held_by(grid, sum, [](const dvec3& p) { return p.x > 4.6; });
+            EXPECT_FALSE(held.any_dark) << off << (turns ? ", facing either way" : "");
+            EXPECT_GT(held.lit, 1);
+        }
     }
 }
 
