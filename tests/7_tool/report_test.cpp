@@ -195,6 +195,22 @@ TEST(Report, SaysHowFarATruthMadeOfRandomDirectionsIsExpectedToBeOff) {
     EXPECT_LT(10 * own.rmse, report.rows.front().accuracy.method.front().value);
 }
 
+TEST(Report, MeasuresSettingsAgainstTheTruthThatTheyApproximate) {
+    const auto session = scenario_session("cornell_box");
+    const ReportRequest wanted{.base = {.variant = {.extent_divisor = 8}},
+                               .stage = Stage::indirect,
+                               .methods = {"ambient", "lpv map_size=16 bounces=2"},
+                               .repeats = 1};
+    const Report report = must(make_report(*session, wanted));
+    ASSERT_EQ(report.truths.size(), 2u);
+    for (const Measurement& row : report.rows) EXPECT_EQ(row.truth, row.settings.empty() ? "" : "two bounces");
+    EXPECT_THAT(as_text(report), HasSubstr("\ntruth: one bounce gathered"));
+    EXPECT_THAT(as_text(report), HasSubstr("\ntruth of lpv map_size=16 bounces=2: one and two bounces gathered"));
+    const auto json = nlohmann::json::parse(as_json(report));
+    EXPECT_EQ(json["truths"][1]["name"], "two bounces");
+    for (const auto& row : json["rows"]) EXPECT_EQ(row.contains("truth"), row["technique"] == "indirect/lpv");
+}
+
 /// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
 TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     const auto session = scenario_session("interpenetrating_panes");
