@@ -73,7 +73,7 @@ struct HandOnPush {
     float border;
     uint asks_taps;
     uint irradiance;
-    uint number;      // of the grid, and of grids
+    uint number;  // of the grid, and of grids
     uint count;
     uint first_cell;  // the record of its first cell
 };
