@@ -22,8 +22,8 @@ struct LightCell {
     vec4 red, green, blue;
 };
 
-// The image volume_light: texels in rows, three to a record. First a record of each grid, then one of each cell (its red, green and blue),
-// grid after grid. Of a grid:
+// The image volume_light: texels in rows, three to a record. First a record of each grid, then one of each cell (its red, green
+// and blue), grid after grid. Of a grid:
 //   origin xyz, cell    as in GridPlace
 //   cells xyz, border   as in GridPlace; metres over which the grid fades at its border
 //   asks_taps, rule, count    1: not of cells that a blocker hides; irradiance_*; grids in the image
