@@ -40,9 +40,9 @@ constexpr Statement per_cell{8, "bytes and operations in proportion to cells, do
 
 std::vector<TimeRatio> lpv_ratios() {
     using Names = std::vector<std::string_view>;
-    const Names stage = {}, propagation = {"/propagate"}, apply = {"/apply"}, injection = {"/map", "/inject"},
-                inject = {"/inject"};
-    const Names injected = {"injected"}, taps = {"samples", "hidden taps"}, none = {};
+    const Names stage = {}, propagation = {"/propagate"}, apply = {"/apply/"}, injection = {"/injection/map", "/inject.comp"},
+                inject = {"/inject.comp"};
+    const Names injected = {"injected"}, taps = {"samples", "hidden taps"}, relit = {"cells relit", "faces rebuilt"}, none = {};
     // Maps of fewer texels, so that 64 lights fit into a minute.
     constexpr std::string_view few_texels = "map_size=32 iterations=1";
     struct Row {
@@ -80,6 +80,11 @@ std::vector<TimeRatio> lpv_ratios() {
         {"the stage: 64^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_64, cells_16},
         {"the stage: blockers, against none", "occlusion=axial", "occlusion=none", "two_rooms", stage, taps},
         {"apply: cells that blockers do not hide, against all eight", "taps=visible", "taps=all", "two_rooms", apply, taps},
+        {"apply: once per 2 x 2 pixels, against every pixel", "apply_resolution=half", "apply_resolution=full", "two_rooms",
+         apply, taps},
+        {"the stage: a static volume that is kept, against one that is lit in every frame", "relight=changed", "relight=always",
+         "two_rooms", stage, relit},
+        {"the stage: two bounces, against one", "bounces=2", "bounces=1", "cornell_box", stage, none},
         {"injection: maps of 256^2 texels, against 128^2",
          "map_size=256",
          "map_size=128",

@@ -1,7 +1,5 @@
 #include "passes/indirect/lpv/apply/apply.h"
 
-#include <ranges>
-
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 
@@ -145,7 +143,7 @@ Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std
     const Readings readings{.frame = frame, .params = params, .chosen = is_half ? chosen_pixels(graph, frame) : Image()};
     Image light = graph.create("indirect", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
     graph.clear(light, {});
-    for (const DeviceGrid& grid : std::views::reverse(grids)) apply_grid(graph, readings, grid, light);
+    for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid) apply_grid(graph, readings, *grid, light);
     return light;
 }
 

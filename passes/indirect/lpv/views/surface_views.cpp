@@ -1,6 +1,5 @@
-#include "passes/indirect/lpv/apply/views.h"
+#include "passes/indirect/lpv/views/surface_views.h"
 
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +22,8 @@ Image of_seen_light(Graph& graph, const FrameImages& frame, const Settings& sett
     const auto params = settings.as<LpvParams>();
     const std::vector<DeviceGrid> grids = lit_grids(graph, frame, params);
     Image picture = black_picture(graph, frame, shader);
-    for (const DeviceGrid& grid : std::views::reverse(grids))
-        see_light(graph.compute("indirect/lpv/apply/" + shader + ".comp"), frame, params, grid)
+    for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid)
+        see_light(graph.compute("indirect/lpv/views/" + shader + ".comp"), frame, params, *grid)
             .stores("picture", picture)
             .over(frame.extent);
     return picture;
@@ -43,10 +42,10 @@ Image near_blockers(Graph& graph, FrameImages& frame, const Settings& settings) 
 Image lighting_volume(Graph& graph, FrameImages& frame, const Settings& settings) {
     const std::vector<DeviceGrid> grids = make_grids(graph, frame, settings.as<LpvParams>());
     Image picture = black_picture(graph, frame, "lighting volume");
-    for (const DeviceGrid& grid : std::views::reverse(grids))
-        sample_gbuffer(graph.compute("indirect/lpv/apply/volume.comp"), frame)
+    for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid)
+        sample_gbuffer(graph.compute("indirect/lpv/views/lighting_volume.comp"), frame)
             .updates("picture", picture)
-            .push(apply_push(grid))
+            .push(apply_push(*grid))
             .over(frame.extent);
     return picture;
 }

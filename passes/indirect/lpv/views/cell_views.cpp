@@ -1,6 +1,5 @@
-#include "passes/indirect/lpv/views/views.h"
+#include "passes/indirect/lpv/views/cell_views.h"
 
-#include <ranges>
 #include <vector>
 
 #include "passes/gbuffer/surface_at.h"
@@ -77,10 +76,10 @@ Image axial_occlusion_view(Graph& graph, FrameImages& frame, const Settings& set
     graph.clear(picture, {});
     if (!frame.gbuffer0) return picture;
     const std::vector<DeviceGrid> grids = lit_grids(graph, frame, settings.as<LpvParams>());
-    for (const DeviceGrid& grid : std::views::reverse(grids))
-        sample_gbuffer(fix_links(graph.compute("indirect/lpv/views/axial_occlusion.comp"), grid), frame)
+    for (auto grid = grids.rbegin(); grid != grids.rend(); ++grid)
+        sample_gbuffer(fix_links(graph.compute("indirect/lpv/views/axial_occlusion.comp"), *grid, 0), frame)
             .updates("picture", picture)
-            .push(grid.place)
+            .push(grid->place)
             .over(frame.extent);
     return picture;
 }
