@@ -34,8 +34,8 @@ FragmentLists fragments_before(const Frame&, const ReferenceImage& depth, const 
 const FragmentLists& fragments_of(const StageInput&, const ReferenceImage& color, std::optional<FragmentLists>& own);
 
 /// Blends the frame's transparent fragments into every sample of `color`, in front of the opaque depth before the stage. Samples
-/// whose fragments are undecided become so in the image. Several threads call the blend at a time; each takes some neighboring rows
-/// of pixels, from the top to the bottom, each row with all its samples.
+/// whose fragments are undecided become so in the image. Several threads call the blend at a time; each takes some neighboring
+/// rows of pixels, from the top to the bottom, each row with all its samples.
 ReferenceImage blended(ReferenceImage color, const StageInput&, const SampleBlend&);
 ReferenceImage blended(ReferenceImage color, const StageInput&, const PlacedBlend&);
 

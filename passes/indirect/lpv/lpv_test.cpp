@@ -296,7 +296,8 @@ struct LitRoom {
                      .occlusion = occlusion_recorded,
                      .taps = taps_visible,
                      .map_size = 32,
-                     .injection = 0.5f};
+                     .injection = 0.5f,
+                     .cell_scale = cells_recorded};
 
     LitRoom() {
         add_square(frame, {4, 0, 0}, {0, 4, 0}, {0, 0, 4});
