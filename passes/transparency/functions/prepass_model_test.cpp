@@ -1,5 +1,8 @@
 // Facts about what the model of a prepass holds while it computes.
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -11,25 +14,29 @@ namespace {
 
 struct Seen {
     std::uint32_t projections = 0, lookups = 0;
-    std::uint32_t rows_ahead = 0;  ///< most rows by which a projected texel is below the pixel that is looked up after it
+    std::uint32_t rows_ahead = 0;  ///< most rows by which a thread's latest projected texel is below the pixel it looks up next
     bool are_kept = true;          ///< every projected list is one of those that the input keeps
 };
 
-/// Runs a model that counts what it is asked.
+/// Runs a model that counts what it is asked, by several threads at a time.
 Seen seen_of(const Frame& frame, std::optional<FragmentLists>& kept) {
     Seen seen;
-    std::uint32_t lowest = 0;
+    std::mutex counting;
+    std::map<std::thread::id, std::uint32_t> latest;  // projected rows
     const ImageSet before{{"color", ReferenceImage(frame.view.width, frame.view.height, frame.view.samples)}};
     PrepassModel model;
     model.project = [&](std::span<const Fragment> fragments, glm::uvec2 texel) {
+        const std::lock_guard lock(counting);
         ++seen.projections;
-        lowest = std::max(lowest, texel.y);
+        latest[std::this_thread::get_id()] = texel.y;
         seen.are_kept = seen.are_kept && kept && fragments.data() == kept->at(texel.x, texel.y).data();
         return std::vector<double>{1};
     };
     model.function = [&](std::span<const double>, glm::uvec2 texel) -> Transmittance {
+        const std::lock_guard lock(counting);
         ++seen.lookups;
-        seen.rows_ahead = std::max(seen.rows_ahead, lowest - std::min(lowest, texel.y));
+        const std::uint32_t row = latest.at(std::this_thread::get_id());
+        seen.rows_ahead = std::max(seen.rows_ahead, row - std::min(row, texel.y));
         return [](const Fragment&) { return glm::dvec3(1); };
     };
     function_model({frame, before, &kept}, accumulation_single, model);
