@@ -130,6 +130,26 @@ TEST(KeptVolumes, FindLinksAgainNearADoorThatMoves) {
     EXPECT_TRUE(closed_again.indirect.texels == half.texels);
 }
 
+/// A small window in the wall beside the lamp, recorded before the door, whose blocker comes first.
+Frame with_a_window_before_the_door(Frame frame) {
+    const Blocker& wall = frame.blockers[1];
+    frame.portals.insert(frame.portals.begin(),
+                         {.center = wall.center, .u = wall.u, .v = wall.v, .half_u = .3f, .half_v = .3f, .blocker = 1});
+    for (Light& light : frame.lights)
+        for (std::uint32_t& portal : light.portals) ++portal;
+    return frame;
+}
+
+TEST(KeptVolumes, FindLinksAgainNearTheDoorInWhateverOrderPortalsAreRecorded) {
+    const std::vector<Frame> rooms = still_rooms();
+    const auto session = session_of({with_a_window_before_the_door(rooms[1]), with_a_window_before_the_door(rooms[2])});
+    const HostImage wide = lit_anew(*session, 1);
+    kept(*session, 0);
+    const Lit opened = kept(*session, 1);
+    EXPECT_EQ(opened.faces, faces_near_the_doors(rooms[1], rooms[2]));
+    EXPECT_TRUE(opened.indirect.texels == wide.texels);
+}
+
 TEST(KeptVolumes, KeepTheirLinksWhereALightChanges) {
     const auto session = session_of(rooms_and([](Frame& frame) { frame.lights[0].position.x -= .3; }));
     const HostImage wanted = lit_anew(*session, 1);

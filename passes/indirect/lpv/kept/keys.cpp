@@ -1,5 +1,7 @@
 #include "passes/indirect/lpv/kept/keys.h"
 
+#include <algorithm>
+
 #include "passes/indirect/lpv/injection/maps.h"
 #include "passes/indirect/lpv/kept/middles.h"
 #include "passes/indirect/lpv/propagation/propagation.h"
@@ -73,8 +75,10 @@ std::vector<uvec2> barrier_identities(const Frame& frame) {
         identities.push_back(words(digest.value()));
     }
     const std::vector<BlockerPortalRecord> records = portal_records(frame);
+    std::vector<Portal> portals = frame.portals;
+    std::ranges::stable_sort(portals, {}, &Portal::blocker);  // as portal_records() has them
     for (std::size_t i = 0; i < records.size(); ++i) {
-        const Portal& portal = frame.portals[i];
+        const Portal& portal = portals[i];
         Digest digest;
         digest.add(portal.center).add(portal.u).add(portal.v).add(portal.half_u).add(portal.half_v).add(portal.blocker);
         digest.add(records[i].half_extent);  // a portal that begins beside this one makes it wider
