@@ -9,10 +9,6 @@ namespace {
 /// Metres over which a grid fades at its border: a cell, of cascades two.
 float border(const LightGrid& grid) { return float((grid.is_local ? 1 : 2) * grid.cell); }
 
-std::uint32_t asks_taps(const LpvParams& params, const DeviceGrid& grid) {
-    return grid.has_links && params.taps == taps_visible ? 1 : 0;
-}
-
 /// Of records that are texels_per_record texels each.
 Extent volume_extent(std::uint32_t records) {
     return {volume_texels_per_row, (texels_per_record * records + volume_texels_per_row - 1) / volume_texels_per_row};
@@ -32,6 +28,10 @@ Image chosen_pixels(Graph& graph, const FrameImages& frame) {
 
 }  // namespace
 
+std::uint32_t asks_taps(const LpvParams& params, const DeviceGrid& grid) {
+    return grid.has_links && params.taps == taps_visible ? 1 : 0;
+}
+
 ApplyPush apply_push(const DeviceGrid& grid) {
     return {.grid = grid.place, .border = border(grid.grid), .number = static_cast<std::uint32_t>(grid.number + 1)};
 }
@@ -50,12 +50,7 @@ void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& p
 }
 
 ComputePass see_light(ComputePass pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
-    return sample_gbuffer(fix_blockers(pass, frame), frame)
-        .loads("Total", grid.total)
-        .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
-        .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
-        .fixes("asks_taps", asks_taps(params, grid))
-        .push(apply_push(grid));
+    return sample_gbuffer(bind_taps(pass, frame, params, grid), frame).push(apply_push(grid));
 }
 
 namespace {

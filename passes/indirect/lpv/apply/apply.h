@@ -12,7 +12,20 @@ void find_macro_cells(Graph&, const FrameImages&, const LpvParams&, DeviceGrid&)
 
 ApplyPush apply_push(const DeviceGrid&);
 
-/// To a step whose shader includes passes/indirect/lpv/apply/taps.glsl.
+/// 1 where cells that a blocker hides from a surface are left out.
+std::uint32_t asks_taps(const LpvParams&, const DeviceGrid&);
+
+/// Binds what passes/indirect/lpv/apply/taps.glsl declares.
+template <typename Pass>
+Pass& bind_taps(Pass&& pass, const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
+    return fix_blockers(pass, frame)
+        .loads("Total", grid.total)
+        .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
+        .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
+        .fixes("asks_taps", asks_taps(params, grid));
+}
+
+/// The same and the G-buffer, to a step over pixels.
 ComputePass see_light(ComputePass, const FrameImages&, const LpvParams&, const DeviceGrid&);
 
 /// Irradiance / pi of every sample. What a point takes of the first grid that holds it lies over what it takes of those after it.

@@ -1,5 +1,6 @@
 #include "passes/indirect/lpv/injection/bounce.h"
 
+#include "passes/indirect/lpv/apply/apply.h"
 #include "passes/indirect/lpv/surfels/surfels.h"
 
 namespace strata::indirect {
@@ -17,14 +18,10 @@ DeviceGrid reflected(Graph& graph, const FrameImages& frame, const LpvParams& pa
     next.sums = graph.create(next.name("injected light of grid"), std::uint64_t{lit.cells()} * sizeof(LightCell));
     graph.clear(next.sums, 0);
     draw_surfels(graph, frame, lit, "indirect/lpv/injection/reflect", [&](DrawPass& draw) {
-        fix_blockers(draw, frame)
-            .loads("Total", lit.total)
-            .loads("MacroCells", lit.macro_cells ? lit.macro_cells : lit.total)
-            .fixes("has_macro_cells", lit.macro_cells ? 1u : 0u)
+        bind_taps(draw, frame, params, lit)
             .loads("Scale", next.scale)
             .updates("Sums", next.sums)
             .fixes("guards", lit.has_links ? 1u : 0u)
-            .fixes("asks_taps", lit.has_links && params.taps == taps_visible ? 1u : 0u)
             .fixes("irradiance", irradiance_cell)
             .fixes("bias", params.injection);
     });

@@ -38,7 +38,7 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
     const std::uint32_t steps = iterations(params, grid);
     KeptGrid kept{.state = graph.remember(grid.name("state of kept grid"), sizeof(KeptState)),
                   .work = graph.create(grid.name("work of kept grid"), sizeof(KeptWork)),
-                  .shown = {}};
+                  .lattice = keys.lattice};
     grid.gates = graph.create(grid.name("gates of grid"), (gate_first_step + std::uint64_t{steps}) * sizeof(uvec3));
     graph.compute("indirect/lpv/kept/decide.comp")
         .updates("State", kept.state)
@@ -48,7 +48,7 @@ KeptGrid decide(Graph& graph, const FrameImages& frame, const LpvParams& params,
         .push(DecidePush{.light = keys.light,
                          .place = keys.place,
                          .linked = keys.linked,
-                         .lattice = lattice_key(*frame.recorded, grid.grid),
+                         .lattice = keys.lattice,
                          .first = wrapped(first_cell(grid.grid)),
                          .cells = grid.grid.cells,
                          .iterations = steps,
@@ -75,7 +75,7 @@ void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, co
               .loads("Identities", identities)
               .loads("Barriers", barriers)
               .push(FacesPush{.grid = grid.place,
-                              .lattice = lattice_key(*frame.recorded, g),
+                              .lattice = kept.lattice,
                               .first = wrapped(first_cell(g)),
                               .turn = turned(first_cell(g), g.cells)}),
           grid, gate_faces, {g.cells.x, g.cells.y, 3 * g.cells.z});

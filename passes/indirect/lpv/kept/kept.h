@@ -12,7 +12,8 @@ namespace strata::indirect {
 /// What a grid leaves to the next frame, beside its links.
 struct KeptGrid {
     Buffer state, work;
-    Buffer shown;  ///< LightCell: what surfaces read, where another is lit in slices
+    uvec2 lattice{0};  ///< GridKeys::lattice
+    Buffer shown;      ///< LightCell: what surfaces read, where another is lit in slices
 };
 using KeptGrids = std::vector<KeptGrid>;
 

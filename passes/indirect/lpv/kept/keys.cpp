@@ -15,17 +15,25 @@ namespace {
 
 uvec2 words(std::uint64_t hash) { return {static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32)}; }
 
-uvec2 place_key(const Frame& frame, const LpvParams& params, const DeviceGrid& grid) {
+uvec2 lattice_key(const Frame& frame, const LightGrid& grid) {
     Digest digest;
-    if (grid.has_links) digest.add(lattice_key(frame, grid.grid));
+    if (has_middle_on_a_plane(frame, grid)) digest.add(frame.view.origin).add(frame.view.to_view);
+    digest.add(grid.cell).add(grid.cells).add(grid.is_local);
+    if (grid.is_local) digest.add(grid.origin);
+    return words(digest.value());
+}
+
+uvec2 place_key(uvec2 lattice, const LpvParams& params, const DeviceGrid& grid) {
+    Digest digest;
+    if (grid.has_links) digest.add(lattice);
     digest.add(grid.grid.origin).add(grid.grid.cell).add(grid.grid.cells).add(grid.has_links);
     digest.add(iterations(params, grid)).add(params.propagation).add(params.faces);
     return words(digest.value());
 }
 
-uvec2 linked_key(const Frame& frame, const LightGrid& grid, std::span<const uvec2> barriers) {
+uvec2 linked_key(uvec2 lattice, const LightGrid& grid, std::span<const uvec2> barriers) {
     Digest digest;
-    digest.add(lattice_key(frame, grid)).add(first_cell(grid));
+    digest.add(lattice).add(first_cell(grid));
     for (const uvec2& barrier : barriers) digest.add(barrier);
     return words(digest.value());
 }
@@ -54,14 +62,6 @@ void add_injected(Digest& digest, const SceneFacts& facts, const Light& light) {
 
 }  // namespace
 
-uvec2 lattice_key(const Frame& frame, const LightGrid& grid) {
-    Digest digest;
-    if (has_middle_on_a_plane(frame, grid)) digest.add(frame.view.origin).add(frame.view.to_view);
-    digest.add(grid.cell).add(grid.cells).add(grid.is_local);
-    if (grid.is_local) digest.add(grid.origin);
-    return words(digest.value());
-}
-
 /// The origin of a cascade is a whole number of cells.
 glm::i64vec3 first_cell(const LightGrid& grid) {
     return grid.is_local ? glm::i64vec3(0) : glm::i64vec3(glm::round(grid.origin / grid.cell));
@@ -89,8 +89,9 @@ std::vector<uvec2> barrier_identities(const Frame& frame) {
 
 GridKeys keys_of(const FrameImages& frame, const LpvParams& params, const DeviceGrid& grid) {
     const std::vector<uvec2> barriers = barrier_identities(*frame.recorded);
-    GridKeys keys{.light = {}, .place = place_key(*frame.recorded, params, grid), .linked = {}};
-    if (grid.has_links) keys.linked = linked_key(*frame.recorded, grid.grid, barriers);
+    GridKeys keys{.lattice = lattice_key(*frame.recorded, grid.grid)};
+    keys.place = place_key(keys.lattice, params, grid);
+    if (grid.has_links) keys.linked = linked_key(keys.lattice, grid.grid, barriers);
     Digest digest;
     digest.add(keys.place).add(params.map_size).add(params.injection);
     for (const uvec2& barrier : barriers) digest.add(barrier);

@@ -12,13 +12,13 @@ struct GridKeys {
     uvec2 light{0};   ///< everything
     uvec2 place{0};   ///< the grid and the rules of its light, whatever is lit
     uvec2 linked{0};  ///< what its links are found with; 0 where it has none
+    /// The cells that links lie between. Those of a cascade stay in the world when the cascade moves. They are others for every
+    /// place of the eye where a middle lies on a blocker's plane (middles.h).
+    uvec2 lattice{0};
 };
 GridKeys keys_of(const FrameImages&, const LpvParams&, const DeviceGrid&);
 
-/// The cells that links lie between. Those of a cascade stay in the world when the cascade moves. They are others for every place
-/// of the eye where a middle lies on a blocker's plane (middles.h).
-uvec2 lattice_key(const Frame&, const LightGrid&);
-/// A grid's first cell in them.
+/// A grid's first cell in its lattice.
 glm::i64vec3 first_cell(const LightGrid&);
 
 /// Of the frame's blockers, then of its portals as the device has them.
