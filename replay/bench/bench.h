@@ -26,7 +26,7 @@ struct Claim {
 struct TimedWay {
     std::string technique, settings;
     Spread ms;                            ///< of the steps that count
-    std::vector<CounterRecord> counters;  ///< those that the ratio names and the technique has
+    std::vector<CounterRecord> counters;  ///< in the last repeat: those that the ratio names and the technique has
     std::string frame = {};               ///< what is changed in its frame, for people: "64 lights"
     std::uint64_t stage_bytes = 0;        ///< images and buffers first used by the technique
 };

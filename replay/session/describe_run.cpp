@@ -61,6 +61,15 @@ std::vector<CounterRecord> summed(std::vector<CounterRecord> records) {
     return sums;
 }
 
+std::vector<CounterRecord> run_counters(const Declaration& d, const Execution& execution, std::optional<std::size_t> until) {
+    std::vector<CounterRecord> counters = read_counters(d, execution);
+    counters.insert(counters.end(), d.kept_counters.begin(), d.kept_counters.end());
+    counters = summed(std::move(counters));
+    const std::set<std::string> without = not_counted(d, until);
+    std::erase_if(counters, [&](const CounterRecord& counter) { return without.contains(counter.technique); });
+    return counters;
+}
+
 std::map<std::string, HostImage> images_of(const Declaration& d, const Execution& execution) {
     std::map<std::string, HostImage> images;
     for (const auto& [name, image] : d.outputs)

@@ -22,6 +22,8 @@ Result<Execution> without_fatal_counts(const Declaration&, Execution);
 std::set<std::string> not_counted(const Declaration&, std::optional<std::size_t> until);
 /// A technique that acts at several stages counts in each: equal counters are added up.
 std::vector<CounterRecord> summed(std::vector<CounterRecord>);
+/// The counters of a run: of this execution and of the acts that the memo kept, without the techniques of not_counted().
+std::vector<CounterRecord> run_counters(const Declaration&, const Execution&, std::optional<std::size_t> until = {});
 /// By stage: what the host sorted for it in each repeat, in milliseconds.
 using SortTimes = std::map<std::string, std::vector<double>>;
 /// Spreads over repeats of the milliseconds of each step, and of what was sorted; how often shaders ran, in the last one.

@@ -62,7 +62,8 @@ public:
         std::map<std::string, double> sorts;
     };
     using Turn = std::vector<TurnTimes>;
-    /// Runs every request once, what they share once. The first turn makes the runs that the others add times to.
+    /// Runs every request once, what they share once. The first turn makes the runs that the others add times to; counters are
+    /// those of the last turn, in which state that outlives a frame (Graph::remember) is what it was when the times were taken.
     Result<Turn> time_in_turn(std::span<const Request>, std::vector<Run>&, const Progress&);
     Result<void> time_sorts(const Request&, const Run&, std::map<std::string, double>& sorts);
 

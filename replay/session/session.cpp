@@ -240,11 +240,8 @@ Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions option
 
 Run DeviceSession::finished(const Declaration& d, const Execution& execution, std::optional<std::size_t> until) {
     Run run = describe_run(d);
-    run.counters = read_counters(d, execution);
-    run.counters.insert(run.counters.end(), d.kept_counters.begin(), d.kept_counters.end());
-    run.counters = summed(std::move(run.counters));
+    run.counters = run_counters(d, execution, until);
     run.not_counted = not_counted(d, until);
-    std::erase_if(run.counters, [&](const CounterRecord& counter) { return run.not_counted.contains(counter.technique); });
     run.images = images_of(d, execution);
     run.tables = tables_of(d, execution);
     run.notes = loaded_->notes;

@@ -131,12 +131,14 @@ Result<DeviceSession::Turn> DeviceSession::time_in_turn(std::span<const Request>
             add_executed(*declared, *execution, of, acts);
             costs = costs_of(runs[i].steps, of, acts);
             if (is_first) add_results(runs[i], finished(*declared, *execution));
+            else runs[i].counters = run_counters(*declared, *execution);
         }
         if (!costs) {
             auto alone = time_alone(requests[i]);
             if (!alone) return alone.error();
             costs = std::move(alone->step_costs);
             if (is_first) runs[i] = std::move(alone->run);
+            else runs[i].counters = std::move(alone->run.counters);
         }
         times[i].steps = *std::move(costs);
         if (const auto sorted = time_sorts(requests[i], runs[i], times[i].sorts); !sorted) return sorted.error();
