@@ -87,7 +87,7 @@ TEST(BenchVerb, EveryPublishedRatioHasASourceAndEveryCounterIsOneOfEitherWays) {
 }
 
 TEST(BenchVerb, MeasuresAWayInAChangedFrameOfTheScenario) {
-    const Finished made = strata("bench lpv --only '4 lights, against 1' --size 32x18 --repeats 1 --json");
+    const Finished made = strata("bench lpv --only 'injection: 4 lights' --size 32x18 --repeats 1 --json");
     ASSERT_EQ(made.code, 0) << made.err;
     const json row = json::parse(made.out)["rows"][0];
     EXPECT_EQ(row["of"]["frame"], "4 lights");
@@ -95,9 +95,17 @@ TEST(BenchVerb, MeasuresAWayInAChangedFrameOfTheScenario) {
     EXPECT_GT(row["of"]["counters"]["injected"], row["against"]["counters"]["injected"]);
     EXPECT_GT(row["of"]["stage_bytes"], 0);
     ASSERT_EQ(strata("record two_rooms -o rooms.strata").code, 0);
-    const Finished of_capture = strata("bench lpv rooms.strata --only '4 lights, against 1' --repeats 1");
+    const Finished of_capture = strata("bench lpv rooms.strata --only 'injection: 4 lights' --repeats 1");
     EXPECT_NE(of_capture.code, 0);
-    EXPECT_THAT(of_capture.err, HasSubstr("measure it without a capture"));
+    EXPECT_THAT(of_capture.err, HasSubstr("modified frames of scenario hall_of_lights_65; run strata bench without a capture"));
+}
+
+TEST(BenchVerb, CountsInTheLastRepeatWhichIsTimedAndNotInTheWarmUp) {
+    const Finished made = strata("bench lpv --only 'volume kept' --size 32x18 --repeats 1 --json");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json row = json::parse(made.out)["rows"][0];
+    EXPECT_EQ(row["of"]["counters"]["cells relit"], 0) << "light of the warm-up was kept";
+    EXPECT_GT(row["against"]["counters"]["cells relit"], 1000);
 }
 
 TEST(BenchVerb, TakesACaptureAndWritesTheJsonBesideTheTable) {

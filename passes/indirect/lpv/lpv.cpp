@@ -8,12 +8,10 @@
 #include "passes/choice_names.h"
 #include "passes/indirect/bounces.h"
 #include "passes/indirect/lpv/apply/apply.h"
-#include "passes/indirect/lpv/injection/bounce.h"
-#include "passes/indirect/lpv/injection/injection.h"
 #include "passes/indirect/lpv/occlusion/small_portals.h"
-#include "passes/indirect/lpv/propagation/propagation.h"
 #include "passes/indirect/lpv/ratios.h"
 #include "passes/indirect/lpv/views/cell_views.h"
+#include "passes/indirect/lpv/views/energy_tables.h"
 #include "passes/indirect/lpv/views/surface_views.h"
 #include "passes/indirect/lpv/volumes.h"
 #include "passes/scene/scene_facts.h"
@@ -41,8 +39,8 @@ constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded,
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 constexpr std::string_view on_borders =
-    "of cells half as wide, borders lie exactly where walls inject and middles in the plane of a wall: rounding decides on "
-    "which side";
+    "with half as wide cells, cell borders lie where walls inject their light and cell centers in a wall's plane: rounding "
+    "decides which side receives it";
 constexpr std::array exceptions = {ToleranceException{"cell_scale=1/2", "two_rooms", 3e-2, .6, on_borders},
                                    ToleranceException{"cell_scale=1/2 iterations=64", "two_rooms", 3e-2, .6, on_borders},
                                    ToleranceException{"cell_scale=1/2 irradiance=face", "two_rooms", 3e-2, .6, on_borders}};
@@ -58,8 +56,8 @@ std::optional<std::string> beyond_device(const FrameImages& images, const Settin
     const std::uint64_t turns = images.facts->light_turns() + light_grids(frame).size() * 8 * (1 + of_way);
     if (turns <= most_short_turns) return std::nullopt;
     return fmt::format(
-        "a transparent fragment asks light volumes about {} blockers with {} portals, up to {} turns of a loop with its lights, "
-        "and this device ends loops after {}",
+        "transparent fragments test {} blockers and {} portals per cell of a light volume: with their lights up to {} loop "
+        "iterations per fragment, and this device ends loops after {}; choose taps=all",
         frame.blockers.size(), frame.portals.size(), turns, most_short_turns);
 }
 
@@ -69,47 +67,6 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const std::vector<DeviceGrid> grids = shown_grids(graph, frame, params);
     frame.indirect = apply(graph, frame, params, grids);
     hand_on(graph, frame, params, grids);
-}
-
-Image energy_table(Graph& graph, FrameImages& frame, const Settings& settings) {
-    const auto params = settings.as<LpvParams>();
-    std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
-    inject_lights(graph, frame, params, grids);
-    const std::uint32_t rows = grids.empty() ? 1 : iterations(params, grids.front()) + 1;
-    Image numbers = graph.create("energy", {.extent = {1, rows}, .format = Format::rgba32f});
-    graph.clear(numbers, {});
-    if (grids.empty()) return numbers;
-    DeviceGrid& grid = grids.front();
-    propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer& light) {
-        fix_links(fix_faces(graph.compute("indirect/lpv/propagation/energy.comp"), params), grid, step)
-            .loads("Before", light)
-            .updates("numbers", numbers)
-            .push(EnergyPush{.grid = grid.place, .step = step})
-            .groups({1, 1, 1});
-    });
-    return numbers;
-}
-
-Image bounces_table(Graph& graph, FrameImages& frame, const Settings& settings) {
-    const auto params = settings.as<LpvParams>();
-    std::vector<DeviceGrid> grids = make_grids(graph, frame, params);
-    inject_lights(graph, frame, params, grids);
-    Image numbers = graph.create("energy of bounces", {.extent = {1, params.bounces}, .format = Format::rgba32f});
-    graph.clear(numbers, {});
-    if (grids.empty()) return numbers;
-    DeviceGrid grid = grids.front();
-    for (std::uint32_t bounce = 0; bounce < params.bounces; ++bounce) {
-        if (bounce > 0) grid = reflected(graph, frame, params, grid);
-        propagate(graph, frame, params, grid, [&](std::uint32_t step, const Buffer& light) {
-            if (step > 0) return;
-            fix_links(fix_faces(graph.compute("indirect/lpv/propagation/energy.comp"), params), grid, step)
-                .loads("Before", light)
-                .updates("numbers", numbers)
-                .push(EnergyPush{.grid = grid.place, .step = bounce})
-                .groups({1, 1, 1});
-        });
-    }
-    return numbers;
 }
 
 std::string_view approximates(const Settings& settings) {
@@ -132,95 +89,104 @@ Technique lpv() {
             "Kaplanyan, Dachsbacher: Cascaded Light Propagation Volumes for Real-Time Indirect Illumination, I3D 2010; axial "
             "occlusion and visible taps: Kircher, Rendering Technology in Agents of Mayhem, GDC 2018",
         .summary =
-            "Hands light on from cell to cell of a grid. Light from farther than an eighth of the iterations, in cells, is too "
-            "dark; "
-            "details smaller than a cell are lost.",
+            "Injects virtual point lights (VPLs) into grids of spherical harmonics and propagates the light from cell to cell. "
+            "Too dark beyond iterations/8 cells from a source; details smaller than a cell are lost.",
         .params =
             {param<&LpvParams::iterations>(
-                 {.name = "iterations", .high = 64, .fallback = 0, .help = "steps of propagation; 0: as the capture says"}),
+                 {.name = "iterations",
+                  .high = 64,
+                  .fallback = 0,
+                  .help = "propagation steps of one cell each; more: light reaches farther and is brighter; 0: as recorded"}),
              param<&LpvParams::propagation>(
                  {.name = "propagation",
                   .high = 2,
                   .fallback = propagation_energy_true,
                   .help =
-                      "negative radiance at a face: kept, clamped to 0, or clamped and scaled so that a cell sends what it holds",
+                      "negative radiance at a cell face; linear: kept; clamped: set to 0; energy_true: set to 0, the rest scaled "
+                      "to conserve energy",
                   .choices = propagations}),
-             param<&LpvParams::faces>({.name = "faces",
-                                       .high = 1,
-                                       .fallback = faces_centre,
-                                       .help = "radiance at the center of a face, or integrated over it",
-                                       .choices = face_rules}),
+             param<&LpvParams::faces>(
+                 {.name = "faces",
+                  .high = 1,
+                  .fallback = faces_centre,
+                  .help = "radiance through a cell face; centre: sampled at its center; exact: integrated over it",
+                  .choices = face_rules}),
              param<&LpvParams::occlusion>({.name = "occlusion",
                                            .high = 4,
                                            .fallback = occlusion_recorded,
-                                           .help = "what stops light between cells; axial: blockers with their portals; "
-                                                   "fuzzy: surfaces",
+                                           .help = "occluders between cells; axial: blockers with their portals; fuzzy: surfaces "
+                                                   "(geometry volume); recorded: as the volume says",
                                            .choices = occlusions}),
              param<&LpvParams::taps>({.name = "taps",
                                       .high = 1,
                                       .fallback = taps_visible,
-                                      .help = "cells to interpolate: all, or only those that no blocker hides from the surface",
+                                      .help =
+                                          "cells that a sample interpolates; all: the 8 around it; visible: without those that a "
+                                          "blocker hides",
                                       .choices = tap_rules}),
-             param<&LpvParams::irradiance>({.name = "irradiance",
-                                            .high = 1,
-                                            .fallback = irradiance_cell,
-                                            .help = "how a cell's light becomes irradiance: face, as of a light at the cell's "
-                                                    "face; cell, as the mean over the cell",
-                                            .choices = irradiances}),
-             param<&LpvParams::map_size>({.name = "map_size",
-                                          .low = 16,
-                                          .high = 512,
-                                          .fallback = 128,
-                                          .help = "resolution of reflective shadow maps, texels per side",
-                                          .scale = Scale::logarithmic}),
+             param<&LpvParams::irradiance>(
+                 {.name = "irradiance",
+                  .high = 1,
+                  .fallback = irradiance_cell,
+                  .help = "conversion of a cell's SH light to irradiance; face: as from a light at the cell's "
+                          "face; cell: mean over the cell",
+                  .choices = irradiances}),
+             param<&LpvParams::map_size>(
+                 {.name = "map_size",
+                  .low = 16,
+                  .high = 512,
+                  .fallback = 128,
+                  .help = "resolution of reflective shadow maps (RSMs), texels per side; larger: more VPLs",
+                  .scale = Scale::logarithmic}),
              param<&LpvParams::injection>({.name = "injection",
                                            .high = 1,
                                            .fallback = .5,
-                                           .help = "offset of injected light along the surface's normal, cells"}),
-             param<&LpvParams::macro_cells>(
-                 {.name = "macro_cells",
-                  .fallback = 1,
-                  .help = "taps=visible asks the blockers near a macro-cell of 4x4x4 cells; off: all blockers of the frame",
-                  .choices = switches}),
+                                           .help = "offset of VPLs along the surface normal before injection, cells"}),
+             param<&LpvParams::macro_cells>({.name = "macro_cells",
+                                             .fallback = 1,
+                                             .help = "blockers tested with taps=visible; on: those near the macro-cell (4x4x4 "
+                                                     "cells); off: all, for the same image",
+                                             .choices = switches}),
              param<&LpvParams::apply_resolution>(
                  {.name = "apply_resolution",
                   .high = 1,
                   .fallback = resolution_full,
-                  .help = "cells are read per sample, or once per 2x2 pixels; half: pixels that no neighbor fits read them, too",
+                  .help = "resolution at which grids are read; half: one of 2x2 pixels, upsampled by distance and normal",
                   .choices = resolutions}),
-             param<&LpvParams::relight>({.name = "relight",
-                                         .high = 1,
-                                         .fallback = relight_always,
-                                         .help = "when volumes are lit: in every frame, or where lights, casters, blockers or "
-                                                 "the volume changed",
-                                         .choices = relights}),
-             param<&LpvParams::slice>(
-                 {.name = "slice",
-                  .high = 64,
-                  .fallback = 0,
-                  .help = "steps of propagation per frame (relight=changed); surfaces keep the old light meanwhile; 0: all"}),
+             param<&LpvParams::relight>(
+                 {.name = "relight",
+                  .high = 1,
+                  .fallback = relight_always,
+                  .help = "frames that light the volumes; always: all; changed: those in which lights, casters, "
+                          "blockers or the volume differ",
+                  .choices = relights}),
+             param<&LpvParams::slice>({.name = "slice",
+                                       .high = 64,
+                                       .fallback = 0,
+                                       .help = "propagation steps per frame with relight=changed; the old light is shown until "
+                                               "all are done; 0: all at once"}),
              param<&LpvParams::damping>(
                  {.name = "damping",
                   .high = 4,
                   .fallback = 0,
-                  .help = "exponent that dims light which grows towards the inside of a surface; 0: off, 1 to 2: typical"}),
-             param<&LpvParams::tap_tiles>(
-                 {.name = "tap_tiles",
-                  .fallback = 0,
-                  .help =
-                      "tiles near no blocker, by their macro-cells, are lit by a shader that asks none; off: one shader for all",
-                  .choices = switches}),
-             param<&LpvParams::bounces>({.name = "bounces",
-                                         .low = 1,
-                                         .high = 2,
-                                         .fallback = 1,
-                                         .help = "reflections of light on its way; 2: surfaces reflect once more what grids "
-                                                 "brought them"}),
+                  .help = "exponent that darkens light arriving through the back of a surface; 0: off; 1 to 2: typical"}),
+             param<&LpvParams::tap_tiles>({.name = "tap_tiles",
+                                           .fallback = 0,
+                                           .help = "on: 8x8-pixel tiles whose macro-cells have no blocker use a shader without "
+                                                   "visibility tests; off: one shader",
+                                           .choices = switches}),
+             param<&LpvParams::bounces>(
+                 {.name = "bounces",
+                  .low = 1,
+                  .high = 2,
+                  .fallback = 1,
+                  .help = "bounces of light; 2: surfaces also reflect the light that the grids bring them"}),
              param<&LpvParams::cell_scale>({.name = "cell_scale",
                                             .high = 2,
                                             .fallback = cells_recorded,
-                                            .help = "width of cells as a multiple of the recorded one; the extent stays, so 1/2 "
-                                                    "is 8 times the cells",
+                                            .help =
+                                                "cell width as a multiple of the recorded one; the volume's extent stays, so 1/2 "
+                                                "means 8 times the cells",
                                             .choices = cell_scales})},
         .points = {"iterations=8",
                    "iterations=32",
@@ -244,83 +210,90 @@ Technique lpv() {
                    "damping=2",
                    "bounces=2",
                    "relight=changed"},
-        .counters = {counter<&LpvCounters::injected>(
-                         {.name = "injected", .help = "virtual point lights injected, summed over all grids"}),
-                     counter<&LpvCounters::guarded>(
-                         {.name = "guarded",
-                          .help = "virtual point lights injected into another cell, because a blocker hides the nearest"}),
-                     counter<&LpvCounters::dropped>(
-                         {.name = "dropped", .help = "virtual point lights lost, because blockers hide all cells near them"}),
-                     counter<&LpvCounters::outside>({.name = "outside", .help = "virtual point lights outside of the grid"}),
-                     counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid"}),
-                     counter<&LpvCounters::hidden_taps>(
-                         {.name = "hidden taps", .help = "interpolated cells that a blocker hides, summed over samples"}),
-                     counter<&LpvCounters::unfinished>(unfinished_row),
-                     counter<&LpvCounters::samples_near_blockers>(
-                         {.name = "samples near blockers", .help = "samples with a blocker near their macro-cell"}),
-                     counter<&LpvCounters::blocker_tests>(
-                         {.name = "blocker tests", .help = "ways to a cell or to another pixel tested against a blocker"}),
-                     counter<&LpvCounters::full_resolution_pixels>(
-                         {.name = "full resolution pixels",
-                          .help = "samples that read cells themselves with apply_resolution=half: no neighbor fits"}),
-                     counter<&LpvCounters::cells_relit>(
-                         {.name = "cells relit", .help = "cells whose light was injected in this frame, summed over all grids"}),
-                     counter<&LpvCounters::faces_rebuilt>(
-                         {.name = "faces rebuilt", .help = "faces between cells that were tested against all blockers"}),
-                     counter<&LpvCounters::overflowed>(
-                         {.name = "overflowed", .help = "sums of light in a cell that left their fixed point", .is_fatal = true}),
-                     counter<&LpvCounters::reflected>(
-                         {.name = "reflected", .help = "pieces of surfaces injected for a second bounce, summed over all grids"}),
-                     counter<&LpvCounters::tiles>(
-                         {.name = "tiles", .help = "tiles of 8x8 pixels with a surface, summed over grids, with tap_tiles=on"}),
-                     counter<&LpvCounters::tiles_near_blockers>(
-                         {.name = "tiles near blockers", .help = "of these, those lit by the shader that asks blockers"})},
+        .counters =
+            {counter<&LpvCounters::injected>(
+                 {.name = "injected", .help = "virtual point lights (VPLs) injected, summed over all grids"}),
+             counter<&LpvCounters::guarded>(
+                 {.name = "guarded", .help = "VPLs injected into a neighboring cell because a blocker hides the nearest one"}),
+             counter<&LpvCounters::dropped>({.name = "dropped", .help = "VPLs lost because blockers hide all cells near them"}),
+             counter<&LpvCounters::outside>({.name = "outside", .help = "VPLs outside the grid: not injected"}),
+             counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid, summed over all grids"}),
+             counter<&LpvCounters::hidden_taps>(
+                 {.name = "hidden taps",
+                  .help = "cells that samples do not interpolate because a blocker hides them, summed over samples"}),
+             counter<&LpvCounters::unfinished>(unfinished_row),
+             counter<&LpvCounters::samples_near_blockers>(
+                 {.name = "samples near blockers", .help = "samples with at least one blocker near their macro-cell"}),
+             counter<&LpvCounters::blocker_tests>(
+                 {.name = "blocker tests",
+                  .help = "(segment, blocker) intersection tests; segments lead from samples to cells and to other pixels"}),
+             counter<&LpvCounters::full_resolution_pixels>(
+                 {.name = "full resolution pixels",
+                  .help = "samples that read the grid themselves with apply_resolution=half because no neighbor fits"}),
+             counter<&LpvCounters::cells_relit>(
+                 {.name = "cells relit", .help = "cells lit anew in this frame, summed over all grids; 0: their light was kept"}),
+             counter<&LpvCounters::faces_rebuilt>(
+                 {.name = "faces rebuilt", .help = "cell faces whose transmission was computed in this frame; 0: it was kept"}),
+             counter<&LpvCounters::overflowed>(
+                 {.name = "overflowed", .help = "fixed-point sums of light in a cell that overflowed", .is_fatal = true}),
+             counter<&LpvCounters::reflected>(
+                 {.name = "reflected", .help = "surfels injected for the second bounce, summed over all grids"}),
+             counter<&LpvCounters::tiles>(
+                 {.name = "tiles", .help = "8x8-pixel tiles with a surface, summed over all grids (tap_tiles=on)"}),
+             counter<&LpvCounters::tiles_near_blockers>(
+                 {.name = "tiles near blockers",
+                  .help = "8x8-pixel tiles shaded with visibility tests, summed over all grids (tap_tiles=on)"})},
         .counter_bytes = sizeof(LpvCounters),
-        .views = {{.name = "visible taps",
-                   .help = "of the eight interpolated cells, those that no blocker hides from the surface",
-                   .unit = "cells",
-                   .high = 8,
-                   .declare = visible_taps},
-                  {.name = "macro-cells",
-                   .help = "blockers that a pixel's taps are tested against: those near its macro-cell of 4x4x4 cells",
-                   .unit = "blockers",
-                   .high = 8,
-                   .declare = near_blockers,
-                   .if_zero = "no blocker is near any macro-cell that is read"},
-                  {.name = "volume",
-                   .help = "number of the grid that gives the most light, from 1, plus half the share left to others; 0: none",
-                   .unit = "grid",
-                   .high = 8,
-                   .declare = lighting_volume,
-                   .if_zero = "no grid lights a surface"},
-                  {.name = "cells",
-                   .help = "a sphere per lit cell: the radiant intensity it sends where the sphere's surface points",
-                   .unit = "W/sr",
-                   .high = .5,
-                   .declare = cells_view,
-                   .channels = {"red", "green", "blue"}},
-                  {.name = "injected",
-                   .help = "a sphere per cell with injected light: its radiant intensity before propagation",
-                   .unit = "W/sr",
-                   .high = .5,
-                   .declare = injected_view,
-                   .channels = {"red", "green", "blue"}},
-                  {.name = "axial occlusion",
-                   .help = "share of light that blockers stop at the faces of the surface's cell, the larger of two per axis",
-                   .unit = "share",
-                   .high = 1,
-                   .declare = axial_occlusion_view,
-                   .channels = {"across x", "across y", "across z"},
-                   .if_zero = "no blocker stops light between the cells at these surfaces"}},
-        .tables = {{.name = "energy",
-                    .help = "energy of the first grid by step: held in its cells, absorbed by blockers, escaped over the border",
-                    .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
-                    .declare = energy_table,
-                    .is_curves = true},
-                   {.name = "bounces",
-                    .help = "energy that surfaces reflect into the first grid, by earlier bounces of the light",
-                    .columns = {{"earlier bounces", ""}, {"injected", "W"}},
-                    .declare = bounces_table}},
+        .views =
+            {{.name = "visible taps",
+              .help = "cells that a pixel interpolates: those of the 8 around it that no blocker hides",
+              .unit = "cells",
+              .high = 8,
+              .declare = visible_taps},
+             {.name = "macro-cells",
+              .help = "blockers near a pixel's macro-cell (4x4x4 cells): its visibility tests ask these alone",
+              .unit = "blockers",
+              .high = 8,
+              .declare = near_blockers,
+              .if_zero = "no blocker is near the macro-cell of a visible surface"},
+             {.name = "volume",
+              .help = "grid with the largest share in a pixel, counted from 1, plus half the share of all others; 0: none",
+              .unit = "grid",
+              .high = 8,
+              .declare = lighting_volume,
+              .if_zero = "no grid lights a visible surface"},
+             {.name = "cells",
+              .help =
+                  "white diffuse sphere in each lit cell: irradiance / pi that the cell's light gives it; surfaces are dimmed",
+              .unit = "W/(m^2 sr)",
+              .high = .5,
+              .declare = cells_view,
+              .channels = {"red", "green", "blue"}},
+             {.name = "injected",
+              .help = "sphere in each cell with VPLs: radiant intensity sent along its normals, before propagation; surfaces "
+                      "are dimmed",
+              .unit = "W/sr",
+              .high = .5,
+              .declare = injected_view,
+              .channels = {"red", "green", "blue"}},
+             {.name = "axial occlusion",
+              .help =
+                  "axial occlusion at the faces of the surface's cell: share of light stopped, the larger of two faces per axis",
+              .unit = "share",
+              .high = 1,
+              .declare = axial_occlusion_view,
+              .channels = {"across x", "across y", "across z"},
+              .if_zero = "no blocker occludes a face of a visible surface's cell"}},
+        .tables =
+            {{.name = "energy",
+              .help = "energy balance of the first grid by propagation step, R+G+B: held in cells, absorbed by blockers, escaped",
+              .columns = {{"step", ""}, {"held", "W"}, {"absorbed", "W"}, {"escaped", "W"}},
+              .declare = energy_table,
+              .is_curves = true},
+             {.name = "bounces",
+              .help = "energy injected into the first grid by bounce, R+G+B; 0 earlier bounces: light straight from its source",
+              .columns = {{"earlier bounces", ""}, {"injected", "W"}},
+              .declare = bounces_table}},
         .beyond_device = beyond_device,
         .claims = {.ratios = lpv_ratios()},
         .declare = declare,
@@ -328,7 +301,7 @@ Technique lpv() {
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
                       .worst = 8e-2,
-                      .because = "half floats; virtual point lights within a rounding of a cell's border fall to either side",
+                      .because = "half-float image; VPLs within a rounding of a cell's border fall to either side",
                       .exceptions = exceptions},
         .notes = notes};
 }

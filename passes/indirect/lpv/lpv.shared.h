@@ -97,6 +97,11 @@ struct EnergyPush {
     uint step;
 };
 
+// W: held, absorbed, escaped, as a float and what it was rounded by.
+struct EnergySum {
+    vec3 sum, rest;
+};
+
 struct ApplyPush {
     GridPlace grid;
     float border;  // metres over which the grid fades at its border

@@ -42,7 +42,8 @@ std::vector<TimeRatio> lpv_ratios() {
     using Names = std::vector<std::string_view>;
     const Names stage = {}, propagation = {"/propagate"}, apply = {"/apply/"}, injection = {"/injection/map", "/inject.comp"},
                 inject = {"/inject.comp"};
-    const Names injected = {"injected"}, taps = {"samples", "hidden taps"}, relit = {"cells relit", "faces rebuilt"}, none = {};
+    const Names injected = {"injected"}, taps = {"samples", "hidden taps"}, tested = {"samples", "blocker tests"},
+                relit = {"cells relit", "faces rebuilt"}, none = {};
     // Maps of fewer texels, so that 64 lights fit into a minute.
     constexpr std::string_view few_texels = "map_size=32 iterations=1";
     struct Row {
@@ -52,15 +53,14 @@ std::vector<TimeRatio> lpv_ratios() {
         std::optional<Statement> stated = {};
     };
     const Row rows[] = {
-        {"propagation: the closed form, against five faces clamped", "propagation=linear", "propagation=clamped", "cornell_box",
+        {"propagation steps: linear (closed form) / clamped", "propagation=linear", "propagation=clamped", "cornell_box",
          propagation, none},
-        {"propagation: the closed form, against five faces that keep the energy", "propagation=linear", "propagation=energy_true",
-         "cornell_box", propagation, none},
-        {"propagation: faces that keep the energy, against clamped", "propagation=energy_true", "propagation=clamped",
-         "cornell_box", propagation, none},
-        {"propagation: integrals over faces, against their middles", "faces=exact", "faces=centre", "cornell_box", propagation,
+        {"propagation steps: linear (closed form) / energy_true", "propagation=linear", "propagation=energy_true", "cornell_box",
+         propagation, none},
+        {"propagation steps: energy_true / clamped", "propagation=energy_true", "propagation=clamped", "cornell_box", propagation,
          none},
-        {"propagation: 64 iterations, against 16",
+        {"propagation steps: face integrals / face centers", "faces=exact", "faces=centre", "cornell_box", propagation, none},
+        {"propagation steps: 64 iterations / 16 iterations",
          "iterations=64",
          "iterations=16",
          "cornell_box",
@@ -69,23 +69,23 @@ std::vector<TimeRatio> lpv_ratios() {
          {},
          {},
          per_iteration},
-        {"propagation: links with blockers, against open ones", "occlusion=axial", "occlusion=none", "two_rooms", propagation,
+        {"propagation steps: axial occlusion / no occlusion", "occlusion=axial", "occlusion=none", "two_rooms", propagation,
          none},
-        {"propagation: 32^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_32, cells_16, per_cell},
-        {"propagation: 48^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_48, cells_16},
-        {"propagation: 64^3 cells, against 16^3", "", "", "cornell_box", propagation, none, cells_64, cells_16},
-        {"propagation: 64^3 cells, against 32^3", "", "", "cornell_box", propagation, none, cells_64, cells_32, per_cell},
-        {"the stage: 32^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_32, cells_16},
-        {"the stage: 48^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_48, cells_16},
-        {"the stage: 64^3 cells, against 16^3", "", "", "cornell_box", stage, none, cells_64, cells_16},
-        {"the stage: blockers, against none", "occlusion=axial", "occlusion=none", "two_rooms", stage, taps},
-        {"apply: cells that blockers do not hide, against all eight", "taps=visible", "taps=all", "two_rooms", apply, taps},
-        {"apply: once per 2 x 2 pixels, against every pixel", "apply_resolution=half", "apply_resolution=full", "two_rooms",
-         apply, taps},
-        {"the stage: a static volume that is kept, against one that is lit in every frame", "relight=changed", "relight=always",
-         "two_rooms", stage, relit},
-        {"the stage: two bounces, against one", "bounces=2", "bounces=1", "cornell_box", stage, none},
-        {"injection: maps of 256^2 texels, against 128^2",
+        {"propagation steps: 32^3 cells / 16^3 cells", "", "", "cornell_box", propagation, none, cells_32, cells_16, per_cell},
+        {"propagation steps: 48^3 cells / 16^3 cells", "", "", "cornell_box", propagation, none, cells_48, cells_16},
+        {"propagation steps: 64^3 cells / 16^3 cells", "", "", "cornell_box", propagation, none, cells_64, cells_16},
+        {"propagation steps: 64^3 cells / 32^3 cells", "", "", "cornell_box", propagation, none, cells_64, cells_32, per_cell},
+        {"whole stage: 32^3 cells / 16^3 cells", "", "", "cornell_box", stage, none, cells_32, cells_16},
+        {"whole stage: 48^3 cells / 16^3 cells", "", "", "cornell_box", stage, none, cells_48, cells_16},
+        {"whole stage: 64^3 cells / 16^3 cells", "", "", "cornell_box", stage, none, cells_64, cells_16},
+        {"whole stage: axial occlusion / no occlusion", "occlusion=axial", "occlusion=none", "two_rooms", stage, taps},
+        {"apply: visible taps / all taps", "taps=visible", "taps=all", "two_rooms", apply, taps},
+        {"apply: half resolution / full resolution", "apply_resolution=half", "apply_resolution=full", "two_rooms", apply, taps},
+        {"apply: damping by the light behind the surface / no damping", "damping=2", "damping=0", "two_rooms", apply, tested},
+        {"whole stage: unchanged frame, volume kept / lit in every frame", "relight=changed", "relight=always", "two_rooms",
+         stage, relit},
+        {"whole stage: 2 bounces / 1 bounce", "bounces=2", "bounces=1", "cornell_box", stage, none},
+        {"injection: RSMs of 256^2 texels / 128^2 texels",
          "map_size=256",
          "map_size=128",
          "two_rooms",
@@ -94,11 +94,9 @@ std::vector<TimeRatio> lpv_ratios() {
          {},
          {},
          per_texel},
-        {"injection: 4 lights, against 1", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_4, lights_1},
-        {"injection: 16 lights, against 1", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_16,
-         lights_1},
-        {"injection: 64 lights, against 1", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_64,
-         lights_1},
+        {"injection: 4 lights / 1 light", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_4, lights_1},
+        {"injection: 16 lights / 1 light", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_16, lights_1},
+        {"injection: 64 lights / 1 light", few_texels, few_texels, "hall_of_lights_65", injection, injected, lights_64, lights_1},
     };
     std::vector<TimeRatio> ratios;
     for (const Row& row : rows)

@@ -32,7 +32,7 @@ std::vector<std::string> notes_on_small_portals(const Frame& frame, std::span<co
                 small.push_back(k);
         if (small.empty()) continue;
         notes.push_back(fmt::format(
-            "light grid {}: {} narrower than 1/8 of its cells of {:.3g} m (portal {} is {:.3g} m): light may not pass; "
+            "light grid {}: {} narrower than 1/8 of its cells of {:.3g} m (portal {} is {:.3g} m wide) and may pass no light; "
             "record smaller cells",
             i, small.size() == 1 ? "a portal is" : fmt::format("{} portals are", small.size()), grid.cell, small.front(),
             width(frame.portals[small.front()])));

@@ -1,5 +1,5 @@
 // A row of the table of energy: what the cells hold before a step, and what was lost up to it, at blockers and over the border. Each is a
-// sum of its own, so that they prove each other.
+// sum of its own, so that they prove each other. Sums are of two floats: a sum of one loses more than propagation does (README.md).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/occlusion/links.glsl"
@@ -9,10 +9,19 @@ layout(local_size_x = 256) in;
 
 layout(push_constant, scalar) uniform Push { EnergyPush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Before { StepCell before[]; };
-layout(set = 0, binding = 2, rgba32f) uniform image2D numbers;
+layout(set = 0, binding = 2, rgba32f) writeonly uniform image2D numbers;
+layout(set = 0, binding = 3, scalar) buffer Lost { EnergySum lost; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-shared vec3 sums[256];
+shared EnergySum sums[256];
+
+// Knuth, The Art of Computer Programming 2, 4.2.2: the rest is exactly what the sum was rounded by.
+EnergySum plus(EnergySum a, EnergySum b) {
+    precise const vec3 sum = a.sum + b.sum;
+    precise const vec3 added = sum - a.sum;
+    precise const vec3 rest = (a.rest + b.rest) + ((a.sum - (sum - added)) + (b.sum - added));
+    return EnergySum(sum, rest);
+}
 
 // W of all channels that a cell sends along an axis.
 float sent_all(StepCell cell, uint axis, float direction) {
@@ -39,18 +48,17 @@ vec3 energy(ivec3 at) {
 void main() {
     const uint thread = gl_LocalInvocationIndex;
     const uvec3 cells = push.grid.cells;
-    vec3 sum = vec3(0.0);
+    EnergySum sum = EnergySum(vec3(0.0), vec3(0.0));
     for (uint i = thread; i < cells.x * cells.y * cells.z; i += 256u)
-        sum += energy(ivec3(i % cells.x, i / cells.x % cells.y, i / (cells.x * cells.y)));
+        sum = plus(sum, EnergySum(energy(ivec3(i % cells.x, i / cells.x % cells.y, i / (cells.x * cells.y))), vec3(0.0)));
     sums[thread] = sum;
     for (uint reach = 128u; reach > 0u; reach /= 2u) {
         barrier();
-        if (thread < reach) sums[thread] += sums[thread + reach];
+        if (thread < reach) sums[thread] = plus(sums[thread], sums[thread + reach]);
     }
     if (!finished(view.extent.x)) atomicAdd(counters.unfinished, 1u);
     if (thread > 0u) return;
-    const int row = int(push.step);
-    const vec2 lost = row == 0 ? vec2(0.0) : imageLoad(numbers, ivec2(0, row)).zw;
-    imageStore(numbers, ivec2(0, row), vec4(float(row), sums[0].x, lost));
-    if (row + 1 < imageSize(numbers).y) imageStore(numbers, ivec2(0, row + 1), vec4(0.0, 0.0, lost + sums[0].yz));
+    const vec3 before_step = vec3(sums[0].sum.x + sums[0].rest.x, lost.sum.yz + lost.rest.yz);
+    imageStore(numbers, ivec2(0, push.step), vec4(float(push.step), before_step));
+    lost = plus(lost, sums[0]);
 }
