@@ -3,10 +3,9 @@
 // The shader that includes this says where cells lie, light_of(), and which blockers are asked, is_hidden().
 #ifndef PASSES_INDIRECT_READ_GRID_GLSL
 #define PASSES_INDIRECT_READ_GRID_GLSL
+#include "passes/indirect/irradiance.glsl"
 #include "passes/indirect/lit_place.glsl"
 #include "passes/indirect/ways.glsl"
-
-layout(constant_id = 72) const uint irradiance = irradiance_face;
 
 // The least share of taps that stands for all.
 const float least_share = 0.02;
@@ -52,20 +51,6 @@ SeenLight seen_light_at(GridPlace grid, uint first_cell, LitPlace lit, float cel
     const float scale = all < least_share ? 0.0 : 1.0 / all;
     seen.light = LightCell(seen.light.red * scale, seen.light.green * scale, seen.light.blue * scale);
     return seen;
-}
-
-// Irradiance over pi, where cells are a metre wide (docs/algorithms/lighting.md 5.8). face: of a light half a cell away that sends as much as the
-// cell towards the surface. cell: of light through all of the cell's section, which is 1.5 square metres in the mean. Without a normal
-// only l0 is left: the mean over all normals, which is the mean radiance.
-float towards(vec4 light, vec3 n) {
-    const float face = (4.0 / 3.14159265358979) * (y0 * light.x - y1 * dot(light.yzw, n));
-    const float cell = (watt0 * light.x - watt1 * dot(light.yzw, n)) / 1.5;
-    return max(0.0, irradiance == irradiance_face ? face : cell);
-}
-
-vec3 irradiance_over_pi(GridPlace grid, LightCell light, vec3 n) {
-    const float scale = 1.0 / (grid.cell * grid.cell);
-    return scale * vec3(towards(light.red, n), towards(light.green, n), towards(light.blue, n));
 }
 
 #endif

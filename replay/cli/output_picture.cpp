@@ -21,9 +21,10 @@ std::vector<Swatch> channel_swatches(const std::array<std::string_view, 3>& mean
 }
 
 ImageLegend legend_of(const DebugView& view) {
-    ImageLegend legend{.low = view.low,
+    const bool is_light = content_of(view) == Content::radiance;
+    ImageLegend legend{.low = is_light ? std::optional<double>() : view.low,
                        .unit = std::string(view.unit),
-                       .channels = channel_swatches(view.channels),
+                       .channels = is_light ? std::vector<Swatch>() : channel_swatches(view.channels),
                        .if_zero = std::string(view.if_zero),
                        .help = std::string(view.help)};
     for (const ViewColor& color : view.colors) legend.colors.push_back({Rgb(color.color * 255.f + .5f), color.meaning});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/technique.h"
 #include "replay/plural.h"
 
 namespace strata {
@@ -73,6 +74,10 @@ Content content_of(std::string_view image, Format format) {
     if (f.kind == FormatKind::depth) return Content::depth;
     if (f.kind == FormatKind::integer || f.channels < 3) return Content::numbers;
     return f.bytes == f.channels ? Content::display : Content::radiance;
+}
+
+Content content_of(const DebugView& view) {
+    return view.unit == "W/(m^2 sr)" || view.unit == "W/sr" ? Content::radiance : Content::numbers;
 }
 
 Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits& limits) {

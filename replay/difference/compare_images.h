@@ -12,6 +12,8 @@
 
 namespace strata {
 
+struct DebugView;
+
 /// From good to bad.
 enum class Verdict {
     same,          ///< bit for bit
@@ -40,6 +42,8 @@ struct ImageComparison {
 /// What an image of this name holds; an image of a file that has no name of a frame image is display light in bytes, radiance in
 /// three or four reals, depth in d32f.
 Content content_of(std::string_view image, Format);
+/// What a debug view shows: radiance where its unit is one of light per solid angle, else numbers.
+Content content_of(const DebugView&);
 
 /// The measures and the verdict. Fails when the two cannot be compared.
 Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits&);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "replay/difference/compare_images.h"
 #include "replay/plural.h"
 #include "ui/picture/legend.h"
 #include "ui/widgets/param_widget.h"
@@ -92,7 +93,9 @@ std::string text_of(double at, double half) { return fmt::format("{:.4g} \xc2\xb
 }  // namespace
 
 Look look_of(const DebugView& view) {
-    return {.black = static_cast<float>(view.low), .white = static_cast<float>(view.high), .curve = Curve::raw};
+    return {.black = static_cast<float>(view.low),
+            .white = static_cast<float>(view.high),
+            .curve = content_of(view) == Content::radiance ? Curve::srgb : Curve::raw};
 }
 
 std::string legend_text(const DebugView& view) {

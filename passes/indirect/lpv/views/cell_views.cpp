@@ -31,8 +31,14 @@ DeepPicture backdrop(Graph& graph, const FrameImages& frame) {
     return picture;
 }
 
+/// What the spheres are shaded by: spheres_received or spheres_sent, and the rule of irradiance.
+struct Shading {
+    std::uint32_t shown = spheres_received, irradiance = irradiance_cell;
+};
+
 /// `light` of each grid, LightCell.
-Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light) {
+Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light,
+              const Shading& shading) {
     DeepPicture picture = backdrop(graph, frame);
     if (grids.empty()) return picture.color;
     Buffer places = graph.create("places of grids", grids.size() * sizeof(GridPlace));
@@ -43,6 +49,8 @@ Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGr
             .updates("Places", places)
             .updates("picture", picture.color)
             .updates("nearest", picture.nearest)
+            .fixes("shown", shading.shown)
+            .fixes("irradiance", shading.irradiance)
             .push(SpheresPush{.grid = grids[i].place, .number = static_cast<std::uint32_t>(i)})
             .over(frame.extent);
     return picture.color;
@@ -51,10 +59,11 @@ Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGr
 }  // namespace
 
 Image cells_view(Graph& graph, FrameImages& frame, const Settings& settings) {
-    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, settings.as<LpvParams>());
+    const auto params = settings.as<LpvParams>();
+    const std::vector<DeviceGrid> grids = lit_grids(graph, frame, params);
     std::vector<Buffer> light;
     for (const DeviceGrid& grid : grids) light.push_back(grid.total);
-    return spheres(graph, frame, grids, light);
+    return spheres(graph, frame, grids, light, {.shown = spheres_received, .irradiance = params.irradiance});
 }
 
 Image injected_view(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -68,7 +77,7 @@ Image injected_view(Graph& graph, FrameImages& frame, const Settings& settings) 
             light.push_back(graph.create(grid.name("light of step 0 of grid"), graph.record(grid.total).bytes));
             graph.copy(grid.total, light.back());
         });
-    return spheres(graph, frame, grids, light);
+    return spheres(graph, frame, grids, light, {.shown = spheres_sent});
 }
 
 Image axial_occlusion_view(Graph& graph, FrameImages& frame, const Settings& settings) {

@@ -6,9 +6,9 @@
 
 namespace strata::indirect {
 
-/// Cells as spheres, shaded by what they hold after propagation.
+/// Cells as white diffuse spheres, lit by what the cells hold after propagation.
 Image cells_view(Graph&, FrameImages&, const Settings&);
-/// The same of what was injected.
+/// Cells with injected light as spheres, shaded by what they send.
 Image injected_view(Graph&, FrameImages&, const Settings&);
 /// What blockers take of the light through the faces of the cell that a surface lies in, by axis.
 Image axial_occlusion_view(Graph&, FrameImages&, const Settings&);

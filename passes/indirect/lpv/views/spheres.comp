@@ -1,13 +1,15 @@
-// A sphere in the middle of every cell of a grid that holds light, shaded by the light that the cell sends where the sphere's surface points
-// (docs/algorithms/lighting.md 5.8, "Debug draws"). What is nearer hides it. Where grids overlap, the cells of the first are shown.
+// A sphere in the middle of every cell of a grid that holds light (docs/algorithms/lighting.md 5.8, "Debug draws"): a white diffuse ball that
+// the cell's light falls on, as probes are shown, or shaded by what the cell sends. What is nearer hides it. Where grids overlap, the
+// cells of the first are shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/grid.glsl"
+#include "passes/indirect/irradiance.glsl"
 #include "passes/indirect/lpv/views/views.shared.h"
 #include "passes/shaders/camera.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(constant_id = 0) const uint shown = spheres_received;
 layout(push_constant, scalar) uniform Push { SpheresPush push; };
 layout(set = 0, binding = 0, scalar) readonly buffer Light { LightCell light[]; };
 layout(set = 0, binding = 1, scalar) buffer Places { GridPlace places[]; };  // of the grids up to this one
@@ -34,8 +36,13 @@ float entered_at(vec3 middle, vec3 ray) {
 
 float sent(vec4 l, vec3 n) { return max(0.0, y0 * l.x + y1 * dot(l.yzw, n)); }
 
+vec3 shade(LightCell l, vec3 n) {
+    if (shown == spheres_received) return irradiance_over_pi(push.grid, l, n);
+    return vec3(sent(l.red, n), sent(l.green, n), sent(l.blue, n));
+}
+
 void draw(ivec2 at, LightCell l, vec3 n, float depth) {
-    imageStore(picture, at, vec4(sent(l.red, n), sent(l.green, n), sent(l.blue, n), 1.0));
+    imageStore(picture, at, vec4(shade(l, n), 1.0));
     imageStore(nearest, at, vec4(depth));
 }
 
