@@ -61,10 +61,10 @@ std::uint32_t features_of_surfaces(const Frame& frame, const DrawBounds& bounds,
     return features;
 }
 
-/// Volumes whose light stops at blockers are looked up tap by tap (docs/algorithms/lighting.md 5.8).
+/// Volumes whose light stops at blockers are read tap by tap (docs/algorithms/lighting.md 5.8). Settings may make it stop in any
+/// volume, whatever is recorded.
 std::uint32_t features_of_volumes(const Frame& frame) {
-    const bool taps = std::ranges::count(frame.light_volumes, VolumeOcclusion::axial, &LightVolume::occlusion) > 0;
-    return taps && !frame.blockers.empty() ? feature_gi_tap_visibility : 0;
+    return !frame.light_volumes.empty() && !frame.blockers.empty() ? feature_gi_tap_visibility : 0;
 }
 
 // Of a light: those that a tile may lack though the light is in its list.

@@ -20,8 +20,8 @@ Technique ambient() {
             .title = "Ambient light",
             .source = "the baseline: no light bounces",
             .summary =
-                "Adds no bounced light, so that the sky and the ground alone light what no light reaches; its error is all "
-                "bounced light.",
+                "Adds no bounced light: only sky and ground light what no light source reaches. Its error is all of the bounced "
+                "light.",
             .abilities = {.is_time_unit = true},
             .declare = declare,
             .model = ambient_model,

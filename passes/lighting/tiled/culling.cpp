@@ -31,8 +31,8 @@ std::uint32_t shadow_features(const FrameImages& frame, const TiledParams& param
     return params.shadows == shadows_inline ? feature_shadows | feature_soft_shadows : feature_shadows;
 }
 
-/// Features that the shader of a tile may be asked for: of shadows what there is, of blockers what pixels test. Volumes are
-/// looked up elsewhere.
+/// Features that the shader of a tile may be asked for: of shadows what there is, of blockers what pixels test. Light volumes are
+/// read by the stage indirect, which has a shader of its own for tiles near blockers.
 std::uint32_t shaded_features(const FrameImages& frame, const TiledParams& params) {
     std::uint32_t unused = feature_gi_tap_visibility;
     unused |= (feature_shadows | feature_soft_shadows) & ~shadow_features(frame, params);

@@ -13,9 +13,11 @@ layout(set = 0, binding = 0, scalar) readonly buffer Histogram { uvec4 histogram
 layout(set = 0, binding = 1, rgba32f) uniform image2DArray numbers;
 layout(push_constant, scalar) uniform Push { ModeOrder order; };
 
+// As tile_header.glsl chooses a mode: light volumes are not its to read.
 vec4 row_of(uint spectrum, uint tiles) {
+    const uint shaded = spectrum & ~feature_gi_tap_visibility;
     uint place = 0u;
-    while (place + 1u < order.count && !serves(order.modes[place], spectrum)) ++place;
+    while (place + 1u < order.count && !serves(order.modes[place], shaded)) ++place;
     const uint mode = order.modes[place];
     return vec4(spectrum, tiles, mode >> 16, mode & every_light_feature & ~spectrum);
 }

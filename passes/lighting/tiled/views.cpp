@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/tiled/culling.h"
 #include "passes/lighting/tiled/views.shared.h"
+#include "passes/scene/scene_facts.h"
 #include "passes/shaders/light_features.shared.h"
 
 namespace strata::lighting {
@@ -20,6 +22,19 @@ Image numbers_of(Graph& graph, std::uint32_t rows) {
     return graph.create("tiled table", Shape{.extent = {1, rows}, .format = Format::rgba32f});
 }
 
+/// The tiles with their spectra, what other stages shade of them included.
+CulledTiles tiles_with_spectra(Graph& graph, FrameImages& frame, const Settings& settings) {
+    CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    if (frame.light_grids == 0) return culled;
+    sample_gbuffer(graph.compute("lighting/tiled/tap_visibility.comp"), frame)
+        .samples("volume_light", frame.volume_light)
+        .updates("Records", culled.records)
+        .fixes("light_grids", frame.light_grids)
+        .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .groups({culled.across, culled.down, 1});
+    return culled;
+}
+
 Image nothing_shaded(Graph& graph, Extent extent, double value) {
     Image nothing = graph.create("tiled nothing", Shape{.extent = extent, .format = Format::rgba32f});
     graph.clear(nothing, {{value, value, value, 1}});
@@ -30,7 +45,9 @@ template <std::uint32_t shown>
 Image picture(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0)
         return nothing_shaded(graph, frame.extent, shown == view_mode_numbers || shown == view_spectrum ? -1 : 0);
-    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    const CulledTiles culled = shown == view_spectrum || shown == view_features
+                                   ? tiles_with_spectra(graph, frame, settings)
+                                   : cull_tiles(graph, frame, settings.as<TiledParams>());
     Image picture = graph.create("tiled view", Shape{.extent = frame.extent, .format = Format::rgba32f});
     graph.compute("lighting/tiled/view.comp")
         .loads("Records", culled.records)
@@ -47,7 +64,7 @@ Image no_rows(Graph& graph) { return nothing_shaded(graph, {1, 1}, NAN); }
 
 Image spectra_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return no_rows(graph);
-    const CulledTiles culled = cull_tiles(graph, frame, settings.as<TiledParams>());
+    const CulledTiles culled = tiles_with_spectra(graph, frame, settings);
     Buffer histogram = graph.create("tiled histogram", 65536 * sizeof(std::uint32_t));
     graph.clear(histogram, 0);
     graph.compute("lighting/tiled/spectra_count.comp")
