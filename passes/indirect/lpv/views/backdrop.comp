@@ -8,6 +8,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32f) writeonly uniform image2D picture;
 layout(set = 0, binding = 1, r32f) writeonly uniform image2D nearest;
 
+layout(constant_id = 0) const float white = 1.0;  // of light of radiance 1, in the picture's unit
+
 // Of white at the frame's exposure.
 const float dim = 0.03;
 
@@ -19,7 +21,7 @@ void main() {
     if (s.exists) {
         const MaterialPoint m = lit_point(s, uvec2(at));
         const vec3 n = facing_normal(m.lighting_model, m.normal, m.position);
-        shade = dim / view.exposure * (0.1 + 0.9 * m.base_color) * abs(dot(n, normalize(m.position)));
+        shade = dim * white / view.exposure * (0.1 + 0.9 * m.base_color) * abs(dot(n, normalize(m.position)));
     }
     imageStore(picture, at, vec4(shade, 1.0));
     imageStore(nearest, at, vec4(s.exists ? s.z : 1e30));

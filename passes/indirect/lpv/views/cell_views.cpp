@@ -16,13 +16,15 @@ struct DeepPicture {
     Image color, nearest;
 };
 
-DeepPicture backdrop(Graph& graph, const FrameImages& frame) {
+/// `white`: what light of radiance 1 is in the picture's unit.
+DeepPicture backdrop(Graph& graph, const FrameImages& frame, double white) {
     DeepPicture picture{.color = graph.create("volumes' picture", {.extent = frame.extent, .format = Format::rgba32f}),
                         .nearest = graph.create("volumes' nearest", {.extent = frame.extent, .format = Format::r32f})};
     if (frame.gbuffer0) {
         sample_gbuffer(graph.compute("indirect/lpv/views/backdrop.comp"), frame)
             .stores("picture", picture.color)
             .stores("nearest", picture.nearest)
+            .fixes("white", float(white))
             .over(frame.extent);
     } else {
         graph.clear(picture.color, {});
@@ -39,7 +41,9 @@ struct Shading {
 /// `light` of each grid, LightCell.
 Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light,
               const Shading& shading) {
-    DeepPicture picture = backdrop(graph, frame);
+    // Of radiance 1 a face of a cell sends as many W/sr as it has square metres.
+    const double cell = grids.empty() ? 1 : grids.front().grid.cell;
+    DeepPicture picture = backdrop(graph, frame, shading.shown == spheres_sent ? cell * cell : 1);
     if (grids.empty()) return picture.color;
     Buffer places = graph.create("places of grids", grids.size() * sizeof(GridPlace));
     graph.clear(places, 0);
