@@ -27,8 +27,15 @@ struct LightCell {
 //   origin xyz, cell    as in GridPlace
 //   cells xyz, border   as in GridPlace; metres over which the grid fades at its border
 //   asks_taps, rule, count    1: not of cells that a blocker hides; irradiance_*; grids in the image
+//   macro_row                 the row where its macro-cells begin; 0: it has none, and taps ask all blockers
+// Then the blockers near each macro-cell of a grid: a bit per blocker, in words of 32. A texel holds two words, each as its lower
+// and its upper half: small whole numbers are floats that every driver keeps.
 const uint volume_texels_per_row = 4096u;
 const uint texels_per_record = 3u;
+const uint list_words_per_texel = 2u;
+
+// Macro-cells: blocks of cells that share a list of the blockers near them (docs/algorithms/lighting.md 5.8).
+const uint macro_side = 4u;  // cells
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@
 
 namespace strata::indirect {
 
-/// Of the volumes among a stage's inputs; empty where there are none. The inputs must outlive it.
+/// Of the volumes among a stage's inputs; empty where there are none.
 LightAround volume_light(const Frame&, const ImageSet& before);
 
 }  // namespace strata::indirect

@@ -3,6 +3,7 @@
 // blocker belongs to one side. All blockers of the frame stop light from both sides.
 #ifndef PASSES_INDIRECT_WAYS_GLSL
 #define PASSES_INDIRECT_WAYS_GLSL
+#include "passes/indirect/ways.shared.h"
 #include "passes/shaders/blockers.glsl"
 
 layout(constant_id = 70) const uint blocker_count = 0u;
@@ -13,11 +14,6 @@ float height_over(BlockerRecord blocker, vec3 place) {
     precise const vec3 offset = place - blocker.center;
     return precise_dot(blocker.normal, offset);
 }
-
-// Metres within which a place lies on the plane. It belongs to the side that this direction of the world points to: blockers in one plane,
-// whichever way they face and however their heights are rounded, agree about it.
-const float on_plane = 1e-3;
-const vec3 side_of_plane = vec3(1.0, 0.37, 0.14);
 
 bool is_before(BlockerRecord blocker, float height) {
     return height >= (dot(view.to_world * blocker.normal, side_of_plane) > 0.0 ? -on_plane : on_plane);

@@ -111,8 +111,8 @@ private:
     /// Loads the frame's variant and declares the request on it.
     Result<Declaration> prepare(const Request&, Memo*, Keep);
     Result<void> load(Frame, const FrameVariant&);
-    /// Whether the device can bind every buffer whole.
-    Result<void> check_buffers(const Plan&) const;
+    /// Whether the device can bind every buffer whole and make every image.
+    Result<void> check_sizes(const Plan&) const;
     /// Declares with the memo, as far as the budget leaves it room.
     Result<Declaration> prepare_with_memo(const Request&, const RunOptions&);
     MemoryNeed need_of(const Plan&, const RunOptions&) const;

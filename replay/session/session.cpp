@@ -147,7 +147,14 @@ Result<void> DeviceSession::load(Frame frame, const FrameVariant& variant) {
     return {};
 }
 
-Result<void> DeviceSession::check_buffers(const Plan& plan) const {
+Result<void> DeviceSession::check_sizes(const Plan& plan) const {
+    for (const MemorySlot& slot : plan.slots) {
+        const auto [width, height, depth] = slot.shape.extent;
+        if (depth > 1 || std::max(width, height) <= device().max_image_extent) continue;
+        return fail(Fault::device_lacks, "'{}' is an image of {} x {} texels and {} makes at most {} each way; {}",
+                    plan.images[slot.images.front()].name, width, height, device().name, device().max_image_extent,
+                    "replay with a smaller extent or settings that take less");
+    }
     for (const PlannedStep& step : plan.steps)
         for (const PlannedBinding& bound : step.bindings) {
             if (bound.kind != BindingKind::storage_buffer) continue;
@@ -218,7 +225,7 @@ Result<Execution> DeviceSession::execute(const Declaration& d, RunOptions option
     options.stop = stop_;
     const bool uses_memo = !d.memo_writes.empty() || !d.scopes_from_memo.empty();
     auto execution = check_going()
-                         .and_then([&] { return check_buffers(d.plan); })
+                         .and_then([&] { return check_sizes(d.plan); })
                          .and_then([&] { return uses_memo ? Result<void>() : make_room(d.plan, options); })
                          .and_then([&] {
                              return failures_as_errors([&]() -> Result<Execution> {

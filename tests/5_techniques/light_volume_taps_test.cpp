@@ -12,8 +12,8 @@
 #include "passes/reference/decoded.h"
 #include "passes/registry.h"
 #include "replay/images/host_image.h"
+#include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
-#include "tests/support/random_numbers.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -31,30 +31,6 @@ std::uint64_t count_of(const Run& run, std::string_view name) {
     for (const CounterRecord& counter : run.counters)
         if (counter.technique == lpv && counter.name == name) return counter.value;
     throw std::runtime_error("no counter " + std::string(name));
-}
-
-/// The two rooms with the door open, and blockers of any size and direction in them, every second with a portal.
-Frame with_random_blockers(std::size_t count, unsigned seed) {
-    Frame frame = scenario_frames("two_rooms", 1, 2)[1];
-    Numbers numbers(seed);
-    while (frame.blockers.size() < count) {
-        Blocker blocker;
-        blocker.center = glm::dvec3(0, 1.4, -2) + glm::dvec3(numbers.box(1)) * glm::dvec3(4.4, 1.8, 2.4);
-        blocker.u = numbers.direction(), blocker.v = numbers.across(blocker.u);
-        blocker.half_u = numbers.from(.05f, 1), blocker.half_v = numbers.from(.05f, 1);
-        if (frame.blockers.size() % 2 == 0)
-            frame.portals.push_back({.center = blocker.center,
-                                     .u = blocker.u,
-                                     .v = blocker.v,
-                                     .half_u = .5f * blocker.half_u,
-                                     .half_v = .5f * blocker.half_v,
-                                     .blocker = static_cast<std::uint32_t>(frame.blockers.size())});
-        frame.blockers.push_back(blocker);
-    }
-    // A frame's portals come in any order.
-    std::ranges::reverse(frame.portals);
-    for (Light& light : frame.lights) std::ranges::fill(light.portals, static_cast<std::uint32_t>(frame.portals.size() - 1));
-    return frame;
 }
 
 // Over 5 s of CPU: the count of blockers is a constant of shaders, so that every frame compiles its own.
@@ -105,18 +81,7 @@ TEST(LightVolumeTaps, AskNothingWhereNoBlockerIsNear) {
 
 /// A blocker's portals are found without asking all of the frame: drivers end loops of more than 65,535 turns.
 TEST(LightVolumeTaps, SeeThroughAThousandWindows) {
-    Frame frame = with_random_blockers(27, 4);
-    for (std::uint32_t i = 0; i < 1000; ++i) {
-        const auto blocker = static_cast<std::uint32_t>(7 + i % 20);
-        const Blocker& wall = frame.blockers[blocker];
-        const float across = -.95f + .19f * float(i / 20 % 10), up = -.9f + .4f * float(i / 200);
-        frame.portals.push_back({.center = wall.center + glm::dvec3(across * wall.half_u * wall.u + up * wall.half_v * wall.v),
-                                 .u = wall.u,
-                                 .v = wall.v,
-                                 .half_u = .04f * wall.half_u,
-                                 .half_v = .1f * wall.half_v,
-                                 .blocker = blocker});
-    }
+    const Frame frame = with_a_thousand_windows();
     const auto session = must(Session::open({frame}, {.validation = true}));
     const Request request{.choices = chosen({lpv})};
     const Accuracy accuracy = must(session->judge(request, Stage::indirect, Against::model));

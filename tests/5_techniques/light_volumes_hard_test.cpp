@@ -260,7 +260,8 @@ TEST(LightVolumes, SayWhichPortalsAreTooSmallForTheirCells) {
     };
     EXPECT_THAT(notes(0), testing::IsEmpty());
     EXPECT_THAT(notes(1),
-                testing::ElementsAre(testing::HasSubstr("narrower than 1/8 of its cells of 0.4 m (portal 0 is 0.048 m wide)")));
+                testing::ElementsAre(testing::HasSubstr(
+                    "narrower than 1/8 of its cells of 0.4 m (portal 0 is 0.048 m wide and opens 12 % of a cell's face)")));
     EXPECT_THAT(notes(1, {"occlusion=none"}), testing::IsEmpty());
     EXPECT_THAT(notes(2), testing::IsEmpty()) << "closed";
 }

@@ -1,12 +1,15 @@
 // Glass and smoke in two rooms, one of them lit by a lamp: what light volumes give to surfaces that are not in the G-buffer. A
 // technique of transparency blends what all of them shade alike.
 #include <algorithm>
+#include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "passes/reference/shade.h"
 #include "passes/registry.h"
 #include "replay/images/host_image.h"
+#include "tests/5_techniques/light_volume_scenes.h"
 #include "tests/support/agreement.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
@@ -48,16 +51,18 @@ struct Panes {
     float alpha = 1;
 };
 
+void add_panes_and_puffs(Frame& frame, const Panes& panes) {
+    for (const glm::dvec3& middle : {lit_pane, dark_pane}) add_pane(frame, middle, panes.mode, panes.alpha);
+    Emitter smoke{.name = "smoke"};
+    for (const glm::dvec3& center : {lit_puff, dark_puff})
+        smoke.particles.push_back({.center = center, .size = .2f, .color = paint, .alpha = panes.alpha});
+    frame.emitters.push_back(smoke);
+}
+
 /// The door closed in the first, open in the second.
 std::vector<Frame> rooms(const Panes& panes = {}) {
     std::vector<Frame> frames = scenario_frames("two_rooms", 1, 2);
-    for (Frame& frame : frames) {
-        for (const glm::dvec3& middle : {lit_pane, dark_pane}) add_pane(frame, middle, panes.mode, panes.alpha);
-        Emitter smoke{.name = "smoke"};
-        for (const glm::dvec3& center : {lit_puff, dark_puff})
-            smoke.particles.push_back({.center = center, .size = .2f, .color = paint, .alpha = panes.alpha});
-        frame.emitters.push_back(smoke);
-    }
+    for (Frame& frame : frames) add_panes_and_puffs(frame, panes);
     return frames;
 }
 
@@ -136,6 +141,106 @@ TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
     expect_alike(*session, 0, 1, "irradiance=cell", 1);
     expect_alike(*session, 0, 1, "irradiance=face", 1);
     expect_alike(*session, 2, 3, "irradiance=cell", 3);
+}
+
+/// Panes all over the rooms, in three volumes, among so many blockers.
+Frame glass_among(std::size_t blockers) {
+    Frame frame = with_random_blockers(blockers, 6);
+    add_panes_and_puffs(frame, {.alpha = .5f});
+    for (int i = 0; i < 24; ++i)
+        add_pane(frame, {-4.2 + 1.2 * (i % 8), .6 + .8 * (i / 8), -3.4 + .4 * (i % 5)}, AlphaMode::blend, .5f);
+    add_volumes(frame);
+    return frame;
+}
+
+double total_difference(const HostImage& a, const HostImage& b) {
+    double sum = 0;
+    for (std::uint32_t y = 0; y < a.shape.extent.height; ++y)
+        for (std::uint32_t x = 0; x < a.shape.extent.width; ++x) sum += std::abs((texel(a, x, y) - texel(b, x, y)).y);
+    return sum;
+}
+
+// 70 blockers take three words of a list, so that its last texel is half empty.
+TEST(LitGlass, AsksTheBlockersNearItsMacroCellAndGetsTheBitsOfAskingAll) {
+    const auto session = must(Session::open({glass_among(70)}, {.validation = true}));
+    const auto color = [&](const std::string& set) {
+        const Request request = request_of(0, {"indirect/lpv", "transparency/alpha_blend"}, {"iterations=8", "map_size=32", set});
+        return must(session->run(request)).images.at("color");
+    };
+    const HostImage near = color("macro_cells=on"), all = color("macro_cells=off"), through_walls = color("taps=all");
+    EXPECT_TRUE(near.texels == all.texels);
+    EXPECT_GT(total_difference(near, through_walls), 1);
+}
+
+// A fragment asks at most fifty portals about a way, not all of the frame.
+TEST(LitGlass, IsLitThroughAThousandWindows) {
+    Frame frame = with_a_thousand_windows();
+    add_panes_and_puffs(frame, {.alpha = .6f});
+    const auto session = must(Session::open({frame}, {.validation = true}));
+    const Request request = request_of(0, {"indirect/lpv", "transparency/sorted_lists"});
+    const Accuracy accuracy = must(session->judge(request, Stage::transparency, Against::model));
+    expect_within_tolerance(accuracy, *must(find_technique("transparency/sorted_lists")), request);
+    EXPECT_GE(accuracy.compared - accuracy.trivial, 500u);
+}
+
+/// So many blockers smaller than a hair around the dark pane, whose planes part it from the cells beside it: all ways are tested,
+/// none is stopped.
+Frame glass_in_dust(std::uint32_t grains) {
+    Frame frame = rooms()[1];
+    constexpr float grain = 1e-5f;
+    for (std::uint32_t i = 0; i < grains; ++i)
+        frame.blockers.push_back({.center = {dark_pane.x, 1.2 + .035 * (i % 40), -1.5 + .035 * (i / 40)},
+                                  .u = {0, 1, 0},
+                                  .v = {0, 0, 1},
+                                  .half_u = grain,
+                                  .half_v = grain});
+    return frame;
+}
+
+// Each blocker that is near takes up to 42 turns of a fragment's loops.
+TEST(ExhaustiveLitGlass, AmongManyBlockersIsRightOrRefused) {
+    const auto session = must(Session::open({glass_in_dust(0), glass_in_dust(1540), glass_in_dust(1560)}, {.validation = true}));
+    const auto color = [&](std::size_t frame) {
+        return session->run(request_of(frame, {"indirect/lpv", "transparency/sorted_lists"}, {"iterations=8"}));
+    };
+    const auto alone = must(color(0)), dusty = must(color(1));
+    double worst = 0;
+    for (std::uint32_t y = 0; y < alone.height; ++y)
+        for (std::uint32_t x = 0; x < alone.width; ++x)
+            worst = std::max(worst,
+                             double(std::abs((texel(alone.images.at("color"), x, y) - texel(dusty.images.at("color"), x, y)).y)));
+    EXPECT_LT(worst, 1e-6);
+    const auto refused = color(2);
+    ASSERT_EQ(!refused, !has(session->device().capabilities, Capability::long_loops));
+    if (!refused) {
+        EXPECT_EQ(refused.error().fault, Fault::device_lacks);
+    }
+}
+
+/// In volumes of so many cells each way, around panes and puffs.
+Frame rooms_in_cascades(std::uint32_t cells, std::uint32_t cascades) {
+    Frame frame = rooms()[0];
+    frame.light_volumes = {{.kind = VolumeKind::cascaded_global,
+                            .half_extent = glm::vec3(10),
+                            .cells = glm::uvec3(cells),
+                            .cascades = cascades,
+                            .iterations = 1}};
+    return frame;
+}
+
+// Nothing is allocated before a frame is refused.
+TEST(LitGlass, IsRefusedWhereTheDeviceCannotHoldItsVolumes) {
+    const auto session = must(Session::open({rooms_in_cascades(200, 1), rooms_in_cascades(256, 8)}, {.validation = true}));
+    if (session->device().max_buffer_bytes > 256u << 20 || session->device().max_image_extent > 65'536)
+        GTEST_SKIP() << "this device holds 8 million cells";
+    const auto sentence_for = [&](std::size_t frame) {
+        const auto run = session->run(request_of(frame, {"indirect/lpv"}));
+        if (run) return std::string("it ran");
+        EXPECT_EQ(run.error().fault, Fault::device_lacks);
+        return run.error().sentence;
+    };
+    EXPECT_THAT(sentence_for(0), testing::HasSubstr("MiB at once")) << "8 million cells of 60 bytes";
+    EXPECT_THAT(sentence_for(1), testing::HasSubstr("'volume_light' is an image of 4096 x 98305 texels")) << "134 million cells";
 }
 
 class LitGlassBy : public testing::TestWithParam<const Technique*> {};

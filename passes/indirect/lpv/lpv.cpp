@@ -1,5 +1,7 @@
 // Light propagation volumes: what lights reach is injected into grids and handed from cell to cell.
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +47,17 @@ constexpr std::array exceptions = {ToleranceException{"cell_scale=1/2", "two_roo
                                    ToleranceException{"cell_scale=1/2 iterations=64", "two_rooms", 3e-2, .6, on_borders},
                                    ToleranceException{"cell_scale=1/2 irradiance=face", "two_rooms", 3e-2, .6, on_borders}};
 
+/// Turns of loops of a fragment that all blockers of the frame are near (passes/indirect/near_blockers.glsl); the last turn of
+/// each loop only finds that it is over. Lanes of a vector take their turns together: each blocker may be that with the most
+/// portals.
+std::uint64_t turns_of_grid(const Frame& frame) {
+    std::vector<std::uint64_t> own(frame.blockers.size() + 1);
+    for (const Portal& portal : frame.portals) ++own[std::min<std::size_t>(portal.blocker, frame.blockers.size())];
+    const std::uint64_t halvings = std::bit_width(frame.portals.size()), of_way = halvings + 1 + std::ranges::max(own) + 1;
+    const std::uint64_t words = (frame.blockers.size() + 31) / 32, of_cells = 9;
+    return 3 * (words + 1) + frame.blockers.size() * (2 + 8 + 8 * of_way) + of_cells;
+}
+
 /// A transparent fragment asks about the way to eight cells of each grid, after its lights, and has no counter that tells when a
 /// driver ends its loops.
 std::optional<std::string> beyond_device(const FrameImages& images, const Settings& settings) {
@@ -52,8 +65,7 @@ std::optional<std::string> beyond_device(const FrameImages& images, const Settin
     const bool asks_taps = settings.as<LpvParams>().taps == taps_visible;
     if (!asks_taps || has(images.capabilities, Capability::long_loops)) return std::nullopt;
     if (info(Stage::transparency).unwanted(*images.features)) return std::nullopt;
-    const std::uint64_t of_way = frame.blockers.size() * (1 + frame.portals.size());
-    const std::uint64_t turns = images.facts->light_turns() + light_grids(frame).size() * 8 * (1 + of_way);
+    const std::uint64_t turns = images.facts->light_turns() + light_grids(frame).size() * turns_of_grid(frame);
     if (turns <= most_short_turns) return std::nullopt;
     return fmt::format(
         "transparent fragments test {} blockers and {} portals per cell of a light volume: with their lights up to {} loop "

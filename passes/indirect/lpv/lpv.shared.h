@@ -21,9 +21,6 @@ const uint occlusion_both = 4u;
 const uint taps_all = 0u;
 const uint taps_visible = 1u;  // those that no blocker hides from the surface
 
-// Macro-cells: blocks of cells that share a list of the blockers near them (docs/algorithms/lighting.md 5.8).
-const uint macro_side = 4u;  // cells
-
 const uint resolution_full = 0u;
 const uint resolution_half = 1u;  // cells are read once per 2 x 2 pixels
 const uint relight_always = 0u;   // in every frame
@@ -131,6 +128,11 @@ struct HandOnPush {
     uint number;  // of the grid, and of grids
     uint count;
     uint first_cell;  // the record of its first cell
+    uint macro_row;   // 0: none
+};
+struct HandOnMacroPush {
+    GridPlace grid;
+    uint row;
 };
 
 struct LpvCounters {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "passes/indirect/lpv/apply/apply_model.h"
 #include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/reading_model.h"
 #include "passes/technique.h"
 
 namespace strata::indirect::in_double {

@@ -9,9 +9,20 @@ namespace {
 /// Metres over which a grid fades at its border: a cell, of cascades two.
 float border(const LightGrid& grid) { return float((grid.is_local ? 1 : 2) * grid.cell); }
 
-/// Of records that are texels_per_record texels each.
-Extent volume_extent(std::uint32_t records) {
-    return {volume_texels_per_row, (texels_per_record * records + volume_texels_per_row - 1) / volume_texels_per_row};
+std::uint32_t words_of(const FrameImages& frame) {
+    return static_cast<std::uint32_t>((frame.recorded->blockers.size() + 31) / 32);
+}
+
+glm::uvec3 macro_extent(const DeviceGrid& grid) { return (grid.grid.cells + macro_side - 1u) / macro_side; }
+
+/// Of all lists of blockers near macro-cells, as many along z as a list takes.
+Extent list_texels(const FrameImages& frame, const DeviceGrid& grid) {
+    const glm::uvec3 cells = macro_extent(grid);
+    return {cells.x, cells.y, cells.z * ((words_of(frame) + list_words_per_texel - 1) / list_words_per_texel)};
+}
+
+std::uint32_t rows_of(std::uint64_t texels) {
+    return static_cast<std::uint32_t>((texels + volume_texels_per_row - 1) / volume_texels_per_row);
 }
 
 /// A texel for each 2 x 2 pixels.
@@ -38,8 +49,8 @@ ApplyPush apply_push(const DeviceGrid& grid) {
 
 void find_macro_cells(Graph& graph, const FrameImages& frame, const LpvParams& params, DeviceGrid& grid) {
     if (asks_taps(params, grid) == 0 || params.macro_cells == 0) return;
-    const auto words = static_cast<std::uint32_t>((frame.recorded->blockers.size() + 31) / 32);
-    const glm::uvec3 cells = (grid.grid.cells + macro_side - 1u) / macro_side;
+    const std::uint32_t words = words_of(frame);
+    const glm::uvec3 cells = macro_extent(grid);
     grid.macro_cells = graph.create(grid.name("macro-cells of grid"),
                                     std::uint64_t{cells.x} * cells.y * cells.z * words * sizeof(std::uint32_t));
     graph.compute("indirect/lpv/apply/macro_cells.comp")
@@ -142,18 +153,50 @@ Image apply(Graph& graph, const FrameImages& frame, const LpvParams& params, std
     return light;
 }
 
+namespace {
+
+/// Where things lie in volume_light.
+struct VolumeLayout {
+    std::vector<std::uint32_t> macro_rows = {};  ///< of grids; 0: none
+    std::uint32_t rows = 0;
+};
+
+VolumeLayout volume_layout(const FrameImages& frame, std::span<const DeviceGrid> grids) {
+    std::uint64_t records = grids.size();
+    for (const DeviceGrid& grid : grids) records += grid.cells();
+    VolumeLayout layout{.rows = rows_of(texels_per_record * records)};
+    for (const DeviceGrid& grid : grids) {
+        layout.macro_rows.push_back(grid.macro_cells ? layout.rows : 0);
+        const Extent lists = list_texels(frame, grid);
+        if (grid.macro_cells) layout.rows += rows_of(std::uint64_t{lists.width} * lists.height * lists.depth);
+    }
+    return layout;
+}
+
+void hand_on_macro_cells(Graph& graph, FrameImages& frame, const DeviceGrid& grid, std::uint32_t row) {
+    graph.compute("indirect/lpv/apply/hand_on_macro_cells.comp")
+        .loads("MacroCells", grid.macro_cells)
+        .updates("volume_light", frame.volume_light)
+        .fixes("blocker_count", static_cast<std::uint32_t>(frame.recorded->blockers.size()))
+        .push(HandOnMacroPush{.grid = grid.place, .row = row})
+        .over(list_texels(frame, grid));
+}
+
+}  // namespace
+
 void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::span<const DeviceGrid> grids) {
     const auto count = static_cast<std::uint32_t>(grids.size());
     if (count == 0) return;
-    std::uint32_t records = count;
-    for (const DeviceGrid& grid : grids) records += grid.cells();
+    const VolumeLayout layout = volume_layout(frame, grids);
     frame.light_grids = count;
     frame.light_grid_rule = params.irradiance;
-    frame.volume_light = graph.create("volume_light", {.extent = volume_extent(records), .format = Format::rgba32f});
+    frame.volume_light =
+        graph.create("volume_light", {.extent = {volume_texels_per_row, layout.rows}, .format = Format::rgba32f});
     graph.clear(frame.volume_light, {});
     std::uint32_t first_cell = count;
     for (std::uint32_t i = 0; i < count; ++i) {
         const DeviceGrid& grid = grids[i];
+        if (layout.macro_rows[i] > 0) hand_on_macro_cells(graph, frame, grid, layout.macro_rows[i]);
         graph.compute("indirect/lpv/apply/hand_on.comp")
             .loads("Total", grid.total)
             .updates("volume_light", frame.volume_light)
@@ -163,7 +206,8 @@ void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::spa
                              .irradiance = params.irradiance,
                              .number = i,
                              .count = count,
-                             .first_cell = first_cell})
+                             .first_cell = first_cell,
+                             .macro_row = layout.macro_rows[i]})
             .over(grid.threads());
         first_cell += grid.cells();
     }

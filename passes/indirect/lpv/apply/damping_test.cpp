@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/indirect/lpv/apply/apply_model.h"
+#include "passes/indirect/lpv/propagation/propagation_model.h"
+#include "passes/indirect/reading_model.h"
 
 namespace strata::indirect::in_double {
 namespace {

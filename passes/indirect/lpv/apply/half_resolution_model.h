@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/indirect/lpv/apply/apply_model.h"
+#include "passes/indirect/reading_model.h"
 
 namespace strata::indirect::in_double {
 

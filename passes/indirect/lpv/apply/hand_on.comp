@@ -26,5 +26,5 @@ void main() {
     store(push.first_cell + index, total[index].red, total[index].green, total[index].blue);
     if (index > 0u) return;
     store(push.number, vec4(push.grid.origin, push.grid.cell), vec4(push.grid.cells, push.border),
-          vec4(push.asks_taps, push.irradiance, push.count, 0.0));
+          vec4(push.asks_taps, push.irradiance, push.count, push.macro_row));
 }

@@ -2,7 +2,8 @@
 // along the rectangle's normal, a side of the box, or across a side of either.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/indirect/lpv/apply/macro_cells.glsl"
+#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/macro_cells.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
@@ -18,7 +19,7 @@ struct Box {
 };
 
 // A place q half a cell before a surface selects its macro-cell. Cells around q are less than a cell from it and ways to them begin half
-// a cell from it, but for 0.02 m (taps.glsl); a sixteenth is for rounding. At the grid's border q may be half a cell beyond it.
+// a cell from it, but for 0.02 m (passes/indirect/near_blockers.glsl); a sixteenth is for rounding. At the grid's border q may be half a cell beyond it.
 Box box_of(uvec3 macro, uvec3 extent) {
     const vec3 low = vec3(macro_side * macro) - vec3(equal(macro, uvec3(0u)));
     const vec3 high = vec3(min(macro_side * (macro + 1u), grid.cells)) + vec3(equal(macro + 1u, extent));

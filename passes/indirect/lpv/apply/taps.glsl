@@ -11,11 +11,9 @@ layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; 
 
 LightCell light_of(uint number) { return total[number]; }
 
-bool is_hidden(uint macro, vec3 from, vec3 to, inout uint tests) { return is_stopped_near(macro, from, to, tests); }
-
 SeenLight seen_light_before(GridPlace grid, LitPlace lit, float cells) {
-    const uint macro = macro_cell_before(grid, lit, cells);
-    return seen_light_at(grid, 0u, lit, cells, macro, asks_taps != 0u ? count_near(macro) : 0u);
+    const uint list = list_before(grid, lit, cells);
+    return seen_light_at(grid, 0u, lit, cells, NearList(list, asks_taps != 0u ? count_near(list) : 0u));
 }
 
 SeenLight seen_light(GridPlace grid, LitPlace lit) { return seen_light_before(grid, lit, 0.5); }

@@ -19,10 +19,10 @@ float fit(GridPlace grid, LitPlace lit, LitPlace other, vec2 pixels) {
 // Both ends are within reach of the macro-cell of this surface: they are at most half a cell apart.
 bool are_parted(GridPlace grid, LitPlace lit, LitPlace other) {
     if (asks_taps == 0u) return false;
-    const uint macro = macro_cell_before(grid, lit, 0.5);
-    if (count_near(macro) == 0u) return false;
+    const uint list = list_before(grid, lit, 0.5);
+    if (count_near(list) == 0u) return false;
     uint tests = 0u;
-    const bool stopped = is_stopped_near(macro, way_start(lit), way_start(other), tests);
+    const bool stopped = is_stopped_near(list, way_start(lit), way_start(other), tests);
     atomicAdd(counters.blocker_tests, tests);
     return stopped;
 }

@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "passes/indirect/lpv/apply/apply_model.h"
+#include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/surfels/surfels_model.h"
+#include "passes/indirect/reading_model.h"
 
 namespace strata::indirect::in_double {
 

@@ -1,15 +1,13 @@
 // Virtual point lights put into the cells of a grid, in double (docs/algorithms/lighting.md 5.3).
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 
 #include <glm/glm.hpp>
 
-#include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/occlusion/barriers_model.h"
-#include "passes/indirect/lpv/propagation/propagation_model.h"
+#include "passes/indirect/barriers_model.h"
+#include "passes/indirect/cells_model.h"
 
 namespace strata::indirect::in_double {
 
@@ -18,9 +16,6 @@ struct VirtualLight {
     glm::dvec3 position{0}, normal{0, 1, 0};
     glm::dvec3 flux{0};  ///< W per color channel
 };
-
-/// Red, green and blue of a grid.
-using Field = std::array<Channel, 3>;
 
 struct InjectionRule {
     double bias = 0.5;                       ///< cells along the normal

@@ -17,7 +17,7 @@ uvec2 words(std::uint64_t hash) { return {static_cast<std::uint32_t>(hash), stat
 
 uvec2 lattice_key(const Frame& frame, const LightGrid& grid) {
     Digest digest;
-    if (has_middle_on_a_plane(frame, grid)) digest.add(frame.view.origin).add(frame.view.to_view);
+    if (has_middle_of_either_side(frame, grid)) digest.add(frame.view.origin).add(frame.view.to_view);
     digest.add(grid.cell).add(grid.cells).add(grid.is_local);
     if (grid.is_local) digest.add(grid.origin);
     return words(digest.value());

@@ -1,4 +1,4 @@
-// Middles of cells on the planes of blockers.
+// Middles of cells whose side of a blocker the eye's place decides.
 #pragma once
 
 #include "capture_format/frame.h"
@@ -6,8 +6,10 @@
 
 namespace strata::indirect {
 
-/// Whether the middle of a cell beside a blocker lies so near its plane that rounding, and with it the eye's place, decides on
-/// which side it is. Light that another eye injected and propagated would then be read through the blocker.
-bool has_middle_on_a_plane(const Frame&, const LightGrid&);
+/// Whether the middle of a cell beside a blocker lies where its side of the blocker begins (ways.shared.h: a millimeter off the
+/// plane), as near as places relative to the eye are rounded. Light that another eye injected and propagated would be read
+/// through the blocker: a dark room was lit by .1 W/m^2 (KeptVolumes.AreLitAnewForAnotherEyeWhereItDecides*). Middles anywhere
+/// else, on the plane, too, lie on the same side for every eye.
+bool has_middle_of_either_side(const Frame&, const LightGrid&);
 
 }  // namespace strata::indirect

@@ -12,29 +12,51 @@ const LightGrid grid{.origin = glm::dvec3(-2.25), .cell = .5, .cells = glm::uvec
 bool meets(const Blocker& blocker) {
     Frame frame;
     frame.blockers = {blocker};
-    return has_middle_on_a_plane(frame, grid);
+    return has_middle_of_either_side(frame, grid);
 }
 
 /// A square of two metres.
 Blocker square(glm::dvec3 center, glm::vec3 u, glm::vec3 v) { return {.center = center, .u = u, .v = v}; }
 
-TEST(MiddlesOnPlanes, AreFoundOfUprightAndObliqueWalls) {
-    const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-    EXPECT_TRUE(meets(square({.5, 0, 0}, y, z)));
-    EXPECT_TRUE(meets(square({0, -1, .1}, z, x)));
-    EXPECT_FALSE(meets(square({.25, 0, 0}, y, z))) << "at the border of cells";
-    EXPECT_FALSE(meets(square({.501, 0, 0}, y, z)));
-    EXPECT_TRUE(meets(square({.5 + 1e-6, 0, 0}, y, z)));
-    const glm::vec3 slope = glm::normalize(glm::vec3(1, 0, 1));
-    EXPECT_TRUE(meets(square({.5, 0, .5}, slope, y)));
-    EXPECT_FALSE(meets(square({.6, 0, .5}, slope, y)));
-    EXPECT_FALSE(meets(square({0, 0, .25}, x, y)));
-    EXPECT_FALSE(meets(square({0, 0, 5}, x, y))) << "outside of the grid";
-    EXPECT_FALSE(meets(square({9, 0, 0}, x, y))) << "too far beside the grid";
+const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+constexpr double mm = 1e-3;
+
+// A side begins a millimeter before the plane, seen along (1, .37, .14), whichever way the blocker faces.
+TEST(MiddlesOfEitherSide, LieAMillimeterBeforeUprightAndObliqueWalls) {
+    for (const bool turned : {false, true}) {
+        const auto wall = [&](glm::dvec3 center, glm::vec3 u, glm::vec3 v) {
+            return turned ? square(center, v, u) : square(center, u, v);
+        };
+        EXPECT_TRUE(meets(wall({.5 + mm, 0, 0}, y, z)));
+        EXPECT_TRUE(meets(wall({.5 + mm + 1e-6, 0, 0}, y, z)));
+        EXPECT_TRUE(meets(wall({0, -1 + mm, .1}, z, x)));
+        EXPECT_FALSE(meets(wall({.5 - mm, 0, 0}, y, z))) << "behind it";
+        EXPECT_FALSE(meets(wall({.25 + mm, 0, 0}, y, z))) << "at the border of cells";
+        const glm::vec3 slope = glm::normalize(glm::vec3(-1, 0, 1));
+        const glm::dvec3 across = mm * glm::normalize(glm::dvec3(1, 0, 1));
+        EXPECT_TRUE(meets(wall(glm::dvec3(.5, 0, .5) + across, slope, y)));
+        EXPECT_FALSE(meets(wall(glm::dvec3(.6, 0, .5) + across, slope, y)));
+        EXPECT_FALSE(meets(wall({0, 0, .25 + mm}, x, y)));
+        EXPECT_FALSE(meets(wall({0, 0, 5 + mm}, x, y))) << "outside of the grid";
+        EXPECT_FALSE(meets(wall({9, 0, mm}, x, y))) << "too far beside the grid";
+    }
 }
 
-TEST(MiddlesOnPlanes, AreNoneOfABlockerWithoutArea) {
-    EXPECT_FALSE(meets({.center = {.5, 0, 0}, .u = {0, 1, 0}, .v = {0, 0, 1}, .half_u = 0, .half_v = 1}));
+TEST(MiddlesOfEitherSide, AreNotThoseOnThePlaneWhichBelongToOne) {
+    EXPECT_FALSE(meets(square({.5, 0, 0}, y, z)));
+    EXPECT_FALSE(meets(square({0, -1, .1}, z, x)));
+    EXPECT_FALSE(meets(square({.5, 0, .5}, glm::normalize(glm::vec3(1, 0, 1)), y)));
+}
+
+/// Along the plane runs the direction that decides.
+TEST(MiddlesOfEitherSide, AreThoseOnAPlaneThatNoDirectionDecidesAbout) {
+    const glm::vec3 along = glm::normalize(glm::vec3(1, .37f, .14f)), across = glm::normalize(glm::cross(along, y));
+    EXPECT_TRUE(meets(square({.5, 0, 0}, along, glm::cross(along, across))));
+    EXPECT_FALSE(meets(square(glm::dvec3(.5, 0, 0) + 3 * mm * glm::dvec3(across), along, glm::cross(along, across))));
+}
+
+TEST(MiddlesOfEitherSide, AreNoneOfABlockerWithoutArea) {
+    EXPECT_FALSE(meets({.center = {.5 + mm, 0, 0}, .u = y, .v = z, .half_u = 0, .half_v = 1}));
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/indirect/lpv/apply/apply_model.h"
 #include "passes/indirect/lpv/injection/injection_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
+#include "passes/indirect/reading_model.h"
 
 namespace strata::indirect::in_double {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/occlusion/barriers_model.h"
+#include "passes/indirect/barriers_model.h"
+#include "passes/indirect/cells_model.h"
 #include "passes/indirect/lpv/propagation/propagation_model.h"
 
 namespace strata::indirect::in_double {

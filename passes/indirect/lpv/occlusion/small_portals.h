@@ -11,6 +11,11 @@
 
 namespace strata::indirect {
 
+/// The largest share of a face between two cells that a portal opens, seen along an axis: the transmission that a link through it
+/// has at least (docs/algorithms/lighting.md 5.6, T_min), whatever 8 x 8 ways meet. Exact for a portal that lies between two
+/// cells' middles.
+double opened_share(const LightGrid&, const Portal&);
+
 /// A sentence for each axial grid in which portals are narrower than 1/8 of a cell: they fit between two of the 8 x 8 ways
 /// through a face, so that no light may pass (docs/algorithms/lighting.md 5.6). Portals without area are closed and not counted.
 /// Occlusion is one of occlusion_* (lpv.shared.h).

@@ -8,14 +8,10 @@
 
 #include <tbb/parallel_for.h>
 
-#include "passes/indirect/lpv/grids_model.h"
-
 namespace strata::indirect::in_double {
+namespace {
 
 using std::numbers::pi;
-const double harmonic0 = 1 / (2 * std::sqrt(pi)), harmonic1 = std::sqrt(3.0) / (2 * std::sqrt(pi));
-
-namespace {
 
 const double lobe0 = std::sqrt(pi) / 2, lobe1 = std::sqrt(pi / 3);
 
@@ -113,8 +109,6 @@ glm::dvec4 received(const Step& step, const glm::uvec3& cell) {
 }
 
 }  // namespace
-
-glm::dvec4 cosine_lobe(const glm::dvec3& normal) { return {lobe0, lobe1 * normal}; }
 
 glm::dvec4 arriving(const glm::dvec4& source, const Travel& to, const PropagationRule& rule) {
     const Faces& faces = both_faces[rule.faces];

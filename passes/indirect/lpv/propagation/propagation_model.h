@@ -1,6 +1,5 @@
 // Light that travels from cell to cell, in double (docs/algorithms/lighting.md 5.4; Kaplanyan, Dachsbacher, Cascaded Light
-// Propagation Volumes for Real-Time Indirect Illumination, I3D 2010). A cell holds the radiant intensity of one color channel as
-// four coefficients of spherical harmonics: l0 Y0 + Y1 (l1 . w) towards a direction w, stored as (l0, l1.x, l1.y, l1.z).
+// Propagation Volumes for Real-Time Indirect Illumination, I3D 2010).
 #pragma once
 
 #include <cstdint>
@@ -8,17 +7,10 @@
 
 #include <glm/glm.hpp>
 
+#include "passes/indirect/cells_model.h"
 #include "passes/indirect/lpv/lpv.shared.h"
 
 namespace strata::indirect::in_double {
-
-/// 1 / (2 sqrt(pi)) and sqrt(3) / (2 sqrt(pi)): what coefficients are multiplied with.
-extern const double harmonic0, harmonic1;
-/// Coefficients of max(0, dot(normal, w)): (sqrt(pi) / 2, sqrt(pi / 3) normal).
-glm::dvec4 cosine_lobe(const glm::dvec3& normal);
-
-/// One color channel of a grid, by cell_index().
-using Channel = std::vector<glm::dvec4>;
 
 /// The cells of a grid, and how much light passes from each to its + neighbours.
 struct Links {

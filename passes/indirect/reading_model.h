@@ -1,4 +1,4 @@
-// What a surface receives of the light in grids, in double (docs/algorithms/lighting.md 5.8).
+// What a place takes of the light in grids, in double (docs/algorithms/lighting.md 5.7 and 5.8).
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/indirect/lpv/grids_model.h"
-#include "passes/indirect/lpv/injection/injection_model.h"
-#include "passes/indirect/lpv/occlusion/barriers_model.h"
+#include "passes/indirect/barriers_model.h"
+#include "passes/indirect/cells_model.h"
+#include "passes/indirect/light_grid.shared.h"
 
 namespace strata::indirect::in_double {
 
@@ -21,7 +21,7 @@ struct LitGrid {
     double damping = 0;  ///< exponent; 0: off
 };
 
-/// World space.
+/// World space. A normal of 0 stands for all directions alike.
 struct Receiver {
     glm::dvec3 position{0}, normal{0, 1, 0};
 };

@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/apply/apply_model.h"
+#include "passes/indirect/reading_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "passes/indirect/lpv/occlusion/barriers_model.h"
+#include "passes/indirect/barriers_model.h"
 
 #include <algorithm>
 #include <cmath>
