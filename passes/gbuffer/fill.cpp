@@ -1,5 +1,7 @@
 #include "passes/gbuffer/fill.h"
 
+#include "passes/choice_names.h"
+#include "passes/gbuffer/fill.shared.h"
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
 #include "passes/scene/material_uses.h"
@@ -7,6 +9,8 @@
 
 namespace strata::gbuffer {
 namespace {
+
+constexpr auto attribute_places = choice_names({{attributes_at_center, "center"}, {attributes_at_sample, "sample"}});
 
 /// A cleared raster target. At one sample it is the layered image itself and has its name.
 Image target(Graph& graph, const FrameImages& frame, std::string_view name, Format format) {
@@ -34,14 +38,24 @@ void leave_surfaces(Graph& graph, FrameImages& frame) {
 
 }  // namespace
 
-void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
-    Image gbuffer0 = target(graph, frame, "gbuffer0", Format::rgba16f);
-    Image gbuffer1 = target(graph, frame, "gbuffer1", Format::rgba8_unorm);
+std::vector<Param> fill_params() {
+    return {param<&FillParams::attributes>(
+        {.name = "attributes",
+         .low = 0,
+         .high = attributes_at_sample,
+         .fallback = attributes_at_center,
+         .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
+         .choices = attribute_places})};
+}
+
+void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Settings&) {
+    Image gbuffer0 = target(graph, frame, "gbuffer0", layout.targets[0]);
+    Image gbuffer1 = target(graph, frame, "gbuffer1", layout.targets[1]);
     Image emission = target(graph, frame, "emission", Format::rgba16f);
     const bool begins_empty = !frame.depth;
     if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
-        DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
+        DrawPass fill = graph.draw(std::string(layout.technique) + "/fill", frame.opaque);
         fix_materials(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
         // The shader discards backs draw by draw: the same pixels, shaded in vain.
         if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
@@ -51,7 +65,7 @@ void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
     frame.emission = spread(graph, emission, "emission");
     if (!begins_empty) leave_surfaces(graph, frame);
     frame.depth_layers = spread(graph, frame.depth, "depth_layers");
-    frame.gbuffer_layout = index_in_stage(**find_technique(technique));
+    frame.gbuffer_layout = index_in_stage(**find_technique(layout.technique));
     add_surfaces(graph, frame);
 }
 

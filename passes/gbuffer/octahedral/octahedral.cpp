@@ -8,7 +8,11 @@ ImageSet octahedral_model(const StageInput&, const Settings&);
 
 namespace {
 
-void declare(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/octahedral"); }
+constexpr Format targets[] = {Format::rgba16f, Format::rgba8_unorm};
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    add_fill(graph, frame, {.technique = "gbuffer/octahedral", .targets = targets}, settings);
+}
 
 }  // namespace
 
@@ -21,6 +25,7 @@ Technique octahedral() {
         .summary =
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
+        .params = fill_params(),
         .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = octahedral_model,
