@@ -1,6 +1,7 @@
 #include "passes/gbuffer/fill.h"
 
 #include "passes/choice_names.h"
+#include "passes/gbuffer/coverage/coverage.h"
 #include "passes/gbuffer/fill.shared.h"
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
@@ -45,18 +46,22 @@ std::vector<Param> fill_params() {
          .high = attributes_at_sample,
          .fallback = attributes_at_center,
          .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
-         .choices = attribute_places})};
+         .choices = attribute_places}),
+            masked_param()};
 }
 
-void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Settings&) {
+void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Settings& settings) {
     Image gbuffer0 = target(graph, frame, "gbuffer0", layout.targets[0]);
     Image gbuffer1 = target(graph, frame, "gbuffer1", layout.targets[1]);
     Image emission = target(graph, frame, "emission", Format::rgba16f);
     const bool begins_empty = !frame.depth;
     if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
+        const Coverage coverage =
+            declare_coverage(graph, frame, settings.as<FillParams>().masked, ShadingRate::pixel);
         DrawPass fill = graph.draw(std::string(layout.technique) + "/fill", frame.opaque);
         fix_materials(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
+        add_coverage(fill, coverage);
         // The shader discards backs draw by draw: the same pixels, shaded in vain.
         if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
     }

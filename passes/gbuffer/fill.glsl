@@ -3,6 +3,7 @@
 #ifndef PASSES_GBUFFER_FILL_GLSL
 #define PASSES_GBUFFER_FILL_GLSL
 #include "passes/gbuffer/codes.glsl"
+#include "passes/gbuffer/coverage/coverage.glsl"
 #include "passes/shaders/largest_half.glsl"
 #include "passes/shaders/material.glsl"
 
@@ -12,18 +13,28 @@ layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_uv;
 layout(location = 4) in vec4 in_color;
 layout(location = 6) flat in uint in_draw;
+layout(location = 7) flat in uint in_triangle;  // the vertex that it begins with
 
 layout(location = 0) out vec4 gbuffer0;
 layout(location = 1) out vec4 gbuffer1;
 layout(location = 2) out vec4 emission;
 
-// Discards backs of one-sided faces and what the alpha test cuts away. The material is evaluated first: derivatives need the
-// whole quad.
+// Bit i: the alpha test leaves sample i.
+uint left_samples(MaterialRecord material, float alpha) {
+    if (masked == masked_clip) return is_cut_away(material, alpha) ? 0u : every_sample;
+    const uint covered = covered_samples(material, draws[in_draw].material, in_uv, in_color.a, mask_surface(in_draw, in_triangle));
+    return is_masked(material) ? covered : every_sample;
+}
+
+// Discards backs of one-sided faces and what the alpha test cuts away. Material and test are evaluated first: derivatives need
+// the whole quad.
 MaterialPoint visible_point() {
     const MaterialRecord material = material_of(in_draw);
     const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
+    const uint left = left_samples(material, m.alpha);
     if (!gl_FrontFacing && has_one_side(material.double_sided)) discard;
-    if (m.alpha_mode == alpha_mask && m.alpha < material.mask_cutoff) discard;
+    if (left == 0u) discard;
+    if (masked != masked_clip && mask_samples > 1u) gl_SampleMask[0] = int(left);
     return m;
 }
 

@@ -12,6 +12,7 @@ const uint attributes_at_sample = 1u;
 
 struct FillParams {
     uint attributes;
+    uint masked;  // a method of passes/gbuffer/coverage/coverage.shared.h
 };
 
 #ifdef __cplusplus

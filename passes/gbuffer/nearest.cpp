@@ -1,5 +1,7 @@
 #include "passes/gbuffer/nearest.h"
 
+#include "passes/gbuffer/coverage/mask_model.h"
+
 namespace strata::gbuffer {
 namespace {
 
@@ -9,9 +11,9 @@ glm::dvec4 emitted(const SurfacePoint& p) {
 
 }  // namespace
 
-std::vector<NearestSurface> nearest_surfaces(const Frame& frame, ShadeAt shade_at) {
+std::vector<NearestSurface> nearest_surfaces(const Frame& frame, ShadeAt shade_at, std::uint32_t masked) {
     const std::vector<std::uint32_t> draws = opaque_draws(frame);
-    const VisiblePoints visible = visible_points(frame, draws, {.shade_at = shade_at});
+    const VisiblePoints visible = visible_points(frame, draws, {.shade_at = shade_at}, mask_model(frame, masked, shade_at));
     std::vector<NearestSurface> surfaces(visible.points.size());
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const RasterPoint& point = visible.points[i];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/gbuffer/codes.h"
+#include "passes/gbuffer/fill.shared.h"
 #include "passes/gbuffer/nearest.h"
 #include "passes/gbuffer/octahedral/octahedral.shared.h"
 #include "passes/technique.h"
@@ -42,9 +43,9 @@ double octahedral_depth(std::uint32_t depth_code, double near) {
     return near * std::pow(double(octahedral_far_over_near), depth_code / depth_steps);
 }
 
-ImageSet octahedral_model(const StageInput& input, const Settings&) {
+ImageSet octahedral_model(const StageInput& input, const Settings& settings) {
     const double near = input.frame.view.near;
-    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center);
+    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center, settings.as<FillParams>().masked);
     for (NearestSurface& s : surfaces) {
         if (!s.exists) continue;
         s.point = stored_material(s.point);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "passes/gbuffer/codes.h"
+#include "passes/gbuffer/fill.shared.h"
 #include "passes/gbuffer/nearest.h"
 #include "passes/technique.h"
 
@@ -24,8 +25,8 @@ glm::dvec3 packed_normal(const glm::dvec2& q) {
 
 double packed_depth(double z, double near) { return nearest_half(std::max(z, near)); }
 
-ImageSet packed_model(const StageInput& input, const Settings&) {
-    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center);
+ImageSet packed_model(const StageInput& input, const Settings& settings) {
+    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center, settings.as<FillParams>().masked);
     for (NearestSurface& s : surfaces) {
         if (!s.exists) continue;
         s.point = stored_material(s.point);
