@@ -10,10 +10,14 @@
 
 namespace strata::gbuffer {
 
+/// Where readers take view depth from.
+enum class DepthFrom : std::uint32_t { targets, depth_buffer };
+
 /// What a technique's shaders write: "<technique>/fill.frag" at the pixel's center, "<technique>/fill_sample.frag" at the sample.
 struct Layout {
     std::string_view technique;
     std::span<const Format> targets;  ///< of gbuffer0, gbuffer1 and, if there is one, gbuffer2
+    DepthFrom depth = DepthFrom::targets;
 };
 
 /// Rows of FillParams: parameters of every G-buffer technique.

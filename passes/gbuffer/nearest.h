@@ -15,6 +15,7 @@ struct NearestSurface {
     bool undecided = false;  ///< coverage, depth order or alpha test hang on rounding
     SurfacePoint point;      ///< attributes at the sample or at the pixel's center
     double depth = 0;        ///< device depth near / z, always at the sample
+    glm::dvec2 offset{0};    ///< from the pixel's center to where the position lies, in pixels
 };
 
 /// In the order of ReferenceImage's texels, layer = sample. Backs of one-sided faces and what the alpha test cuts are not there.

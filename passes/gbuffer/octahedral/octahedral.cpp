@@ -26,6 +26,7 @@ Technique octahedral() {
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
         .params = fill_params(),
+        .points = {"attributes=sample"},
         .abilities = {.is_time_unit = true},
         .declare = declare,
         .model = octahedral_model,

@@ -23,6 +23,7 @@ Technique packed() {
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
             .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
             .params = fill_params(),
+            .points = {"attributes=sample"},
             .declare = declare,
             .model = packed_model,
             .tolerance = {.rmse = 1.5e-3,
