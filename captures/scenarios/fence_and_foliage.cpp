@@ -1,5 +1,5 @@
-// A chain-link fence along a meadow and one across it, 2 to 60 m away, with trees, shrubs and grass of masked cards: alpha that is
-// magnified near the eye and far smaller than a pixel at the end. The eye walks along the fence.
+// A chain-link fence along a meadow and one across it, 2 to 60 m away, with trees, shrubs and grass of masked cards: alpha that
+// is magnified near the eye and far smaller than a pixel at the end. The eye walks along the fence.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,8 +21,8 @@ namespace {
 constexpr float tile = 0.5f, mesh_width = tile / 4, wire = 0.016f;  // metres: of a texture, of a mesh of the fence, of its wire
 constexpr double fence_height = 1.8, panel = 3;
 
-/// Each texel is the mean of 4 x 4 places; `paint` gets uv in 0..1 and returns linear color and alpha. Alpha does not weigh color, so
-/// `paint` gives what is not there the color of what is beside it.
+/// Each texel is the mean of 4 x 4 places; `paint` gets uv in 0..1 and returns linear color and alpha. Alpha does not weigh
+/// color, so `paint` gives what is not there the color of what is beside it.
 Texture painted(std::string name, std::uint32_t edge, const std::function<glm::vec4(glm::vec2)>& paint) {
     constexpr std::uint32_t places = 4;
     Texture texture;
@@ -146,7 +146,8 @@ Mesh crown(std::uint64_t seed, int cards, float half) {
         const glm::vec3 outward(ring * std::cos(around), height, ring * std::sin(around));
         const glm::vec3 tilt{random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f)};
         const glm::vec3 front = glm::normalize(outward + tilt);
-        const glm::vec3 side = glm::normalize(glm::cross(std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), front));
+        const glm::vec3 side =
+            glm::normalize(glm::cross(std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), front));
         const float turn = random.between(0.0f, 6.2832f);
         const glm::vec3 right = half * (std::cos(turn) * side + std::sin(turn) * glm::cross(front, side));
         add_card(mesh, {.center = outward * radius, .right = right, .up = glm::cross(front, right)},
@@ -222,24 +223,25 @@ private:
     void add_panel(glm::dvec3 from, glm::dvec3 to) {
         const glm::dvec3 way = to - from, middle = 0.5 * (from + to);
         const double yaw = std::atan2(-way.z, way.x), length = glm::length(way);
-        builder_->draw(panel_, link_, {.position = middle + glm::dvec3(0, fence_height / 2, 0), .yaw = yaw,
-                                       .scale = {length / panel, 1, 1}});
-        builder_->draw(cube_, post_, {.position = middle + glm::dvec3(0, fence_height, 0), .yaw = yaw,
-                                      .scale = {length, 0.045, 0.045}});
+        builder_->draw(panel_, link_,
+                       {.position = middle + glm::dvec3(0, fence_height / 2, 0), .yaw = yaw, .scale = {length / panel, 1, 1}});
+        builder_->draw(cube_, post_,
+                       {.position = middle + glm::dvec3(0, fence_height, 0), .yaw = yaw, .scale = {length, 0.045, 0.045}});
         for (const glm::dvec3& end : {from, to})
             builder_->draw(cube_, post_, {.position = end + glm::dvec3(0, 0.97, 0), .yaw = yaw, .scale = {0.07, 1.94, 0.07}});
     }
 
     void add_tree(glm::dvec3 foot, double radius) {
         const double height = 2.1 * radius;
-        builder_->draw(cube_, bark_, {.position = foot + glm::dvec3(0, height / 2, 0), .yaw = 0.4,
-                                      .scale = {0.16 * radius, height, 0.16 * radius}});
+        builder_->draw(
+            cube_, bark_,
+            {.position = foot + glm::dvec3(0, height / 2, 0), .yaw = 0.4, .scale = {0.16 * radius, height, 0.16 * radius}});
         builder_->draw(crown_, leaf_, {.position = foot + glm::dvec3(0, height, 0), .yaw = foot.x, .scale = glm::dvec3(radius)});
     }
 
     void add_shrub(glm::dvec3 foot, double radius) {
-        builder_->draw(crown_, shrub_, {.position = foot + glm::dvec3(0, 0.75 * radius, 0), .yaw = foot.z,
-                                        .scale = glm::dvec3(radius)});
+        builder_->draw(crown_, shrub_,
+                       {.position = foot + glm::dvec3(0, 0.75 * radius, 0), .yaw = foot.z, .scale = glm::dvec3(radius)});
     }
 
     void add_grass() {

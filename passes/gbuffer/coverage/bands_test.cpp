@@ -84,8 +84,11 @@ TEST(CoverageBands, MeansOverAllAlphasAndLargestErrorsAreThoseOfTheChapter) {
         double mean, worst;
     };
     constexpr int steps = 20000;
-    for (const Figures& wanted : {Figures{masked_a2c_1, .5, .2}, {masked_a2c_2, .475, .2}, {masked_a2c_or, .4625, .201},
-                                  {masked_full_step, .5, .125}, {masked_unbiased, .5, .0312}}) {
+    for (const Figures& wanted : {Figures{masked_a2c_1, .5, .2},
+                                  {masked_a2c_2, .475, .2},
+                                  {masked_a2c_or, .4625, .201},
+                                  {masked_full_step, .5, .125},
+                                  {masked_unbiased, .5, .0312}}) {
         double sum = 0, worst = 0;
         for (int i = 0; i < steps; ++i) {
             const double alpha = (i + .5) / steps, got = mean_coverage(wanted.method, alpha);
@@ -127,7 +130,8 @@ double union_of_two(std::uint32_t method, double alpha) {
 }
 
 TEST(CoverageBands, TwoLayersOfAHalfHideAHalfWithOnePatternAndThreeQuartersHashed) {
-    for (const std::uint32_t method : {masked_a2c_1, masked_a2c_2, masked_a2c_or}) EXPECT_EQ(union_of_two(method, .5), .5) << method;
+    for (const std::uint32_t method : {masked_a2c_1, masked_a2c_2, masked_a2c_or})
+        EXPECT_EQ(union_of_two(method, .5), .5) << method;
     // Of a pixel .5, .75 or 1 with the shares 1/4, 1/2, 1/4: a standard deviation of .177, over 64 x 64 pixels .0028.
     EXPECT_NEAR(union_of_two(masked_unbiased, .5), .75, 4 * .0028);
 }

@@ -106,13 +106,12 @@ private:
 
     MaskCover by_bands(const RasterPoint& point, const Material& material, const Linear& l) const {
         const double here = alpha(material, l, {}, 1);
-        const BandPlace place{.x = point.x,
-                              .y = point.y,
-                              .draw = point.draw,
-                              .triangle = corner_indices(*frame_, point.draw, point.triangle)[0]};
+        const BandPlace place{
+            .x = point.x, .y = point.y, .draw = point.draw, .triangle = corner_indices(*frame_, point.draw, point.triangle)[0]};
         double change = 1;
         if (method_ == masked_sharpened)
-            change = std::max(1e-4, std::abs(alpha(material, l, {1, 0}, 1) - here) + std::abs(alpha(material, l, {0, 1}, 1) - here));
+            change =
+                std::max(1e-4, std::abs(alpha(material, l, {1, 0}, 1) - here) + std::abs(alpha(material, l, {0, 1}, 1) - here));
         const auto covers = [&](double a) {
             if (method_ == masked_sharpened) a = std::clamp((a - double(material.mask_cutoff)) / change + 0.5, 0.0, 1.0);
             return (sample_mask(method_, frame_->view.samples, a, place) >> point.sample & 1u) != 0;

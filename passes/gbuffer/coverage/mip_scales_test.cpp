@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "captures/scenarios.h"
 #include "capture_format/codec/texture_mips.h"
+#include "captures/scenarios.h"
 #include "passes/gbuffer/coverage/mask_model.h"
 #include "passes/reference/textures.h"
 
@@ -28,7 +28,7 @@ Frame masked_frame(std::uint32_t edge, bool (*is_there)(std::uint32_t x, std::ui
 }
 
 struct Shares {
-    double share = 0;           ///< of texels that stay
+    double share = 0;  ///< of texels that stay
     std::uint32_t texels = 0;
     std::uint32_t of_one_alpha = 0;  ///< the most texels with one alpha
 };
@@ -57,7 +57,8 @@ TEST(MipScales, KeepTheFinestMipsShareAsFarAsTexelsOfOneAlphaLetThem) {
         const double cutoff = material.mask_cutoff, wanted = shares_of(texture, 0, 1, cutoff).share;
         for (std::uint32_t mip = 0; mip < texture.mips; ++mip, ++mips) {
             const Shares got = shares_of(texture, mip, double(scales[mip]), cutoff);
-            EXPECT_LE(std::abs(got.share - wanted), 0.5 * got.of_one_alpha / got.texels + 1e-12) << material.name << " mip " << mip;
+            EXPECT_LE(std::abs(got.share - wanted), 0.5 * got.of_one_alpha / got.texels + 1e-12)
+                << material.name << " mip " << mip;
             EXPECT_NEAR(scales[mip], mip_scale_model(frame, material, mip), 1e-6 * double(scales[mip]));
         }
         EXPECT_EQ(scales[0], 1) << "the finest mip is tested as it is";

@@ -1,4 +1,5 @@
 // G-buffer of 96 bits: octahedral normal, log depth and material as integer codes in half-float channels.
+#include "passes/gbuffer/coverage/coverage.h"
 #include "passes/gbuffer/fill.h"
 #include "passes/technique.h"
 
@@ -26,8 +27,9 @@ Technique octahedral() {
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
         .params = fill_params(),
-        .points = {"attributes=sample"},
+        .points = {"attributes=sample", "masked=per_sample", "masked=unbiased", "masked=mip_coverage"},
         .abilities = {.is_time_unit = true},
+        .claims = {.ratios = coverage_ratios()},
         .declare = declare,
         .model = octahedral_model,
         .tolerance = {.rmse = 1.5e-3,
