@@ -43,15 +43,16 @@ std::set<std::uint32_t> masked_materials(const FrameImages& frame) {
     return masked;
 }
 
-Buffer declare_scales(Graph& graph, const FrameImages& frame) {
-    const std::uint64_t materials = frame.recorded->materials.size();
-    Buffer scales = graph.create("mask scales", materials * mask_scale_mips * sizeof(float));
-    graph.clear(scales, 0);
+Image declare_scales(Graph& graph, const FrameImages& frame) {
+    const auto materials = static_cast<std::uint32_t>(frame.recorded->materials.size());
+    const Extent extent{mask_scale_columns * mask_scale_mips, (materials + mask_scale_columns - 1) / mask_scale_columns};
+    Image scales = graph.create("mask scales", {.extent = extent, .format = Format::r32f});
+    graph.clear(scales, {});
     for (const std::uint32_t material : masked_materials(frame)) {
         MaskScalesPush push{.material = material};
         const auto values = mip_scales(*frame.recorded, frame.recorded->materials[material]);
         for (std::size_t mip = 0; mip < values.size(); ++mip) push.scales[mip] = values[mip];
-        graph.compute("gbuffer/coverage/scales.comp").updates("MaskScales", scales).push(push).over({mask_scale_mips});
+        graph.compute("gbuffer/coverage/scales.comp").updates("mask_scales", scales).push(push).over({mask_scale_mips});
     }
     return scales;
 }
@@ -77,8 +78,8 @@ Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, S
 void add_coverage(DrawPass& pass, const Coverage& coverage) {
     pass.fixes("masked", coverage.method)
         .fixes("mask_samples", coverage.method == masked_clip ? 1u : coverage.samples)
-        .fixes("masks_at_sample", coverage.method != masked_clip && coverage.rate == ShadingRate::sample ? 1u : 0u);
-    if (coverage.scales) pass.loads("MaskScales", coverage.scales);
+        .fixes("masks_at_sample", coverage.method != masked_clip && coverage.rate == ShadingRate::sample ? 1u : 0u)
+        .samples("mask_scales", coverage.scales);
 }
 
 }  // namespace strata::gbuffer

@@ -8,7 +8,7 @@
 // 1: the shader runs for every sample, and its varyings are the sample's.
 layout(constant_id = 55) const uint masks_at_sample = 0u;
 
-layout(set = 0, binding = 25, scalar) readonly buffer MaskScales { float mask_scales[]; };  // mask_scale_mips a material
+layout(set = 0, binding = 25) uniform sampler2D mask_scales;  // as mask_scale_texel() places them
 
 // Standard sample positions, from the pixel's center (docs/algorithms/deferred.md 0.4).
 const vec2 mask_places[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
@@ -44,8 +44,9 @@ float scaled_alpha(MaterialRecord material, uint number, Footprint f, float alph
     const TextureUseRecord use = material.textures[base_color_texture];
     if (!is_used(base_color_texture) || use.texture == no_index) return alpha;
     const float lod = min(level_of_detail(textures[use.texture], use, f), float(mask_scale_mips - 1u));
-    const uint first = number * mask_scale_mips, fine = uint(lod), coarse = min(fine + 1u, mask_scale_mips - 1u);
-    return alpha * mix(mask_scales[first + fine], mask_scales[first + coarse], fract(lod));
+    const uint fine = uint(lod), coarse = min(fine + 1u, mask_scale_mips - 1u);
+    const float scale = texelFetch(mask_scales, mask_scale_texel(number, fine), 0).r;
+    return alpha * mix(scale, texelFetch(mask_scales, mask_scale_texel(number, coarse), 0).r, fract(lod));
 }
 
 // Golus, Anti-aliased Alpha Test, 2017. The neighbors' alphas are tapped here: lavapipe 22.3 reads textures as 0 in helper lanes.

@@ -16,12 +16,12 @@ std::vector<TimeRatio> coverage_ratios();
 
 enum class ShadingRate { pixel, sample };
 
-/// What the fill of a frame is given: the constants of coverage.glsl and the buffer it reads.
+/// What the fill of a frame is given: the constants of coverage.glsl and the image it reads.
 struct Coverage {
     uint method = masked_clip;
     std::uint32_t samples = 1;
     ShadingRate rate = ShadingRate::pixel;
-    Buffer scales = {};
+    Image scales = {};
 };
 
 /// The method of these settings, or `clip` where it does the same as that in this frame: without masked surfaces, and of methods

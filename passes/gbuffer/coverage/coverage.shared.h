@@ -20,6 +20,9 @@ const uint masked_sharpened = 9u;        // alpha steepened to one pixel around 
 // Mips of a texture that have a scale of their own; coarser ones take the last.
 const uint mask_scale_mips = 16u;
 
+// The image of scales: so many materials a row.
+const uint mask_scale_columns = 64u;
+
 // The scales of one material's mips, finest first.
 struct MaskScalesPush {
     uint material;
@@ -27,6 +30,10 @@ struct MaskScalesPush {
 };
 
 #ifdef __cplusplus
+}
+#else
+ivec2 mask_scale_texel(uint material, uint mip) {
+    return ivec2((material % mask_scale_columns) * mask_scale_mips + mip, material / mask_scale_columns);
 }
 #endif
 #endif

@@ -8,9 +8,10 @@ layout(local_size_x = 16) in;
 
 layout(push_constant, scalar) uniform Push { MaskScalesPush push; };
 
-layout(set = 0, binding = 0, scalar) writeonly buffer MaskScales { float mask_scales[]; };
+layout(set = 0, binding = 0, r32f) writeonly uniform image2D mask_scales;
 
 void main() {
     const uint mip = gl_GlobalInvocationID.x;
-    if (mip < mask_scale_mips) mask_scales[push.material * mask_scale_mips + mip] = push.scales[mip];
+    if (mip >= mask_scale_mips) return;
+    imageStore(mask_scales, mask_scale_texel(push.material, mip), vec4(push.scales[mip]));
 }
