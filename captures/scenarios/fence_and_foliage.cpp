@@ -19,7 +19,7 @@ namespace strata::scenario {
 namespace {
 
 constexpr float tile = 0.5f, mesh_width = tile / 4, wire = 0.016f;  // metres: of a texture, of a mesh of the fence, of its wire
-constexpr double fence_height = 1.8, panel = 3;
+constexpr double fence_height = 1.8, panel_length = 3;
 
 /// Each texel is the mean of 4 x 4 places; `paint` gets uv in 0..1 and returns linear color and alpha. Alpha does not weigh
 /// color, so `paint` gives what is not there the color of what is beside it.
@@ -175,14 +175,14 @@ public:
           cube_(builder.add(box(glm::vec3(0.5f)))),
           crown_(builder.add(crown(builder.seed() + 3, 90, 0.42f))),
           tuft_(builder.add(tuft())),
-          panel_(builder.add(quad({float(panel / 2), float(fence_height / 2)}))),
+          panel_(builder.add(quad({float(panel_length / 2), float(fence_height / 2)}))),
           post_(builder.add(lambert("posts", {0.34f, 0.36f, 0.35f}))),
           bark_(builder.add(lambert("bark", {0.16f, 0.1f, 0.06f}))),
           leaf_(builder.add(masked("leaves", builder.add(leaves(builder.seed(), 30, 0.26f))))),
           shrub_(builder.add(masked("shrub", builder.add(leaves(builder.seed() + 1, 60, 0.14f))))),
           grass_(builder.add(masked("grass", builder.add(grass(builder.seed() + 2))))) {
         Material link = masked("chain link", builder.add(chain_link()));
-        link.base_color_texture.transform = {float(panel) / tile, 0, 0, 0, float(fence_height) / tile, 0};
+        link.base_color_texture.transform = {float(panel_length) / tile, 0, 0, 0, float(fence_height) / tile, 0};
         link_ = builder.add(link);
     }
 
@@ -190,7 +190,7 @@ public:
         add_ground();
         for (int i = 0; i < 20; ++i) add_panel(along(i), along(i + 1));
         for (int i = 0; i < 6; ++i)
-            if (i != 2) add_panel({-4.5 + panel * i, 0, -30}, {-4.5 + panel * (i + 1), 0, -30});
+            if (i != 2) add_panel({-4.5 + panel_length * i, 0, -30}, {-4.5 + panel_length * (i + 1), 0, -30});
         add_tree({3.4, 0, -8}, 1.5);
         add_tree({7.5, 0, -17}, 2.2);
         add_tree({0.6, 0, -37}, 2.4);
@@ -223,8 +223,9 @@ private:
     void add_panel(glm::dvec3 from, glm::dvec3 to) {
         const glm::dvec3 way = to - from, middle = 0.5 * (from + to);
         const double yaw = std::atan2(-way.z, way.x), length = glm::length(way);
-        builder_->draw(panel_, link_,
-                       {.position = middle + glm::dvec3(0, fence_height / 2, 0), .yaw = yaw, .scale = {length / panel, 1, 1}});
+        builder_->draw(
+            panel_, link_,
+            {.position = middle + glm::dvec3(0, fence_height / 2, 0), .yaw = yaw, .scale = {length / panel_length, 1, 1}});
         builder_->draw(cube_, post_,
                        {.position = middle + glm::dvec3(0, fence_height, 0), .yaw = yaw, .scale = {length, 0.045, 0.045}});
         for (const glm::dvec3& end : {from, to})

@@ -18,6 +18,9 @@ uint left_samples(MaterialRecord material, float alpha, float vertex_alpha) {
     return is_masked(material) ? covered : every_sample;
 }
 
+// A function, so that shaders without it have no mask at all (passes/graph/reached_code.h).
+void keep_samples(uint left) { gl_SampleMask[0] = int(left); }
+
 // Discards backs of one-sided faces and what the alpha test cuts away. Material and test are evaluated first: derivatives need
 // the whole quad.
 MaterialPoint visible_point() {
@@ -27,7 +30,7 @@ MaterialPoint visible_point() {
     const uint left = left_samples(material, m.alpha, v.color.a);
     if (!gl_FrontFacing && has_one_side(material.double_sided)) discard;
     if (left == 0u) discard;
-    if (masked != masked_clip && mask_samples > 1u) gl_SampleMask[0] = int(left);
+    if (masked != masked_clip && mask_samples > 1u) keep_samples(left);
     return m;
 }
 
