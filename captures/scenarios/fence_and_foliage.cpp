@@ -114,7 +114,6 @@ Texture grass(std::uint64_t seed) {
 Material masked(std::string name, std::uint32_t texture) {
     Material material = lambert(std::move(name), glm::vec3(1));
     material.alpha_mode = AlphaMode::mask;
-    material.double_sided = true;
     material.base_color_texture.texture = texture;
     return material;
 }
@@ -124,15 +123,18 @@ struct CardPlace {
     glm::vec3 center, right, up;
 };
 
-/// A card whose normals are those given to it rather than its own: lit as the round thing that it belongs to.
+/// A card that can be seen from both sides, whose normals are those given to it rather than its own: lit as the round thing that
+/// it belongs to. Each side is a face of its own, because the normals of a double-sided one would turn around at its back.
 void add_card(Mesh& mesh, const CardPlace& card, glm::vec3 normal) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1)}) {
-        mesh.positions.push_back(card.center + card.right * corner.x + card.up * corner.y);
-        mesh.normals.push_back(normal);
-        mesh.uv0.emplace_back(0.5f + 0.5f * corner.x, 0.5f - 0.5f * corner.y);
+    for (const float side : {1.0f, -1.0f}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1)}) {
+            mesh.positions.push_back(card.center + side * card.right * corner.x + card.up * corner.y);
+            mesh.normals.push_back(normal);
+            mesh.uv0.emplace_back(0.5f + 0.5f * side * corner.x, 0.5f - 0.5f * corner.y);
+        }
+        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
     }
-    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
 }
 
 /// Cards all around in a ball of radius 1, their fronts outwards.
@@ -182,6 +184,7 @@ public:
           shrub_(builder.add(masked("shrub", builder.add(leaves(builder.seed() + 1, 60, 0.14f))))),
           grass_(builder.add(masked("grass", builder.add(grass(builder.seed() + 2))))) {
         Material link = masked("chain link", builder.add(chain_link()));
+        link.double_sided = true;
         link.base_color_texture.transform = {float(panel_length) / tile, 0, 0, 0, float(fence_height) / tile, 0};
         link_ = builder.add(link);
     }
@@ -247,9 +250,9 @@ private:
 
     void add_grass() {
         Random random(builder_->seed() + 4);
-        for (int i = 0; i < 120; ++i) {
+        for (int i = 0; i < 200; ++i) {
             const double place = random.unit() * random.unit() * 20, aside = random.between(-0.5, 0.5);
-            const double height = random.between(0.25, 0.5), yaw = random.between(0.0, 3.1);
+            const double height = random.between(0.18, 0.42), yaw = random.between(0.0, 3.1);
             const glm::dvec3 near(i % 3 == 0 ? 1.4 + 0.2 * place + aside : -1.6 - 0.22 * place + aside, 0, -1.2 - 2.95 * place);
             builder_->draw(tuft_, grass_, {.position = near, .yaw = yaw, .scale = glm::dvec3(height)});
         }
