@@ -74,6 +74,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::two_rooms},
     {"courtyard", "Does sunlight that bounces into an arcade stay steady while the cascades follow a walking eye?", 80, 45,
      scenario::courtyard},
+    {"fence_and_foliage", "Do a fence and leaves keep their area and their edges from 2 m to 60 m?", 96, 54,
+     scenario::fence_and_foliage},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

@@ -23,7 +23,7 @@ constexpr FrameImageRow rows[] = {
     {"surface_color", &FrameImages::surface_color, "base color, roughness"},
     {"surface_material",
      &FrameImages::surface_material,
-     "lighting model, metallic, occlusion",
+     "lighting model, metallic, occlusion; where in its pixel the position lies, as a code",
      Content::numbers,
      {"lighting model", "metallic", "occlusion"}},
     {"edges", &FrameImages::edges, "1 where every sample of the pixel is shaded"},

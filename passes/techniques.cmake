@@ -172,14 +172,14 @@ function(write_gbuffer_decoders)
         get_filename_component(name ${technique} NAME)
         if(stage STREQUAL "gbuffer")
             string(APPEND includes "#include \"passes/${technique}/decode.glsl\"\n")
-            string(APPEND cases "    if (layout_index == ${index}u) return decode_${name}(g0, g1, g2, pixel);\n")
+            string(APPEND cases "    if (layout_index == ${index}u) return decode_${name}(t);\n")
             math(EXPR index "${index} + 1")
         endif()
     endforeach()
     file(CONFIGURE OUTPUT ${generated_passes}/gbuffer/decoders.glsl CONTENT
 "// Written by passes/techniques.cmake: every G-buffer technique's decode.glsl.
 ${includes}
-Surface decode_gbuffer(uint layout_index, vec4 g0, vec4 g1, vec4 g2, vec2 pixel) {
+Surface decode_gbuffer(uint layout_index, GBufferTexel t) {
 ${cases}    return no_surface();
 }
 " @ONLY)

@@ -86,15 +86,19 @@ std::uint32_t material_code(const SurfacePoint& p) {
     return (numbers.first + level(p.metallic, numbers.count - 1)) * 256 + level(p.occlusion, 255);
 }
 
+SurfacePoint stored_color(SurfacePoint p) {
+    for (int c = 0; c < 3; ++c)
+        p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
+    p.roughness = level(p.roughness, 255) / 255.0;
+    return p;
+}
+
 SurfacePoint stored_material(SurfacePoint p) {
     const std::uint32_t code = code_of_half(half_of_code(material_code(p)));
     p.occlusion = double(code % 256) / 255;
     const MaterialNumbers numbers = numbers_of(p.model = model_of(code / 256));
     p.metallic = numbers.count == 1 ? 0 : double(code / 256 - numbers.first) / (numbers.count - 1);
-    for (int c = 0; c < 3; ++c)
-        p.base_color[c] = srgb_to_linear(level(linear_to_srgb(std::clamp(p.base_color[c], 0.0, 1.0)), 255) / 255.0);
-    p.roughness = level(p.roughness, 255) / 255.0;
-    return p;
+    return stored_color(p);
 }
 
 }  // namespace strata::gbuffer

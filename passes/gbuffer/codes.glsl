@@ -30,6 +30,10 @@ float nearest_half(float value) {
     return uintBitsToFloat((bits + 0x0fffu + ((bits >> 13) & 1u)) & 0xffffe000u);
 }
 
+vec2 nearest_half(vec2 v) { return vec2(nearest_half(v.x), nearest_half(v.y)); }
+
+vec3 nearest_half(vec3 v) { return vec3(nearest_half(v.xy), nearest_half(v.z)); }
+
 // 8 bits of occlusion under 237 material numbers: 58 steps of metallic for each model that has metals, in their order, then one
 // number for each that has none.
 const uint metallic_steps = 58u;

@@ -24,6 +24,9 @@ double nearest_half(double value);
 /// for each that has none.
 std::uint32_t material_code(const SurfacePoint&);
 
+/// The point with base color and roughness as 8 bits keep them, the color on the sRGB curve.
+SurfacePoint stored_color(SurfacePoint);
+
 /// The point with base color, roughness, metallic, occlusion and lighting model as 8-bit sRGB and the material code keep them.
 SurfacePoint stored_material(SurfacePoint);
 

@@ -1,5 +1,11 @@
 #include "passes/gbuffer/fill.h"
 
+#include <fmt/format.h>
+
+#include "passes/choice_names.h"
+#include "passes/gbuffer/coverage/coverage.h"
+#include "passes/gbuffer/fill.shared.h"
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surfaces.h"
 #include "passes/registry.h"
 #include "passes/scene/material_uses.h"
@@ -7,6 +13,8 @@
 
 namespace strata::gbuffer {
 namespace {
+
+constexpr auto attribute_places = choice_names({{attributes_at_center, "center"}, {attributes_at_sample, "sample"}});
 
 /// A cleared raster target. At one sample it is the layered image itself and has its name.
 Image target(Graph& graph, const FrameImages& frame, std::string_view name, Format format) {
@@ -32,26 +40,66 @@ void leave_surfaces(Graph& graph, FrameImages& frame) {
         .writes_depth(frame.depth);
 }
 
+/// Whether attributes are shaded sample by sample. One sample is the pixel's center.
+bool shades_samples(const FrameImages& frame, const FillParams& params) {
+    return params.attributes == attributes_at_sample && frame.samples > 1;
+}
+
+/// What readers must know.
+std::uint32_t layout_number(const FrameImages& frame, const Layout& layout, const FillParams& params) {
+    std::uint32_t number = index_in_stage(**find_technique(layout.technique));
+    if (shades_samples(frame, params)) number |= layout_shaded_at_sample;
+    if (layout.depth == DepthFrom::depth_buffer) number |= layout_reads_depth;
+    return number;
+}
+
+DrawPass fill_pass(Graph& graph, const FrameImages& frame, const Layout& layout, const FillParams& params) {
+    const bool at_sample = shades_samples(frame, params);
+    const Coverage coverage = declare_coverage(graph, frame, params.masked, at_sample ? ShadingRate::sample : ShadingRate::pixel);
+    DrawPass fill = graph.draw(fmt::format("{}/fill{}", layout.technique, at_sample ? "_sample" : ""), frame.opaque);
+    fix_materials(fill, frame, Surfaces::opaque);
+    add_coverage(fill, coverage);
+    if (at_sample) fill.fixes("sample_near", frame.recorded->view.near);
+    // The shader discards backs draw by draw: the same pixels, shaded in vain.
+    if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
+    return fill;
+}
+
 }  // namespace
 
-void add_fill(Graph& graph, FrameImages& frame, std::string_view technique) {
-    Image gbuffer0 = target(graph, frame, "gbuffer0", Format::rgba16f);
-    Image gbuffer1 = target(graph, frame, "gbuffer1", Format::rgba8_unorm);
+std::vector<Param> fill_params() {
+    return {param<&FillParams::attributes>(
+        {.name = "attributes",
+         .low = 0,
+         .high = attributes_at_sample,
+         .fallback = attributes_at_center,
+         .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
+         .choices = attribute_places}),
+            masked_param()};
+}
+
+void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Settings& settings) {
+    const auto params = settings.as<FillParams>();
+    const bool has_third = layout.targets.size() > 2;
+    Image gbuffer0 = target(graph, frame, "gbuffer0", layout.targets[0]);
+    Image gbuffer1 = target(graph, frame, "gbuffer1", layout.targets[1]);
+    Image gbuffer2 = has_third ? target(graph, frame, "gbuffer2", layout.targets[2]) : Image{};
     Image emission = target(graph, frame, "emission", Format::rgba16f);
     const bool begins_empty = !frame.depth;
     if (begins_empty) frame.depth = empty_depth(graph, frame);
     if (frame.opaque.count > 0) {
-        DrawPass fill = graph.draw(std::string(technique) + "/fill", frame.opaque);
-        fix_materials(fill, frame, Surfaces::opaque).covers(gbuffer0).covers(gbuffer1).covers(emission).writes_depth(frame.depth);
-        // The shader discards backs draw by draw: the same pixels, shaded in vain.
-        if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
+        DrawPass fill = fill_pass(graph, frame, layout, params);
+        fill.covers(gbuffer0).covers(gbuffer1).covers(emission);
+        if (has_third) fill.covers(gbuffer2);
+        fill.writes_depth(frame.depth);
     }
     frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
     frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");
+    if (has_third) frame.gbuffer2 = spread(graph, gbuffer2, "gbuffer2");
     frame.emission = spread(graph, emission, "emission");
     if (!begins_empty) leave_surfaces(graph, frame);
     frame.depth_layers = spread(graph, frame.depth, "depth_layers");
-    frame.gbuffer_layout = index_in_stage(**find_technique(technique));
+    frame.gbuffer_layout = layout_number(frame, layout, params);
     add_surfaces(graph, frame);
 }
 

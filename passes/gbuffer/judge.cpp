@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
+#include "passes/gbuffer/coverage/judge_coverage.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
@@ -70,10 +72,13 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
         sums.position += square(position_error(input.frame, i, got.normal.w, wanted.normal.w));
     }
     const auto rms = [&](double sum) { return infinite_if_nan(std::sqrt(sum / std::max(1.0, sums.surfaces))); };
-    return {{"normal angle rms", "degrees", rms(sums.angle)},    {"normal angle worst", "degrees", sums.worst_angle},
-            {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
-            {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},
-            {"occlusion rmse", "", rms(sums.occlusion)},         {"coverage differs", "samples", sums.disagreeing}};
+    std::vector<Figure> figures = {
+        {"normal angle rms", "degrees", rms(sums.angle)},    {"normal angle worst", "degrees", sums.worst_angle},
+        {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
+        {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},
+        {"occlusion rmse", "", rms(sums.occlusion)},         {"coverage differs", "samples", sums.disagreeing}};
+    std::ranges::copy(gbuffer::coverage_figures(result, input), std::back_inserter(figures));
+    return figures;
 }
 
 }  // namespace strata

@@ -1,5 +1,8 @@
 #include "passes/gbuffer/nearest.h"
 
+#include "passes/gbuffer/coverage/mask_model.h"
+#include "passes/reference/place_code.h"
+
 namespace strata::gbuffer {
 namespace {
 
@@ -9,9 +12,9 @@ glm::dvec4 emitted(const SurfacePoint& p) {
 
 }  // namespace
 
-std::vector<NearestSurface> nearest_surfaces(const Frame& frame, ShadeAt shade_at) {
+std::vector<NearestSurface> nearest_surfaces(const Frame& frame, ShadeAt shade_at, std::uint32_t masked) {
     const std::vector<std::uint32_t> draws = opaque_draws(frame);
-    const VisiblePoints visible = visible_points(frame, draws, {.shade_at = shade_at});
+    const VisiblePoints visible = visible_points(frame, draws, {.shade_at = shade_at}, mask_model(frame, masked, shade_at));
     std::vector<NearestSurface> surfaces(visible.points.size());
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const RasterPoint& point = visible.points[i];
@@ -20,6 +23,7 @@ std::vector<NearestSurface> nearest_surfaces(const Frame& frame, ShadeAt shade_a
         if (!surfaces[i].exists) continue;
         surfaces[i].point = surface_at(frame, point);
         surfaces[i].depth = point.depth;
+        if (shade_at == ShadeAt::sample) surfaces[i].offset = sample_position(frame.view.samples, point.sample) - 0.5;
     }
     return surfaces;
 }
@@ -34,7 +38,7 @@ ImageSet surface_images(const Frame& frame, const std::vector<NearestSurface>& s
         if (!s.exists) continue;
         normal.texels[i] = glm::dvec4(s.point.normal, s.point.position.z);
         color.texels[i] = glm::dvec4(s.point.base_color, s.point.roughness);
-        material.texels[i] = {double(s.point.model), s.point.metallic, s.point.occlusion, 0};
+        material.texels[i] = {double(s.point.model), s.point.metallic, s.point.occlusion, place_code(s.offset)};
         emission.texels[i] = emitted(s.point);
         depth.texels[i] = {s.depth, 0, 0, 0};
     }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/shade.h"
 #include "passes/stages.h"
@@ -14,10 +15,12 @@ struct NearestSurface {
     bool undecided = false;  ///< coverage, depth order or alpha test hang on rounding
     SurfacePoint point;      ///< attributes at the sample or at the pixel's center
     double depth = 0;        ///< device depth near / z, always at the sample
+    glm::dvec2 offset{0};    ///< from the pixel's center to where the position lies, in pixels
 };
 
 /// In the order of ReferenceImage's texels, layer = sample. Backs of one-sided faces and what the alpha test cuts are not there.
-std::vector<NearestSurface> nearest_surfaces(const Frame&, ShadeAt);
+/// `masked` is a method of passes/gbuffer/coverage/coverage.shared.h.
+std::vector<NearestSurface> nearest_surfaces(const Frame&, ShadeAt, std::uint32_t masked = masked_clip);
 
 /// surface_normal, surface_color, surface_material, emission and depth_layers as passes/frame_images.h defines them.
 ImageSet surface_images(const Frame&, const std::vector<NearestSurface>&);

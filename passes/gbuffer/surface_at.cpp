@@ -1,11 +1,15 @@
 #include "passes/gbuffer/surface_at.h"
 
+#include "passes/gbuffer/layout.shared.h"
+
 namespace strata {
 
 ComputePass sample_gbuffer(ComputePass pass, const FrameImages& frame) {
+    const bool reads_depth = (frame.gbuffer_layout & gbuffer::layout_reads_depth) != 0;
     return pass.samples("gbuffer0", frame.gbuffer0)
         .samples("gbuffer1", frame.gbuffer1)
         .samples("gbuffer2", frame.gbuffer2)
+        .samples("gbuffer_depth", reads_depth ? frame.depth_layers : Image{})
         .fixes("gbuffer_layout", frame.gbuffer_layout);
 }
 

@@ -1,19 +1,41 @@
 // The surface of a sample, out of the G-buffer that the frame has, whichever layout wrote it. passes/gbuffer/surface_at.h binds it.
 #ifndef PASSES_GBUFFER_SURFACE_AT_GLSL
 #define PASSES_GBUFFER_SURFACE_AT_GLSL
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surface.glsl"
 #include "passes/gbuffer/decoders.glsl"
 
-layout(constant_id = 30) const uint gbuffer_layout = 0u;
+layout(constant_id = 30) const uint gbuffer_layout = 0u;  // layout.shared.h
 
 layout(set = 0, binding = 20) uniform sampler2DArray gbuffer0;
 layout(set = 0, binding = 21) uniform sampler2DArray gbuffer1;
 layout(set = 0, binding = 22) uniform sampler2DArray gbuffer2;
+layout(set = 0, binding = 25) uniform sampler2DArray gbuffer_depth;
+
+// Standard places of 4 samples, from the pixel's center (docs/algorithms/deferred.md 0.4).
+const vec2 sample_offsets[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
+
+vec2 offset_of_sample(int index) {
+    if (view.samples == 1u) return vec2(0.0);
+    return sample_offsets[index];
+}
 
 // x and y: the pixel; z: the sample.
 Surface surface_at(ivec3 at) {
-    return decode_gbuffer(gbuffer_layout, texelFetch(gbuffer0, at, 0), texelFetch(gbuffer1, at, 0), texelFetch(gbuffer2, at, 0),
-                          vec2(at.xy) + 0.5);
+    GBufferTexel t;
+    t.g0 = texelFetch(gbuffer0, at, 0);
+    t.g1 = texelFetch(gbuffer1, at, 0);
+    t.g2 = texelFetch(gbuffer2, at, 0);
+    t.depth = 0.0;
+    t.center = vec2(at.xy) + 0.5;
+    t.shaded_offset = vec2(0.0);
+    t.sample_offset = vec2(0.0);
+    if ((gbuffer_layout & layout_reads_depth) != 0u) {
+        t.depth = texelFetch(gbuffer_depth, at, 0).r;
+        t.sample_offset = offset_of_sample(at.z);
+    }
+    if ((gbuffer_layout & layout_shaded_at_sample) != 0u) t.shaded_offset = offset_of_sample(at.z);
+    return decode_gbuffer(gbuffer_layout & layout_index_mask, t);
 }
 
 #endif

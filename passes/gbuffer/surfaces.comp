@@ -1,6 +1,7 @@
 // The G-buffer of whichever layout, decoded into three float images: for reports, models and debugging, never for the frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/gbuffer/place.glsl"
 #include "passes/gbuffer/surface_at.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,5 +16,6 @@ void main() {
     const Surface s = surface_at(at);
     imageStore(surface_normal, at, s.exists ? vec4(s.normal, s.z) : vec4(0.0));
     imageStore(surface_color, at, s.exists ? vec4(s.base_color, s.roughness) : vec4(0.0));
-    imageStore(surface_material, at, s.exists ? vec4(float(s.lighting_model), s.metallic, s.occlusion, 0.0) : vec4(0.0));
+    imageStore(surface_material, at,
+               s.exists ? vec4(float(s.lighting_model), s.metallic, s.occlusion, place_code(s.offset)) : vec4(0.0));
 }

@@ -305,6 +305,36 @@ std::unordered_set<std::uint32_t> ids_left_out(const Module& module) {
     return ids;
 }
 
+/// Outputs of sample masks that no function writes any more: undefined, and lavapipe 22.3 covers no sample by them.
+std::unordered_set<std::uint32_t> unwritten_masks(const Module& module) {
+    std::unordered_set<std::uint32_t> masks, outputs;
+    for (const Instruction& i : module.head) {
+        const bool is_builtin = i.op == spv::OpDecorate && i.words[2] == spv::DecorationBuiltIn;
+        if (is_builtin && i.words[3] == spv::BuiltInSampleMask) masks.insert(i.words[1]);
+        if (i.op == spv::OpVariable && i.words[3] == spv::StorageClassOutput) outputs.insert(i.words[2]);
+    }
+    std::erase_if(masks, [&](std::uint32_t id) { return !outputs.contains(id); });
+    for (const std::uint32_t id : module.called)
+        for (const Instruction& i : module.functions.at(id).body) {
+            if (i.op == spv::OpStore) masks.erase(i.words[1]);
+            if (i.op == spv::OpAccessChain) masks.erase(i.words[3]);
+        }
+    return masks;
+}
+
+/// An OpEntryPoint that does not name these variables: they follow its name, which ends with a zero byte.
+std::vector<std::uint32_t> entry_without(std::span<const std::uint32_t> words,
+                                         const std::unordered_set<std::uint32_t>& variables) {
+    std::size_t end_of_name = 3;
+    while (words[end_of_name] >> 24 != 0) ++end_of_name;
+    std::vector<std::uint32_t> entry(words.begin(), words.end());
+    entry.erase(std::remove_if(entry.begin() + std::ptrdiff_t(end_of_name) + 1, entry.end(),
+                               [&](std::uint32_t id) { return variables.contains(id); }),
+                entry.end());
+    entry[0] = static_cast<std::uint32_t>(entry.size()) << 16 | spv::OpEntryPoint;
+    return entry;
+}
+
 }  // namespace
 
 std::vector<ConstantBits> fixed_constants(const Shader& shader, const Step& step) {
@@ -330,12 +360,17 @@ std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std
     const std::vector<Instruction> all = instructions_of(code);
     if (all.empty()) return {code.begin(), code.end()};
     const Module module = module_of(all, given);
-    const auto left_out = ids_left_out(module);
+    auto left_out = ids_left_out(module);
+    const auto masks = unwritten_masks(module);
+    left_out.insert(masks.begin(), masks.end());
     std::vector<std::uint32_t> reached(code.begin(), code.begin() + header_words);
     const auto keep = [&](std::span<const std::uint32_t> words) { reached.insert(reached.end(), words.begin(), words.end()); };
     for (const Instruction& i : module.head) {
         const bool is_about_an_id = i.op == spv::OpName || i.op == spv::OpDecorate;
-        if (!is_about_an_id || !left_out.contains(i.words[1])) keep(i.words);
+        if (is_about_an_id && left_out.contains(i.words[1])) continue;
+        if (i.op == spv::OpVariable && masks.contains(i.words[2])) continue;
+        if (i.op == spv::OpEntryPoint) keep(entry_without(i.words, masks));
+        else keep(i.words);
     }
     for (const std::uint32_t id : module.order) {
         if (!module.called.contains(id)) continue;

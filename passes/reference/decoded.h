@@ -10,7 +10,7 @@ struct DecodedTexels {
     glm::dvec4 normal{0}, color{0}, material{0};
 };
 
-/// The position is the pixel center's, as readers of a G-buffer have it.
+/// The position lies where the last channel of surface_material says (place_code.h), as readers of a G-buffer have it.
 SurfacePoint decoded_surface(const Frame&, const DecodedTexels&, std::uint32_t x, std::uint32_t y);
 
 }  // namespace strata

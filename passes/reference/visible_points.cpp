@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/reference/mask_test.h"
 #include "passes/reference/raster.h"
 #include "passes/reference/surfaces.h"
 
@@ -34,19 +35,32 @@ void add(Nearest& nearest, const RasterPoint& point) {
 }
 
 // Applies the alpha test: whether the point is there at all, and whether that is certain.
-bool survives_mask(const Frame& frame, RasterPoint& point) {
+bool survives_mask(const Frame& frame, const MaskTest& test, RasterPoint& point) {
     const Material* material = material_of(frame, point.draw);
     if (material == nullptr || material->alpha_mode != AlphaMode::mask) return true;
-    const double alpha = surface_at(frame, point).alpha, cutoff = material->mask_cutoff;
-    if (std::abs(alpha - cutoff) > alpha_rounding) return alpha >= cutoff;
+    const MaskCover cover = test(point);
+    if (cover == MaskCover::kept || cover == MaskCover::cut) return cover == MaskCover::kept;
     point.undecided = true;
-    point.covered = point.covered && alpha >= cutoff;
+    point.covered = point.covered && cover == MaskCover::maybe_kept;
     return true;
 }
 
 }  // namespace
 
+MaskTest cutoff_test(const Frame& frame) {
+    return [&frame](const RasterPoint& point) {
+        const double alpha = surface_at(frame, point).alpha, cutoff = material_of(frame, point.draw)->mask_cutoff;
+        if (std::abs(alpha - cutoff) > alpha_rounding) return alpha >= cutoff ? MaskCover::kept : MaskCover::cut;
+        return alpha >= cutoff ? MaskCover::maybe_kept : MaskCover::maybe_cut;
+    };
+}
+
 VisiblePoints visible_points(const Frame& frame, std::span<const std::uint32_t> draws, RasterOptions options) {
+    return visible_points(frame, draws, options, cutoff_test(frame));
+}
+
+VisiblePoints visible_points(const Frame& frame, std::span<const std::uint32_t> draws, RasterOptions options,
+                             const MaskTest& test) {
     const View& view = frame.view;
     const std::size_t samples = std::size_t(view.width) * view.height * view.samples;
     VisiblePoints visible{
@@ -56,7 +70,7 @@ VisiblePoints visible_points(const Frame& frame, std::span<const std::uint32_t> 
     oneapi::tbb::parallel_for(std::uint32_t{0}, view.height, [&](std::uint32_t y) {
         std::vector<Nearest> row(std::size_t(view.width) * view.samples);
         raster.row(y, options, [&](RasterPoint point, const RasterTriangle&) {
-            if (survives_mask(frame, point)) add(row[std::size_t(point.x) * view.samples + point.sample], point);
+            if (survives_mask(frame, test, point)) add(row[std::size_t(point.x) * view.samples + point.sample], point);
         });
         for (std::uint32_t slot = 0; slot < row.size(); ++slot) {
             RasterPoint point = row[slot].point;

@@ -10,7 +10,7 @@ layout(location = 3) out vec4 out_uv;        // uv0, uv1
 layout(location = 4) out vec4 out_color;
 layout(location = 5) out vec4 out_emissive;  // w: depth offset towards the eye
 layout(location = 6) flat out uint out_draw;
-layout(location = 7) flat out uint out_triangle;  // its number in the draw; 0 unless numbered_draw.vert draws
+layout(location = 7) flat out uint out_triangle;  // its number in the draw where numbered_draw.vert draws; else its first vertex
 
 // 1: the fragments read the material of their draw from here (passes/transparency/event_material.glsl), once per vertex.
 layout(constant_id = 40) const uint hands_on_material = 0u;
@@ -50,7 +50,7 @@ void hand_on(uint vertex, uint draw) {
     out_color = v.color;
     out_emissive = vec4(v.emissive, v.depth_offset);
     out_draw = draw;
-    out_triangle = 0u;
+    out_triangle = vertex - d.vertex_offset;
     if (hands_on_material != 0u) hand_on_material(d);
     gl_Position = view.projection * vec4(out_position, 1.0);
 }

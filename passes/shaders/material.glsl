@@ -21,13 +21,18 @@ float level_of_detail(TextureRecord t, vec2 dx, vec2 dy) {
     return clamp(log2(max(side, 1.0)), 0.0, float(t.mips - 1u));
 }
 
-// A texture at (uv0, uv1), the transform of its use applied.
-vec4 texture_at(TextureRecord t, TextureUseRecord use, Footprint f) {
+// The same of a use of the texture, whose transform turns and stretches the footprint.
+float level_of_detail(TextureRecord t, TextureUseRecord use, Footprint f) {
     const bool first = use.uv_set == 0u;
-    const vec3 uv = vec3(first ? f.uv.xy : f.uv.zw, 1.0);
     const vec2 dx = first ? f.dx.xy : f.dx.zw, dy = first ? f.dy.xy : f.dy.zw;
     const mat2 turn = mat2(use.row0.x, use.row1.x, use.row0.y, use.row1.y);
-    return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, turn * dx, turn * dy));
+    return level_of_detail(t, turn * dx, turn * dy);
+}
+
+// A texture at (uv0, uv1), the transform of its use applied.
+vec4 texture_at(TextureRecord t, TextureUseRecord use, Footprint f) {
+    const vec3 uv = vec3(use.uv_set == 0u ? f.uv.xy : f.uv.zw, 1.0);
+    return trilinear(t, vec2(dot(use.row0, uv), dot(use.row1, uv)), level_of_detail(t, use, f));
 }
 
 // White where there is none.

@@ -1,4 +1,5 @@
 // G-buffer of 96 bits: octahedral normal, log depth and material as integer codes in half-float channels.
+#include "passes/gbuffer/coverage/coverage.h"
 #include "passes/gbuffer/fill.h"
 #include "passes/technique.h"
 
@@ -8,7 +9,11 @@ ImageSet octahedral_model(const StageInput&, const Settings&);
 
 namespace {
 
-void declare(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/octahedral"); }
+constexpr Format targets[] = {Format::rgba16f, Format::rgba8_unorm};
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    add_fill(graph, frame, {.technique = "gbuffer/octahedral", .targets = targets}, settings);
+}
 
 }  // namespace
 
@@ -21,7 +26,10 @@ Technique octahedral() {
         .summary =
             "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
             "no channel can be filtered or blended.",
+        .params = fill_params(),
+        .points = {"attributes=sample", "masked=per_sample", "masked=unbiased", "masked=mip_coverage"},
         .abilities = {.is_time_unit = true},
+        .claims = {.ratios = coverage_ratios()},
         .declare = declare,
         .model = octahedral_model,
         .tolerance = {.rmse = 1.5e-3,

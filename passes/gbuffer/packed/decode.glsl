@@ -10,10 +10,10 @@ vec3 packed_normal(vec2 q) {
 }
 
 // A cleared texel would decode to a normal of (-1, -1, 1): the background is masked first.
-Surface decode_packed(vec4 g0, vec4 g1, vec4 g2, vec2 pixel) {
-    if (g0.a == 0.0) return no_surface();
-    const PackedMaterial material = unpack_material(g0.a);
-    const vec4 color = unpack_color(g1);
-    return Surface(true, packed_normal(g0.xy), g0.z, color.rgb, color.a, material.metallic, material.occlusion,
-                   material.lighting_model);
+Surface decode_packed(GBufferTexel t) {
+    if (t.g0.a == 0.0) return no_surface();
+    const PackedMaterial material = unpack_material(t.g0.a);
+    const vec4 color = unpack_color(t.g1);
+    return Surface(true, packed_normal(t.g0.xy), t.g0.z, color.rgb, color.a, material.metallic, material.occlusion,
+                   material.lighting_model, t.shaded_offset);
 }

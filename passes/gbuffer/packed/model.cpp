@@ -1,12 +1,11 @@
-// Layout B of docs/algorithms/deferred.md 2.1 in double, half floats exact: attributes of the pixel's center, stored and read
-// back.
+// Layout B of docs/algorithms/deferred.md 2.1 in double, half floats exact: attributes stored and read back.
 #include "passes/gbuffer/packed/model.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "passes/gbuffer/codes.h"
-#include "passes/gbuffer/nearest.h"
+#include "passes/gbuffer/layout_model.h"
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
@@ -22,17 +21,13 @@ glm::dvec3 packed_normal(const glm::dvec2& q) {
     return glm::normalize(glm::dvec3(xy, std::signbit(q.x) ? -z : z));
 }
 
-double packed_depth(double z, double near) { return nearest_half(std::max(z, near)); }
-
-ImageSet packed_model(const StageInput& input, const Settings&) {
-    std::vector<NearestSurface> surfaces = nearest_surfaces(input.frame, ShadeAt::pixel_center);
-    for (NearestSurface& s : surfaces) {
-        if (!s.exists) continue;
+ImageSet packed_model(const StageInput& input, const Settings& settings) {
+    const double near = input.frame.view.near;
+    return stored_images(input, settings, [near](NearestSurface& s, const SampleAt&) {
         s.point = stored_material(s.point);
         s.point.normal = packed_normal(packed_halves(s.point.normal));
-        s.point.position.z = packed_depth(s.point.position.z, input.frame.view.near);
-    }
-    return surface_images(input.frame, surfaces);
+        s.point.position.z = half_depth(s.point.position.z, near);
+    });
 }
 
 }  // namespace strata::gbuffer

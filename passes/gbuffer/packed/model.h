@@ -9,7 +9,4 @@ namespace strata::gbuffer {
 glm::dvec2 packed_halves(const glm::dvec3& normal);
 glm::dvec3 packed_normal(const glm::dvec2& halves);
 
-/// View depth z as it is stored: the nearest half float from the near plane to 65504 m.
-double packed_depth(double z, double near);
-
 }  // namespace strata::gbuffer

@@ -8,7 +8,11 @@ ImageSet packed_model(const StageInput&, const Settings&);
 
 namespace {
 
-void declare(Graph& graph, FrameImages& frame, const Settings&) { add_fill(graph, frame, "gbuffer/packed"); }
+constexpr Format targets[] = {Format::rgba16f, Format::rgba8_unorm};
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    add_fill(graph, frame, {.technique = "gbuffer/packed", .targets = targets}, settings);
+}
 
 }  // namespace
 
@@ -18,6 +22,8 @@ Technique packed() {
             .title = "Clear Sky packing, 96 bits",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
             .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
+            .params = fill_params(),
+            .points = {"attributes=sample"},
             .declare = declare,
             .model = packed_model,
             .tolerance = {.rmse = 1.5e-3,

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "passes/gbuffer/codes.h"
+#include "passes/gbuffer/layout_model.h"
 #include "passes/gbuffer/packed/model.h"
 
 namespace strata::gbuffer {
@@ -86,7 +87,7 @@ TEST(PackedGBuffer, DepthStepsAreThoseOfHalfFloats) {
     for (const Row row : {Row{0.1, 6.1e-5}, Row{0.3, 2.44e-4}, Row{1, 9.77e-4}, Row{2, 1.95e-3}, Row{5, 3.91e-3},
                           Row{10, 7.81e-3}, Row{20, .015625}, Row{50, .03125}, Row{100, .0625}, Row{200, .125}, Row{500, .25},
                           Row{1000, .5}, Row{2000, 1}, Row{5000, 4}}) {
-        const double stored = packed_depth(row.z, 0.01);
+        const double stored = half_depth(row.z, 0.01);
         const double next = half_value(static_cast<std::uint16_t>(half_bits(stored) + 1));
         EXPECT_NEAR((next - stored) / row.step, 1, 0.01) << row.z << " m";
         EXPECT_LE(std::abs(stored - row.z), row.step / 2 * 1.01);
@@ -101,7 +102,7 @@ TEST(PackedGBuffer, NoValueIsSubnormalOrInfinite) {
     EXPECT_EQ(nearest_half(1 + 3 * 0x1p-11), 1 + 0x1p-9);
 }
 
-TEST(PackedGBuffer, DepthsBeforeTheNearPlaneAreTheNearPlane) { EXPECT_EQ(packed_depth(-3, 0.5), 0.5); }
+TEST(PackedGBuffer, DepthsBeforeTheNearPlaneAreTheNearPlane) { EXPECT_EQ(half_depth(-3, 0.5), 0.5); }
 
 }  // namespace
 }  // namespace strata::gbuffer

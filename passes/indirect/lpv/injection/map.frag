@@ -2,7 +2,7 @@
 // Maps, I3D 2005). Every surface reflects as Lambert's does, no more than arrives; an unlit one reflects nothing.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/shaders/material.glsl"
+#include "passes/shaders/alpha_test.glsl"
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
@@ -19,7 +19,7 @@ void main() {
     const MaterialTexels texels = material_texels(draws[in_draw].material, 1u << base_color_texture | 1u << metallic_roughness_texture, footprint(in_uv));
     const vec4 base = material.base_color * in_color * texels.of[base_color_texture];
     const vec3 outward = dot(in_normal, in_normal) > 0.0 ? normalize(in_normal) : face_normal(in_position, gl_FrontFacing);
-    if (material.alpha_mode == alpha_mask && base.a < material.mask_cutoff) discard;
+    if (is_cut_away(material, base.a)) discard;
     const float metallic = has_metals(material.lighting_model) ? material.metallic * texels.of[metallic_roughness_texture].b : 0.0;
     position = vec4(in_position, 1.0);
     normal = vec4(outward, 0.0);

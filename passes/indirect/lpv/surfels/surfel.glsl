@@ -4,7 +4,7 @@
 #ifndef PASSES_INDIRECT_LPV_SURFEL_GLSL
 #define PASSES_INDIRECT_LPV_SURFEL_GLSL
 #include "passes/indirect/lpv/lpv.shared.h"
-#include "passes/shaders/material.glsl"
+#include "passes/shaders/alpha_test.glsl"
 
 layout(push_constant, scalar) uniform Push { SurfelPush push; };
 
@@ -34,10 +34,10 @@ Surfel surfel() {
     const float metallic = has_metals(material.lighting_model) ? material.metallic * texels.of[metallic_roughness_texture].b : 0.0;
     const vec3 across = cross(dFdxFine(in_place), dFdyFine(in_place));  // along the axis
     const vec3 direction = across / length(across);
-    const bool is_masked = material.alpha_mode == alpha_mask && base.a < material.mask_cutoff;
+    const bool is_cut = is_cut_away(material, base.a);
     const vec3 outward = dot(in_normal, in_normal) > 0.0 ? normalize(in_normal) : shows_front() ? -direction : direction;
     const float area = abs(direction[push.axis]) / float(surfels_a_side * surfels_a_side);
-    const bool exists = !is_masked && area >= 0.0 && dot(outward, outward) > 0.5;  // neither is NaN
+    const bool exists = !is_cut && area >= 0.0 && dot(outward, outward) > 0.5;  // neither is NaN
     const vec3 albedo = material.lighting_model == model_unlit ? vec3(0.0) : clamp(base.rgb * (1.0 - metallic), 0.0, 1.0);
     return Surfel(exists, in_place, outward, direction, area, albedo, !has_one_side(material.double_sided));
 }

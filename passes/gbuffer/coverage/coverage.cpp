@@ -1,0 +1,85 @@
+#include "passes/gbuffer/coverage/coverage.h"
+
+#include <set>
+
+#include "passes/choice_names.h"
+#include "passes/gbuffer/coverage/mip_scales.h"
+#include "passes/gbuffer/fill.shared.h"
+#include "passes/scene/material_uses.h"
+#include "passes/scene/scene_facts.h"
+
+namespace strata::gbuffer {
+namespace {
+
+constexpr auto mask_methods = choice_names({{masked_clip, "clip"},
+                                            {masked_per_sample, "per_sample"},
+                                            {masked_per_sample_fine, "per_sample_fine"},
+                                            {masked_a2c_1, "a2c_1"},
+                                            {masked_a2c_2, "a2c_2"},
+                                            {masked_a2c_or, "a2c_or"},
+                                            {masked_full_step, "full_step"},
+                                            {masked_unbiased, "unbiased"},
+                                            {masked_mip_coverage, "mip_coverage"},
+                                            {masked_sharpened, "sharpened"}});
+
+bool has_masks(const FrameImages& frame) {
+    const std::uint32_t mask = 1u << static_cast<std::uint32_t>(AlphaMode::mask);
+    return (frame.facts->material_uses(Surfaces::opaque).alpha_modes & mask) != 0;
+}
+
+uint method_that_matters(const FrameImages& frame, uint method, ShadingRate rate) {
+    if (!has_masks(frame)) return masked_clip;
+    if (method == masked_per_sample && (frame.samples == 1 || rate == ShadingRate::sample)) return masked_clip;
+    const bool is_of_samples = method == masked_per_sample_fine || method == masked_sharpened;
+    return is_of_samples && frame.samples == 1 ? masked_clip : method;
+}
+
+std::set<std::uint32_t> masked_materials(const FrameImages& frame) {
+    std::set<std::uint32_t> masked;
+    for (const std::uint32_t draw : frame.facts->lists().opaque) {
+        const std::uint32_t material = frame.recorded->draws[draw].material;
+        if (frame.recorded->materials[material].alpha_mode == AlphaMode::mask) masked.insert(material);
+    }
+    return masked;
+}
+
+Image declare_scales(Graph& graph, const FrameImages& frame) {
+    const auto materials = static_cast<std::uint32_t>(frame.recorded->materials.size());
+    const Extent extent{mask_scale_columns * mask_scale_mips, (materials + mask_scale_columns - 1) / mask_scale_columns};
+    Image scales = graph.create("mask scales", {.extent = extent, .format = Format::r32f});
+    graph.clear(scales, {});
+    for (const std::uint32_t material : masked_materials(frame)) {
+        MaskScalesPush push{.material = material};
+        const auto values = mip_scales(*frame.recorded, frame.recorded->materials[material]);
+        for (std::size_t mip = 0; mip < values.size(); ++mip) push.scales[mip] = values[mip];
+        graph.compute("gbuffer/coverage/scales.comp").updates("mask_scales", scales).push(push).over({mask_scale_mips});
+    }
+    return scales;
+}
+
+}  // namespace
+
+Param masked_param() {
+    return param<&FillParams::masked>(
+        {.name = "masked",
+         .low = 0,
+         .high = masked_sharpened,
+         .fallback = masked_clip,
+         .help = "how alpha of masked surfaces covers samples; clip compares it with the cutoff at the pixel's center",
+         .choices = mask_methods});
+}
+
+Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, ShadingRate rate) {
+    Coverage coverage{.method = method_that_matters(frame, method, rate), .samples = frame.samples, .rate = rate};
+    if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
+    return coverage;
+}
+
+void add_coverage(DrawPass& pass, const Coverage& coverage) {
+    pass.fixes("masked", coverage.method)
+        .fixes("mask_samples", coverage.method == masked_clip ? 1u : coverage.samples)
+        .fixes("masks_at_sample", coverage.method != masked_clip && coverage.rate == ShadingRate::sample ? 1u : 0u)
+        .samples("mask_scales", coverage.scales);
+}
+
+}  // namespace strata::gbuffer

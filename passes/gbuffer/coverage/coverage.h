@@ -1,0 +1,34 @@
+// How alpha of masked surfaces becomes covered samples, as a parameter of all G-buffer techniques.
+#pragma once
+
+#include <vector>
+
+#include "passes/frame_images.h"
+#include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/technique.h"
+
+namespace strata::gbuffer {
+
+/// The row of FillParams::masked.
+Param masked_param();
+/// Times of its methods against each other.
+std::vector<TimeRatio> coverage_ratios();
+
+enum class ShadingRate { pixel, sample };
+
+/// What the fill of a frame is given: the constants of coverage.glsl and the image it reads.
+struct Coverage {
+    uint method = masked_clip;
+    std::uint32_t samples = 1;
+    ShadingRate rate = ShadingRate::pixel;
+    Image scales = {};
+};
+
+/// The method of these settings, or `clip` where it does the same as that in this frame: without masked surfaces, and of methods
+/// that differ in their samples alone at one sample per pixel or where every sample is shaded. Declares the steps that write the
+/// scales of mips where they are read.
+Coverage declare_coverage(Graph&, const FrameImages&, uint method, ShadingRate);
+/// Gives it to a step whose fragment shader includes coverage.glsl.
+void add_coverage(DrawPass&, const Coverage&);
+
+}  // namespace strata::gbuffer

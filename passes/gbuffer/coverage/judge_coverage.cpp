@@ -1,0 +1,70 @@
+#include "passes/gbuffer/coverage/judge_coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/fragments.h"
+#include "passes/reference/triangles.h"
+
+namespace strata::gbuffer {
+namespace {
+
+// Along each side of a pixel.
+constexpr std::uint32_t fine = 8;
+// Two depths of one surface differ by less, relatively: floats, and positions snapped to 1/256 pixel.
+constexpr double depth_slack = 1e-4;
+
+bool is_masked(const Frame& frame, std::uint32_t draw) {
+    const Material* material = draw == no_index ? nullptr : material_of(frame, draw);
+    return material != nullptr && material->alpha_mode == AlphaMode::mask;
+}
+
+bool has_masks(const Frame& frame) {
+    return std::ranges::any_of(opaque_draws(frame), [&](std::uint32_t draw) { return is_masked(frame, draw); });
+}
+
+/// The share of each pixel's samples whose surface is masked.
+std::vector<double> coverage_of(const ImageSet& result, const Frame& frame) {
+    std::vector<std::uint32_t> solid = opaque_draws(frame);
+    std::erase_if(solid, [&](std::uint32_t draw) { return is_masked(frame, draw); });
+    const VisiblePoints behind = visible_points(frame, solid, {.shade_at = ShadeAt::sample});
+    const ReferenceImage& depth = result.at("depth_layers");
+    const std::size_t pixels = std::size_t(frame.view.width) * frame.view.height;
+    std::vector<double> coverage(pixels);
+    for (std::size_t i = 0; i < depth.texels.size(); ++i)
+        if (depth.texels[i].x > behind.points[i].depth * (1 + depth_slack)) coverage[i % pixels] += 1.0 / frame.view.samples;
+    return coverage;
+}
+
+}  // namespace
+
+std::vector<double> true_coverage(const Frame& frame) {
+    Frame finer = frame;
+    finer.view.width *= fine;
+    finer.view.height *= fine;
+    finer.view.samples = 1;
+    const VisiblePoints visible = visible_points(finer, opaque_draws(finer), {.shade_at = ShadeAt::sample});
+    std::vector<double> coverage(std::size_t(frame.view.width) * frame.view.height);
+    for (std::uint32_t y = 0; y < finer.view.height; ++y)
+        for (std::uint32_t x = 0; x < finer.view.width; ++x)
+            if (is_masked(finer, visible.at(x, y).draw))
+                coverage[std::size_t(y / fine) * frame.view.width + x / fine] += 1.0 / (fine * fine);
+    return coverage;
+}
+
+std::vector<Figure> coverage_figures(const ImageSet& result, const StageInput& input) {
+    if (!has_masks(input.frame)) return {};
+    const std::vector<double> got = coverage_of(result, input.frame), wanted = true_coverage(input.frame);
+    double difference = 0, covered = 0, got_area = 0, area = 0;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+        if (got[i] == 0 && wanted[i] == 0) continue;
+        difference += std::abs(got[i] - wanted[i]);
+        got_area += got[i];
+        area += wanted[i];
+        ++covered;
+    }
+    return {{"masked coverage off", "of a pixel", difference / std::max(1.0, covered)},
+            {"masked area off", "%", 100 * std::abs(got_area / std::max(1e-9, area) - 1)}};
+}
+
+}  // namespace strata::gbuffer

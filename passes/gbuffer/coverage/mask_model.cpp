@@ -1,0 +1,169 @@
+#include "passes/gbuffer/coverage/mask_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "passes/gbuffer/coverage/bands.h"
+#include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/reference/shade.h"
+#include "passes/reference/textures.h"
+#include "passes/reference/triangles.h"
+
+namespace strata::gbuffer {
+namespace {
+
+// A float that filters a texture is this near at least (passes/reference/visible_points.cpp).
+constexpr double rounding = 1.0 / 2048;
+
+/// What alpha is made of at a point of a masked surface, and its change per pixel as the 2x2 quad of the pixel has it.
+struct Linear {
+    glm::dvec2 uv{0}, uv_x{0}, uv_y{0};
+    double vertex = 1, vertex_x = 0, vertex_y = 0;
+};
+
+Linear linear_at(const Frame& frame, const RasterPoint& point) {
+    const Corners corners = view_corners(frame, draw_space(frame, point.draw), point.draw, point.triangle);
+    const TextureUse& use = material_of(frame, point.draw)->base_color_texture;
+    const glm::dvec3& b = point.barycentric;
+    const glm::dvec3 position = b.x * corners[0] + b.y * corners[1] + b.z * corners[2];
+    const TriangleRays rays(corners);
+    const auto at = [&](const glm::dvec3& where) {
+        const Attributes a = attributes_at(frame, point.draw, point.triangle, where);
+        return glm::dvec3(transformed(use, a.uv[use.uv_set == 0 ? 0 : 1]), a.color.w);
+    };
+    const double sign_x = point.x % 2 == 0 ? 1 : -1, sign_y = point.y % 2 == 0 ? 1 : -1;
+    const glm::dvec2 step(2 / (double(frame.view.width) * double(frame.view.projection[0][0])),
+                          2 / (double(frame.view.height) * double(frame.view.projection[1][1])));
+    const glm::dvec3 ray = position / position.z, here = at(b);
+    const glm::dvec3 along_x = sign_x * (at(rays.barycentric(ray + glm::dvec3(sign_x * step.x, 0, 0))) - here);
+    const glm::dvec3 along_y = sign_y * (at(rays.barycentric(ray + glm::dvec3(0, sign_y * step.y, 0))) - here);
+    return {.uv = here, .uv_x = along_x, .uv_y = along_y, .vertex = here.z, .vertex_x = along_x.z, .vertex_y = along_y.z};
+}
+
+MaskCover decided(bool with_less, bool with_more, bool exactly) {
+    if (with_less == with_more) return exactly ? MaskCover::kept : MaskCover::cut;
+    return exactly ? MaskCover::maybe_kept : MaskCover::maybe_cut;
+}
+
+class Model {
+public:
+    Model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) : frame_(&frame), method_(method), shade_at_(shade_at) {
+        if (method != masked_mip_coverage) return;
+        for (const Material& material : frame.materials)
+            if (material.alpha_mode == AlphaMode::mask)
+                for (std::uint32_t mip = 0; mip < mask_scale_mips; ++mip)
+                    scales_[&material].push_back(mip_scale_model(frame, material, mip));
+    }
+
+    MaskCover operator()(const RasterPoint& point) const {
+        const Linear linear = linear_at(*frame_, point);
+        const Material& material = *material_of(*frame_, point.draw);
+        switch (method_) {
+            case masked_per_sample:
+                return against_cutoff(material, alpha(material, linear, own_place(point), 1));
+            case masked_per_sample_fine:
+                return against_cutoff(material,
+                                      alpha(material, linear, own_place(point), 1 / std::sqrt(double(frame_->view.samples))));
+            case masked_mip_coverage:
+                return against_cutoff(material, alpha(material, linear, {}, 1) * scale(material, linear));
+            default:
+                return by_bands(point, material, linear);
+        }
+    }
+
+private:
+    glm::dvec2 own_place(const RasterPoint& point) const {
+        if (shade_at_ == ShadeAt::sample) return {};
+        return sample_position(frame_->view.samples, point.sample) - 0.5;
+    }
+
+    /// So many pixels from the point, over a footprint so many pixels wide.
+    double alpha(const Material& material, const Linear& l, glm::dvec2 pixels, double width) const {
+        const double own = double(material.base_color.w) * (l.vertex + pixels.x * l.vertex_x + pixels.y * l.vertex_y);
+        if (material.base_color_texture.texture == no_index) return own;
+        const Texture& texture = frame_->textures[material.base_color_texture.texture];
+        const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
+        return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+    }
+
+    double scale(const Material& material, const Linear& l) const {
+        if (material.base_color_texture.texture == no_index) return 1;
+        const Texture& texture = frame_->textures[material.base_color_texture.texture];
+        const double most = std::min(texture.mips, mask_scale_mips) - 1;
+        const double lod = std::clamp(level_of_detail(texture, l.uv_x, l.uv_y), 0.0, most);
+        const std::vector<double>& of = scales_.at(&material);
+        const auto fine = static_cast<std::size_t>(lod);
+        return glm::mix(of[fine], of[std::min<std::size_t>(fine + 1, mask_scale_mips - 1)], lod - double(fine));
+    }
+
+    static MaskCover against_cutoff(const Material& material, double alpha) {
+        const double cutoff = material.mask_cutoff;
+        return decided(alpha - rounding >= cutoff, alpha + rounding >= cutoff, alpha >= cutoff);
+    }
+
+    MaskCover by_bands(const RasterPoint& point, const Material& material, const Linear& l) const {
+        const double here = alpha(material, l, {}, 1);
+        const BandPlace place{
+            .x = point.x, .y = point.y, .draw = point.draw, .triangle = corner_indices(*frame_, point.draw, point.triangle)[0]};
+        double change = 1;
+        if (method_ == masked_sharpened)
+            change =
+                std::max(1e-4, std::abs(alpha(material, l, {1, 0}, 1) - here) + std::abs(alpha(material, l, {0, 1}, 1) - here));
+        const auto covers = [&](double a) {
+            if (method_ == masked_sharpened) a = std::clamp((a - double(material.mask_cutoff)) / change + 0.5, 0.0, 1.0);
+            return (sample_mask(method_, frame_->view.samples, a, place) >> point.sample & 1u) != 0;
+        };
+        // Patterns of one more sample need not hold those of one less, and a steepened alpha passes several bands.
+        const bool exactly = covers(here);
+        bool agrees = true;
+        for (int step = -4; step <= 4; ++step) agrees &= covers(here + step * rounding / 4) == exactly;
+        return decided(exactly, agrees == exactly, exactly);
+    }
+
+    const Frame* frame_;
+    std::uint32_t method_;
+    ShadeAt shade_at_;
+    std::map<const Material*, std::vector<double>> scales_;
+};
+
+/// Alphas of a mip's texels.
+std::vector<double> alphas_of(const Texture& texture, std::uint32_t mip) {
+    std::vector<double> alphas;
+    for (std::uint32_t y = 0; y < std::max(1u, texture.height >> mip); ++y)
+        for (std::uint32_t x = 0; x < std::max(1u, texture.width >> mip); ++x) alphas.push_back(texel(texture, mip, x, y).w);
+    return alphas;
+}
+
+}  // namespace
+
+double mip_scale_model(const Frame& frame, const Material& material, std::uint32_t mip) {
+    const std::uint32_t number = material.base_color_texture.texture;
+    if (number == no_index || !(material.base_color.w > 0)) return 1;
+    const Texture& texture = frame.textures[number];
+    const double cutoff = double(material.mask_cutoff) / double(material.base_color.w);
+    const auto share = [](const std::vector<double>& alphas, double least) {
+        return double(std::ranges::count_if(alphas, [&](double a) { return a >= least; })) / double(alphas.size());
+    };
+    const double wanted = share(alphas_of(texture, 0), cutoff);
+    mip = std::min(mip, texture.mips - 1);
+    if (mip == 0 || wanted == 0 || wanted == 1) return 1;
+    // Every threshold that parts different alphas, from the lowest up, one below all of them and one above all of them.
+    std::vector<double> alphas = alphas_of(texture, mip), levels = alphas;
+    std::ranges::sort(levels);
+    levels.erase(std::ranges::unique(levels).begin(), levels.end());
+    std::vector<double> thresholds{levels.front() * (1 - 1e-3)};
+    for (std::size_t i = 1; i < levels.size(); ++i) thresholds.push_back((levels[i] + levels[i - 1]) / 2);
+    thresholds.push_back(levels.back() * (1 + 1e-3));
+    const auto best = std::ranges::min_element(thresholds, {}, [&](double t) { return std::abs(share(alphas, t) - wanted); });
+    return *best > 0 ? cutoff / *best : 1;
+}
+
+MaskTest mask_model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) {
+    if (method == masked_clip) return cutoff_test(frame);
+    return [model = std::make_shared<const Model>(frame, method, shade_at)](const RasterPoint& point) { return (*model)(point); };
+}
+
+}  // namespace strata::gbuffer

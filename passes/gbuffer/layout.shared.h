@@ -1,0 +1,16 @@
+// FrameImages::gbuffer_layout: which layout the G-buffer has and how readers must read it. C++ and GLSL.
+#ifndef PASSES_GBUFFER_LAYOUT_SHARED_H
+#define PASSES_GBUFFER_LAYOUT_SHARED_H
+#include "passes/shader_interop.h"
+#ifdef __cplusplus
+namespace strata::gbuffer {
+#endif
+
+const uint layout_index_mask = 0xffu;         // index_in_stage of the technique
+const uint layout_shaded_at_sample = 0x100u;  // attributes are the sample's and not the pixel center's
+const uint layout_reads_depth = 0x200u;       // view depth is the depth buffer's
+
+#ifdef __cplusplus
+}
+#endif
+#endif

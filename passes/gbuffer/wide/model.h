@@ -1,0 +1,21 @@
+// The half floats of the wide layout in double.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "passes/reference/shade.h"
+
+namespace strata::gbuffer {
+
+/// The normal as it is read back: three half floats, made unit again.
+glm::dvec3 wide_normal(const glm::dvec3& normal);
+
+/// Half floats of x, y and z, z from the near plane to 65504 m.
+glm::dvec3 wide_position(const glm::dvec3& position, double near);
+
+/// Code 0..61433 of lighting model and metallic.
+std::uint32_t wide_material_code(const SurfacePoint&);
+
+}  // namespace strata::gbuffer

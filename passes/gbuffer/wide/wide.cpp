@@ -1,0 +1,36 @@
+// G-buffer of 160 bits as it was before it was optimized: position and normal whole, in half floats.
+#include "passes/gbuffer/fill.h"
+#include "passes/technique.h"
+
+namespace strata::gbuffer {
+
+ImageSet wide_model(const StageInput&, const Settings&);
+
+namespace {
+
+constexpr Format targets[] = {Format::rgba16f, Format::rgba16f, Format::rgba8_unorm};
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    add_fill(graph, frame, {.technique = "gbuffer/wide", .targets = targets}, settings);
+}
+
+}  // namespace
+
+Technique wide() {
+    return {
+        .stage = Stage::gbuffer,
+        .name = "gbuffer/wide",
+        .title = "Position and normal, 160 bits",
+        .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
+        .summary = "Stores the whole position and the whole normal as half floats: nothing to reconstruct, 1.7 times the memory.",
+        .params = fill_params(),
+        .points = {"attributes=sample"},
+        .declare = declare,
+        .model = wide_model,
+        .tolerance = {.rmse = 1.5e-3,
+                      .worst = 0.018,
+                      .because = "a float on a rounding boundary takes the neighbouring half, 2^-11 of it; colors as in 8 bits "
+                                 "sRGB, 0.0087 linear"}};
+}
+
+}  // namespace strata::gbuffer

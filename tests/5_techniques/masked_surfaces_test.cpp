@@ -1,0 +1,285 @@
+// Which samples masked surfaces cover on the device, method by method: what docs/algorithms/deferred.md 4 says (T-AT-1 to 4), and
+// what the models say of a fence and of foliage.
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "captures/cards.h"
+#include "captures/scenarios/frame_builder.h"
+#include "captures/scenarios/shapes.h"
+#include "passes/gbuffer/coverage/bands.h"
+#include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/registry.h"
+#include "tests/support/agreement.h"
+#include "tests/support/print.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+using namespace gbuffer;
+
+/// The methods by name, as --set takes them.
+std::span<const std::string_view> methods() {
+    for (const Param& param : (*find_technique("gbuffer/octahedral"))->params)
+        if (param.name == "masked") return param.choices;
+    return {};
+}
+
+Request with(std::uint32_t method, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> sets{fmt::format("masked={}", methods()[method])};
+    sets.insert(sets.end(), more.begin(), more.end());
+    return {.choices = chosen({"gbuffer/octahedral"}, sets), .outputs = {"depth_layers"}};
+}
+
+/// Bit i of a pixel: sample i has a surface.
+struct Masks {
+    std::uint32_t width = 0;
+    std::vector<std::uint32_t> of;
+
+    std::uint32_t at(std::uint32_t x, std::uint32_t y) const { return of[std::size_t(y) * width + x]; }
+    /// The share of all samples of a rectangle of pixels.
+    double coverage(glm::uvec2 begin, glm::uvec2 extent, std::uint32_t samples = 4) const {
+        double covered = 0;
+        for (std::uint32_t y = 0; y < extent.y; ++y)
+            for (std::uint32_t x = 0; x < extent.x; ++x) covered += std::popcount(at(begin.x + x, begin.y + y));
+        return covered / (samples * extent.x * extent.y);
+    }
+};
+
+Masks masks_of(Session& session, const Request& request) {
+    const ReferenceImage depth = in_double(must(session.run(request)).images.at("depth_layers"));
+    Masks masks{.width = depth.width, .of = std::vector<std::uint32_t>(std::size_t(depth.width) * depth.height)};
+    for (std::size_t i = 0; i < depth.texels.size(); ++i)
+        if (depth.texels[i].x > 0) masks.of[i % masks.of.size()] |= 1u << i / masks.of.size();
+    return masks;
+}
+
+constexpr std::uint32_t edge = 32, tile = 4;  // pixels of an image, and of a card in it
+
+/// A card over a tile of 4 x 4 pixels, which its sides follow exactly.
+Card card_over(std::uint32_t number, float alpha, double depth = 1) {
+    const double pixel = 2.0 / edge, across = number % (edge / tile), down = number / (edge / tile);
+    const glm::dvec3 center((across * tile + 2) * pixel - 1, 1 - (down * tile + 2) * pixel, 1);
+    return {.center = center * depth, .half = float(2 * pixel * depth), .color = {1, 1, 1, alpha}, .alpha_mode = AlphaMode::mask};
+}
+
+Frame frame_of(const std::vector<Card>& cards, std::uint32_t samples = 4) {
+    Frame frame = frame_of_cards(cards, edge);
+    frame.view.samples = samples;
+    return frame;
+}
+
+/// Alphas 0, 1/16 .. 1, tile by tile.
+Frame sixteenths(std::uint32_t samples) {
+    std::vector<Card> cards;
+    for (std::uint32_t k = 0; k <= 16; ++k) cards.push_back(card_over(k, float(k) / 16));
+    return frame_of(cards, samples);
+}
+
+glm::uvec2 corner_of(std::uint32_t number) { return {number % (edge / tile) * tile, number / (edge / tile) * tile}; }
+
+TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
+    constexpr std::uint32_t band_methods[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const auto session = must(Session::open({sixteenths(samples)}, {.validation = true}));
+        for (const std::uint32_t method : band_methods) {
+            const Masks got = masks_of(*session, with(method));
+            for (std::uint32_t k = 0; k <= 16; ++k)
+                for (std::uint32_t i = 0; i < tile * tile; ++i) {
+                    const glm::uvec2 at = corner_of(k) + glm::uvec2(i % tile, i / tile);
+                    ASSERT_EQ(got.at(at.x, at.y), sample_mask(method, samples, k / 16.0, {at.x, at.y, k, 0}))
+                        << methods()[method] << " at " << samples << ": " << k << "/16 in pixel " << at.x << ", " << at.y;
+                }
+        }
+    }
+}
+
+TEST(MaskedSurfaces, CoverSixteenthsOnAverageAsTheChapterSays) {
+    const auto session = must(Session::open({sixteenths(4)}, {.validation = true}));
+    struct Row {
+        std::uint32_t method, k;
+        double coverage;
+    };
+    for (const Row& row : {Row{masked_a2c_1, 10, .75},
+                           {masked_a2c_2, 7, .4375},
+                           {masked_a2c_2, 13, .8125},
+                           {masked_a2c_or, 7, .359375},
+                           {masked_a2c_or, 13, .765625},
+                           {masked_full_step, 10, .6875},
+                           {masked_unbiased, 1, .0625},
+                           {masked_unbiased, 11, .6875},
+                           {masked_clip, 7, 0},
+                           {masked_clip, 8, 1}})
+        EXPECT_EQ(masks_of(*session, with(row.method)).coverage(corner_of(row.k), {tile, tile}), row.coverage)
+            << methods()[row.method] << " at " << row.k << "/16";
+}
+
+TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMethod) {
+    const std::vector<Card> cards{{.center = {0, 0, 3}, .half = 2, .tilt = 0.7},
+                                  {.center = {0.5, 0.4, 2}, .half = 0.6f, .tilt = -0.5}};
+    std::vector<Frame> frames;
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask}) {
+        std::vector<Card> same = cards;
+        for (Card& card : same) card.alpha_mode = mode;
+        frames.push_back(frame_of(same));
+    }
+    const auto session = must(Session::open(frames, {.validation = true}));
+    const std::vector<std::uint32_t> solid = masks_of(*session, with(masked_clip)).of;
+    EXPECT_GT(std::ranges::count(solid, 15u), 100);
+    for (std::uint32_t method = 0; method < methods().size(); ++method) {
+        Request request = with(method);
+        request.variant.frame = 1;
+        EXPECT_EQ(masks_of(*session, request).of, solid) << methods()[method];
+        set(request, "attributes=sample");
+        EXPECT_EQ(masks_of(*session, request).of, solid) << methods()[method] << ", attributes at the sample";
+    }
+}
+
+/// Cards whose alpha grows from left to right and reaches .5 at x = 1 + (number + .5) / 16 of their four pixels: by the colors of
+/// vertices, or by a texture of two texels.
+enum class AlphaBy { vertices, texture };
+Frame half_planes(AlphaBy by, bool downwards) {
+    std::vector<Card> cards;
+    for (std::uint32_t number = 0; number < 16; ++number) cards.push_back(card_over(number, 1));
+    Frame frame = frame_of(cards);
+    const Mesh square = frame.meshes[0];
+    if (by == AlphaBy::texture) {
+        const float texels[] = {1, 1, 1, 0, 1, 1, 1, 1};
+        Texture& ramp = frame.textures.emplace_back(Texture{.format = TextureFormat::rgba32f, .width = 2, .height = 1});
+        ramp.address = AddressMode::clamp;
+        ramp.texels.resize(sizeof texels);
+        std::memcpy(ramp.texels.data(), texels, sizeof texels);
+    }
+    for (std::uint32_t number = 0; number < 16; ++number) {
+        Mesh mesh = square;
+        for (const glm::vec3& corner : mesh.positions) {
+            const float along = downwards ? 2 - 2 * corner.y : 2 + 2 * corner.x;  // pixels from the card's left or upper side
+            const float alpha = 0.5f + (along - (1 + (float(number) + 0.5f) / 16)) / 8;
+            if (by == AlphaBy::vertices) mesh.colors.emplace_back(1, 1, 1, alpha);
+            else mesh.uv0.emplace_back(0.25f + 0.5f * alpha, 0.5f);
+        }
+        frame.draws[number].mesh = static_cast<std::uint32_t>(frame.meshes.size());
+        if (by == AlphaBy::texture) frame.materials[number].base_color_texture.texture = 0;
+        frame.meshes.push_back(std::move(mesh));
+    }
+    return frame;
+}
+
+TEST(MaskedSurfaces, OfHalfPlanesStepAtTheSamplesPlaces) {
+    const auto session = must(Session::open({half_planes(AlphaBy::vertices, false), half_planes(AlphaBy::vertices, true),
+                                             half_planes(AlphaBy::texture, false), half_planes(AlphaBy::texture, true)},
+                                            {.validation = true}));
+    constexpr double along_x[] = {.375, .875, .125, .625}, along_y[] = {.125, .375, .625, .875};
+    for (std::size_t frame = 0; frame < 4; ++frame)
+        for (const std::uint32_t method : {masked_per_sample, masked_per_sample_fine}) {
+            Request request = with(method);
+            request.variant.frame = frame;
+            const Masks got = masks_of(*session, request);
+            for (std::uint32_t number = 0; number < 16; ++number) {
+                std::uint32_t wanted = 0;
+                for (std::uint32_t i = 0; i < 4; ++i)
+                    if ((frame % 2 == 1 ? along_y : along_x)[i] > (number + .5) / 16) wanted |= 1u << i;
+                const glm::uvec2 at = corner_of(number) + (frame % 2 == 1 ? glm::uvec2(2, 1) : glm::uvec2(1, 2));
+                EXPECT_EQ(got.at(at.x, at.y), wanted) << methods()[method] << " frame " << frame << " edge " << number;
+            }
+        }
+}
+
+/// A chessboard of single texels, 64 times over four pixels: its last mip, one texel of alpha .5, is all that is seen.
+Frame minified_chessboard(float cutoff) {
+    Frame frame = frame_of({card_over(0, 1)});
+    const float texels[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, .5f};
+    Texture& board = frame.textures.emplace_back(Texture{.format = TextureFormat::rgba32f, .width = 2, .height = 2, .mips = 2});
+    board.texels.resize(sizeof texels);
+    std::memcpy(board.texels.data(), texels, sizeof texels);
+    for (const glm::vec3& corner : frame.meshes[0].positions) frame.meshes[0].uv0.push_back(32.f * glm::vec2(corner));
+    frame.materials[0].base_color_texture.texture = 0;
+    frame.materials[0].mask_cutoff = cutoff;
+    return frame;
+}
+
+TEST(MaskedSurfaces, OfAMinifiedChessboardVanishOrGrowSolidWhereTheyAreTestedAndFadeInBands) {
+    const auto session = must(Session::open({minified_chessboard(200.f / 255), minified_chessboard(.5f)}, {.validation = true}));
+    struct Row {
+        std::uint32_t method;
+        double above, at_half;  // with a cutoff of 200 / 255, and of .5
+    };
+    for (const Row& row : {Row{masked_clip, 0, 1},
+                           {masked_per_sample, 0, 1},
+                           {masked_per_sample_fine, 0, 1},
+                           {masked_a2c_1, .5, .5},
+                           {masked_a2c_2, .5, .5},
+                           {masked_a2c_or, .5, .5},
+                           {masked_full_step, .5, .5},
+                           {masked_unbiased, .5, .5},
+                           {masked_mip_coverage, 1, 1}}) {
+        Request request = with(row.method);
+        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.above) << methods()[row.method];
+        request.variant.frame = 1;
+        EXPECT_EQ(masks_of(*session, request).coverage({0, 0}, {tile, tile}), row.at_half) << methods()[row.method];
+    }
+}
+
+TEST(MaskedSurfaces, OverEachOtherHideMoreWhereTheirPatternsDiffer) {
+    const std::vector<Card> two{{.center = {0, 0, 2}, .half = 3, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask},
+                                {.center = {0, 0, 3}, .half = 4, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask}};
+    const auto session = must(Session::open({frame_of(two)}, {.validation = true}));
+    const auto coverage = [&](std::uint32_t method) { return masks_of(*session, with(method)).coverage({0, 0}, {edge, edge}); };
+    EXPECT_EQ(coverage(masked_a2c_1), .5);
+    EXPECT_EQ(coverage(masked_a2c_2), .5);
+    // A pixel's union has a standard deviation of .177; there are 1024.
+    EXPECT_NEAR(coverage(masked_unbiased), .75, 4 * .177 / 32);
+}
+
+TEST(MaskedSurfaces, CostNothingInFramesWithoutThem) {
+    const auto session = scenario_session("opaque_only", 4);
+    const auto steps = [&](std::uint32_t method) {
+        std::vector<std::string> described;
+        for (const PlannedStep& planned : must(session->plan(with(method))).plan.steps) {
+            std::string text = planned.step.name;
+            for (const Fixed& fixed : planned.step.fixed)
+                text += fmt::format(" {}={}", fixed.name, std::visit([](auto value) { return double(value); }, fixed.value));
+            described.push_back(text);
+        }
+        return described;
+    };
+    const std::vector<std::string> plain = steps(masked_clip);
+    for (std::uint32_t method = 1; method < methods().size(); ++method) EXPECT_EQ(steps(method), plain) << methods()[method];
+}
+
+/// One sample lies at the pixel's center, where the plain test asks.
+TEST(MaskedSurfaces, AtOneSampleAreTestedAtThePixelsCenterByTheMethodsOfSamples) {
+    const auto session = scenario_session("fence_and_foliage");
+    const std::vector<std::uint32_t> clipped = masks_of(*session, with(masked_clip)).of;
+    for (const std::uint32_t method : {masked_per_sample, masked_per_sample_fine, masked_sharpened})
+        EXPECT_EQ(masks_of(*session, with(method)).of, clipped) << methods()[method];
+}
+
+class MaskedBy : public testing::TestWithParam<std::uint32_t> {};
+
+void expect_agreement(std::uint32_t method, const std::vector<std::string>& more) {
+    Request request = on_scenario("fence_and_foliage", 4);
+    request.choices = with(method, more).choices;
+    const Technique& technique = **find_technique("gbuffer/octahedral");
+    const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::gbuffer, Against::model));
+    expect_proven_within_tolerance(accuracy, technique, request, "fence_and_foliage");
+}
+
+TEST_P(MaskedBy, CoverTheSamplesOfAFenceThatTheModelSays) { expect_agreement(GetParam(), {}); }
+
+INSTANTIATE_TEST_SUITE_P(Methods, MaskedBy, testing::Range(0u, masked_sharpened + 1),
+                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+
+class ExhaustiveMaskedBy : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(ExhaustiveMaskedBy, WithAttributesAtTheSampleToo) { expect_agreement(GetParam(), {"attributes=sample"}); }
+
+INSTANTIATE_TEST_SUITE_P(Methods, ExhaustiveMaskedBy, testing::Range(0u, masked_sharpened + 1),
+                         [](const auto& tested) { return std::string(methods()[tested.param]); });
+
+}  // namespace
+}  // namespace strata
