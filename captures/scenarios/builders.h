@@ -59,6 +59,9 @@ Frame cornell_box(std::uint32_t frame, const ScenarioOptions&);
 Frame two_rooms(std::uint32_t frame, const ScenarioOptions&);
 // courtyard.cpp
 Frame courtyard(std::uint32_t frame, const ScenarioOptions&);
+// gbuffer_cases.cpp
+Frame sixteen_normals(std::uint32_t frame, const ScenarioOptions&);
+Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

@@ -17,7 +17,8 @@ StageInfo stage() {
                         "gbuffer1", "gbuffer2"},
             .truth = gbuffer_truth,
             .judge = gbuffer_judge,
-            .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "city_of_boxes", "sun_and_boxes"}};
+            .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "city_of_boxes", "sun_and_boxes",
+                          "sixteen_normals", "far_wall"}};
 }
 
 }  // namespace strata::gbuffer
