@@ -86,12 +86,12 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
             {"normal angle mean", "degrees", mean(sums.angles)},
             {"position along", "of distance", rms(sums.along)},
             {"position across", "of distance", rms(sums.across)},
-            {"base color rmse", "", rms(sums.color)},
+            {"base color rmse", "", rms(sums.color), true},
             {"roughness rmse", "", rms(sums.roughness), true},
-            {"metallic rmse", "", rms(sums.metallic)},
+            {"metallic rmse", "", rms(sums.metallic), true},
             {"occlusion rmse", "", rms(sums.occlusion)},
             {"other lighting model", "%", 100 * mean(sums.other_models)},
-            {"coverage differs", "samples", sums.disagreeing}};
+            {"coverage differs", "samples", sums.disagreeing, true}};
 }
 
 }  // namespace strata

@@ -199,7 +199,8 @@ TEST(gbuffer_judge, tells_positions_beside_the_ray_from_those_along_it) {
     const double sine = glm::length(glm::cross(right, wrong)) / glm::dot(right, right);
     const Figures figures = gbuffer_figures(got, truth);
     EXPECT_NEAR(figures.at("position across"), sine / std::sqrt(3), 1e-9);
-    EXPECT_LT(figures.at("position along"), figures.at("position across") / 2);
+    const double along = glm::dot(wrong - right, right) / glm::dot(right, right);
+    EXPECT_NEAR(figures.at("position along"), std::abs(along) / std::sqrt(3), 1e-9);
 }
 
 TEST(PlaceCode, KeepsStandardSamplesExactlyAndOthersTo8192thsOfAPixel) {

@@ -16,10 +16,8 @@
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
-namespace strata {
+namespace strata::gbuffer {
 namespace {
-
-using gbuffer::code_count, gbuffer::half_bits, gbuffer::half_value;
 
 // --- codes of half floats ---------------------------------------------------------------------------------------------------
 
@@ -67,7 +65,7 @@ TEST(GBufferCodes, AllSurviveATargetOfHalfFloats) {
 constexpr std::uint32_t side = 1000;
 constexpr std::size_t uniform_end = 500'000, adversarial_end = 900'000, level_end = 1'000'000;
 
-struct Probe {
+struct LayoutProbe {
     glm::vec3 normal;
     float z;  ///< view depth
 };
@@ -82,17 +80,23 @@ glm::vec3 adversarial_normal(std::size_t kind, std::mt19937_64& random) {
     return glm::normalize(glm::dvec3(x, y, z));
 }
 
-const std::vector<Probe>& probes() {
-    static const std::vector<Probe> made = [] {
+/// Evenly around: few of them are near the ring, and random ones would say little of the mean.
+glm::vec3 level_normal(std::size_t i) {
+    const double a = std::numbers::pi * (double(i) + .5) / double(level_end - adversarial_end);
+    return {std::cos(a), 0, -std::sin(a)};
+}
+
+const std::vector<LayoutProbe>& probes() {
+    static const std::vector<LayoutProbe> made = [] {
         std::mt19937_64 random(1);
         std::normal_distribution<double> gauss;
         std::uniform_real_distribution<double> unit(0, 1);
-        std::vector<Probe> all(std::size_t(side) * side);
+        std::vector<LayoutProbe> all(std::size_t(side) * side);
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const double x = gauss(random), y = gauss(random), z = gauss(random), a = std::numbers::pi * unit(random);
+            const double x = gauss(random), y = gauss(random), z = gauss(random);
             all[i].normal = glm::normalize(glm::dvec3(x, y, z));
             if (i >= uniform_end) all[i].normal = adversarial_normal(i % 3, random);
-            if (i >= adversarial_end) all[i].normal = glm::dvec3(std::cos(a), 0, -std::sin(a));
+            if (i >= adversarial_end) all[i].normal = level_normal(i - adversarial_end);
             all[i].z = float(.1 * std::pow(5e4, unit(random)));  // 0.1 m to 5 km
         }
         return all;
@@ -116,10 +120,12 @@ struct LayoutRow {
 void PrintTo(const LayoutRow& row, std::ostream* out) { *out << row.name; }
 
 constexpr Format half = Format::rgba16f, byte = Format::rgba8_unorm;
+// Of level walls the chapter has .808 for z_first, with |.| under the root: max(0, .) makes half of them exact. And .0295 for
+// packed, with subnormal halves, which may be flushed and are not used here: normals near x = -1 are coarser.
 const std::array layout_rows = {
     LayoutRow{"wide", 3, {half, half, byte}, .0229, .0061},
-    LayoutRow{"packed", 2, {half, byte}, 2.124, .0473, 1.79, .029},
-    LayoutRow{"z_first", 2, {half, byte}, 1.886, .0408, 1.886, .808},
+    LayoutRow{"packed", 2, {half, byte}, 2.124, .0473, 1.79, .0308},
+    LayoutRow{"z_first", 2, {half, byte}, 1.886, .0408, 1.886, .402},
     LayoutRow{"oct_half", 2, {half, byte}, .0587, .0150, .0280, .0080},
     LayoutRow{"octahedral", 2, {half, byte}, .0040, .0014},
     LayoutRow{"depth_rebuilt", 3, {byte, byte, Format::r16f}, .0037, .0013, .0018, .0007},
@@ -247,7 +253,8 @@ double half_step(double size) { return std::ldexp(1, std::max(std::ilogb(size) -
 
 /// How far view depth may be off.
 double depth_bound(std::string_view layout, double z) {
-    if (layout == "octahedral") return z * std::log(1e5) / 61439 / 2 * 1.01;
+    // A device's log2 is off by 3 units in the last place: .01 of a step at a code of 60000.
+    if (layout == "octahedral") return z * std::log(1e5) / 61439 / 2 * 1.03;
     if (layout == "depth_rebuilt" || layout == "compact") return z * 0x1p-22;
     return half_step(z);
 }
@@ -285,4 +292,4 @@ INSTANTIATE_TEST_SUITE_P(Layouts, GBufferLayout, testing::ValuesIn(layout_rows),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace strata
+}  // namespace strata::gbuffer
