@@ -74,9 +74,10 @@ bool has_tap_visibility(const FrameSpectra& frame) {
     return std::ranges::any_of(frame.tiles, [](const auto& row) { return (row.first & feature_gi_tap_visibility) != 0; });
 }
 
-/// What reading light volumes takes of a tile, in the unit of modes.
+/// What reading light volumes takes of a tile, in the unit of modes, and leaves room for: without and with tap visibility.
 struct TapCosts {
-    double without = 0, with = 0;
+    std::array<double, 2> costs = {};
+    std::array<std::uint32_t, 2> waves = {};
 };
 
 /// The steps of the first frame that reads volumes, compiled both ways; those with fewer waves have the penalty against the
@@ -100,13 +101,13 @@ Result<TapCosts> tap_costs(const CostQuestion& question) {
     for (const IsaProgram& program : isa_of_gpu(question.gpu, *made, requests, {}).programs)
         if (const auto mode = compiled_mode(program))
             ways[*constant_of(requests.pipelines[program.pipeline], tap_visibility_constant)].push_back(*mode);
-    std::uint32_t most_waves = 1;
-    for (const auto& way : ways)
-        for (const lighting::CompiledMode& mode : way) most_waves = std::max(most_waves, mode.waves);
-    for (const lighting::CompiledMode& mode : ways[0])
-        costs.without += mode.cycles * lighting::occupancy_penalty(mode.waves, most_waves);
-    for (const lighting::CompiledMode& mode : ways[1])
-        costs.with += mode.cycles * lighting::occupancy_penalty(mode.waves, most_waves);
+    for (std::size_t way = 0; way < ways.size(); ++way)
+        for (const lighting::CompiledMode& step : ways[way])
+            costs.waves[way] = costs.waves[way] == 0 ? step.waves : std::min(costs.waves[way], step.waves);
+    const std::uint32_t most_waves = std::ranges::max(costs.waves);
+    for (std::size_t way = 0; way < ways.size(); ++way)
+        for (const lighting::CompiledMode& step : ways[way])
+            costs.costs[way] += step.cycles * lighting::occupancy_penalty(step.waves, most_waves);
     return costs;
 }
 
@@ -151,9 +152,9 @@ Result<ModeCosts> compiled_costs(const CostQuestion& question) {
         return most;
     };
     const auto cost = [lit = lighting::compiled_cost(modes), taps = *taps](std::uint32_t features) {
-        return lit(features) + ((features & feature_gi_tap_visibility) != 0 ? taps.with : taps.without);
+        return lit(features) + taps.costs[(features & feature_gi_tap_visibility) != 0 ? 1 : 0];
     };
-    return ModeCosts{.cost = cost, .waves = waves, .unit = "cycles", .compiled = std::move(modes)};
+    return ModeCosts{.cost = cost, .waves = waves, .tap_waves = taps->waves, .unit = "cycles", .compiled = std::move(modes)};
 }
 
 }  // namespace strata

@@ -176,13 +176,26 @@ std::optional<double> mean_waves(const SpectraReport& report) {
     return waves / tiles;
 }
 
+namespace {
+
+/// Numbers that are equal where modes leave room for as many waves in both stages.
+lighting::ModeWaves waves_of_both_stages(const ModeCosts& costs) {
+    if (!costs.waves) return {};
+    return [waves = costs.waves, of_taps = costs.tap_waves](std::uint32_t features) {
+        constexpr std::uint32_t more_than_waves = 64;
+        return more_than_waves * waves(features) + of_taps[(features & feature_gi_tap_visibility) != 0 ? 1 : 0];
+    };
+}
+
+}  // namespace
+
 SpectraReport find_modes(std::vector<FrameSpectra> frames, ModeCosts costs, const SpectraWish& wish) {
     const lighting::ModeProblem problem{.scenes = scenes_of(frames),
                                         .modes = wish.modes,
                                         .cost = costs.cost,
                                         .dispatch = wish.dispatch,
                                         .aim = wish.aim,
-                                        .waves = costs.waves};
+                                        .waves = waves_of_both_stages(costs)};
     SpectraReport report{.wish = wish, .found = lighting::best_modes(problem)};
     const std::vector<lighting::Mode> chosen = as_chosen(report.found.modes);
     report.rows = lighting::sorted_rows(summed(frames), chosen);

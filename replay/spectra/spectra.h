@@ -1,6 +1,7 @@
 // The feature spectra of captures and the shading modes that serve them best (docs/algorithms/lighting.md 3.4 to 3.7).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -58,7 +59,9 @@ struct TimedMode {
 struct ModeCosts {
     lighting::ModeCost cost;
     lighting::ModeWaves waves = {};  ///< empty: not known
-    std::string unit;                ///< of a tile's cost
+    /// Waves per SIMD of the steps of another stage that read light volumes, without and with tap visibility; 0: none does.
+    std::array<std::uint32_t, 2> tap_waves = {};
+    std::string unit;  ///< of a tile's cost
     std::vector<TimedMode> timed = {};
     std::map<std::uint32_t, lighting::CompiledMode> compiled = {};  ///< by features
 };

@@ -98,7 +98,7 @@ std::vector<Need> needs_of_tiles(const Frame& frame, const HostImage& normals) {
     return needs;
 }
 
-Frame scenario_frame(std::string_view name) { return must(find_scenario(name))->build(0, {.width = 128, .height = 96}); }
+Frame scenario_frame(std::string_view name) { return must(find_scenario(name))->build(0, {.width = 96, .height = 64}); }
 
 Run run_of(Session& session, const std::vector<std::string>& uses, const std::vector<std::string>& sets) {
     Request request{.choices = chosen(uses, sets)};
