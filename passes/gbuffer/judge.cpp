@@ -77,7 +77,7 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
         {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
         {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},
         {"occlusion rmse", "", rms(sums.occlusion)},         {"coverage differs", "samples", sums.disagreeing}};
-    std::ranges::copy(gbuffer::coverage_figures(result, input), std::back_inserter(figures));
+    std::ranges::copy(gbuffer::coverage_figures(result, truth, input.frame), std::back_inserter(figures));
     return figures;
 }
 
