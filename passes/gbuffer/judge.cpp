@@ -94,7 +94,7 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
                                    {"occlusion rmse", "", rms(sums.occlusion)},
                                    {"other lighting model", "%", 100 * mean(sums.other_models)},
                                    {"coverage differs", "samples", sums.disagreeing, true}};
-    std::ranges::copy(gbuffer::coverage_figures(result, input), std::back_inserter(figures));
+    std::ranges::copy(gbuffer::coverage_figures(result, truth, input.frame), std::back_inserter(figures));
     return figures;
 }
 

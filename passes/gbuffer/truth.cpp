@@ -1,11 +1,14 @@
 #include "passes/gbuffer/truth.h"
 
+#include "passes/gbuffer/coverage/judge_coverage.h"
 #include "passes/gbuffer/nearest.h"
 
 namespace strata {
 
 ImageSet gbuffer_truth(const StageInput& input) {
-    return gbuffer::surface_images(input.frame, gbuffer::nearest_surfaces(input.frame, ShadeAt::sample));
+    ImageSet images = gbuffer::surface_images(input.frame, gbuffer::nearest_surfaces(input.frame, ShadeAt::sample));
+    gbuffer::add_true_coverage(images, input.frame);
+    return images;
 }
 
 }  // namespace strata

@@ -23,21 +23,7 @@ bool has_masks(const Frame& frame) {
     return std::ranges::any_of(opaque_draws(frame), [&](std::uint32_t draw) { return is_masked(frame, draw); });
 }
 
-/// The share of each pixel's samples whose surface is masked.
-std::vector<double> coverage_of(const ImageSet& result, const Frame& frame) {
-    std::vector<std::uint32_t> solid = opaque_draws(frame);
-    std::erase_if(solid, [&](std::uint32_t draw) { return is_masked(frame, draw); });
-    const VisiblePoints behind = visible_points(frame, solid, {.shade_at = ShadeAt::sample});
-    const ReferenceImage& depth = result.at("depth_layers");
-    const std::size_t pixels = std::size_t(frame.view.width) * frame.view.height;
-    std::vector<double> coverage(pixels);
-    for (std::size_t i = 0; i < depth.texels.size(); ++i)
-        if (depth.texels[i].x > behind.points[i].depth * (1 + depth_slack)) coverage[i % pixels] += 1.0 / frame.view.samples;
-    return coverage;
-}
-
-}  // namespace
-
+/// The share of each pixel whose nearest surface is masked.
 std::vector<double> true_coverage(const Frame& frame) {
     Frame finer = frame;
     finer.view.width *= fine;
@@ -52,15 +38,33 @@ std::vector<double> true_coverage(const Frame& frame) {
     return coverage;
 }
 
-std::vector<Figure> coverage_figures(const ImageSet& result, const StageInput& input) {
-    if (!has_masks(input.frame)) return {};
-    const std::vector<double> got = coverage_of(result, input.frame), wanted = true_coverage(input.frame);
+}  // namespace
+
+void add_true_coverage(ImageSet& truth, const Frame& frame) {
+    if (!has_masks(frame)) return;
+    std::vector<std::uint32_t> solid = opaque_draws(frame);
+    std::erase_if(solid, [&](std::uint32_t draw) { return is_masked(frame, draw); });
+    const VisiblePoints behind = visible_points(frame, solid, {.shade_at = ShadeAt::sample});
+    const std::vector<double> coverage = true_coverage(frame);
+    ReferenceImage& depth = truth.at("depth_layers");
+    for (std::size_t i = 0; i < depth.texels.size(); ++i) {
+        depth.texels[i].y = coverage[i % coverage.size()];
+        depth.texels[i].z = behind.points[i].depth;
+    }
+}
+
+std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
+    if (!has_masks(frame)) return {};
+    const std::vector<glm::dvec4>&depth = result.at("depth_layers").texels, &wanted = truth.at("depth_layers").texels;
+    std::vector<double> got(std::size_t(frame.view.width) * frame.view.height);
+    for (std::size_t i = 0; i < depth.size(); ++i)
+        if (depth[i].x > wanted[i].z * (1 + depth_slack)) got[i % got.size()] += 1.0 / frame.view.samples;
     double difference = 0, covered = 0, got_area = 0, area = 0;
     for (std::size_t i = 0; i < got.size(); ++i) {
-        if (got[i] == 0 && wanted[i] == 0) continue;
-        difference += std::abs(got[i] - wanted[i]);
+        if (got[i] == 0 && wanted[i].y == 0) continue;
+        difference += std::abs(got[i] - wanted[i].y);
         got_area += got[i];
-        area += wanted[i];
+        area += wanted[i].y;
         ++covered;
     }
     return {{"masked coverage off", "of a pixel", difference / std::max(1.0, covered)},

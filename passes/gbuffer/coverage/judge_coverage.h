@@ -7,12 +7,14 @@
 
 namespace strata::gbuffer {
 
+/// Prepares the truth of a frame with masked surfaces for coverage_figures(): what they cover of each pixel by 8 x 8 samples,
+/// each with alpha filtered over its own 64th, and per sample how near what is not masked is. They go into the second and the
+/// third channel of depth_layers, which has one: coverage is dear, and one truth judges many results.
+void add_true_coverage(ImageSet& truth, const Frame&);
+
 /// Nothing where a frame has no masked surfaces. A sample counts as masked where its depth is nearer than what is not masked.
 /// First the mean difference of coverage per pixel over pixels that either covers in part or wholly, then by how much the whole
 /// area is off, in percent of the true one: fences and leaves that vanish or grow solid where texels are small.
-std::vector<Figure> coverage_figures(const ImageSet& result, const StageInput&);
-
-/// The share of each pixel that masked surfaces cover, by 8 x 8 samples per pixel, each with alpha filtered over its own 64th.
-std::vector<double> true_coverage(const Frame&);
+std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame&);
 
 }  // namespace strata::gbuffer
