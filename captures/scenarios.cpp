@@ -74,6 +74,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::two_rooms},
     {"courtyard", "Does sunlight that bounces into an arcade stay steady while the cascades follow a walking eye?", 80, 45,
      scenario::courtyard},
+    {"crossing_planes", "Is the line smooth along which sheets pass through each other, where no triangle ends?", 96, 54,
+     scenario::crossing_planes},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

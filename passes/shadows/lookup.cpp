@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/edges/plain_pixels.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/shade.h"
 
@@ -112,11 +113,17 @@ ImageSet visibility_model(const StageInput& input, const Settings& settings, Loo
     ReferenceImage visibility(shape.width, shape.height, layers, glm::dvec4(1, 0, 0, 1));
     std::vector<char> undecided(visibility.texels.size(), 0);  // rows run in parallel: no packed bits
     for_each_receiver(input, [&](const Receiver& receiver) {
+        // In a plain pixel the first sample's shadow stands for all.
+        const bool is_plain = is_plain_pixel(input, receiver.x, receiver.y);
+        if (is_plain && receiver.sample > 0) return;
+        const std::uint32_t end = is_plain ? shape.layers : receiver.sample + 1;
         for (std::uint32_t k = 0; k < shadowed.size(); ++k) {
             const Filtered result = look_up_light(scene, shadowed[k], receiver, look_up);
-            const std::size_t texel = visibility.index(receiver.x, receiver.y, k * shape.layers + receiver.sample);
-            visibility.texels[texel].x = result.lit;
-            undecided[texel] = result.undecided;
+            for (std::uint32_t sample = receiver.sample; sample < end; ++sample) {
+                const std::size_t texel = visibility.index(receiver.x, receiver.y, k * shape.layers + sample);
+                visibility.texels[texel].x = result.lit;
+                undecided[texel] = result.undecided;
+            }
         }
     });
     visibility.channels = 1;

@@ -1,6 +1,7 @@
 // The visibility image: every shadowed light at every sample of the G-buffer. Included by the compute shaders of techniques, which
 // say before what their variant can do: `const uint shadow_features`.
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "passes/edges/plain_pixels.glsl"
 #include "passes/shaders/camera.glsl"
 #include "passes/shadows/shadows.shared.h"
 #include "passes/gbuffer/surface_at.glsl"
@@ -40,10 +41,18 @@ void count_texels() {
     atomicAdd(counters.kilotexels_allocated, layer_kilotexels);
 }
 
+// In a plain pixel the first sample's shadow stands for all (docs/algorithms/deferred.md 3.1).
+void store_share(ivec3 at, int layer, float share) {
+    imageStore(visibility, ivec3(at.xy, layer + at.z), vec4(share));
+    if (!is_plain(at.xy)) return;
+    for (int i = 1; i < int(view.samples); ++i) imageStore(visibility, ivec3(at.xy, layer + i), vec4(share));
+}
+
 void main() {
     if (gl_GlobalInvocationID == uvec3(0u)) count_texels();
     if (any(greaterThanEqual(gl_GlobalInvocationID.xy, view.extent))) return;
     const ivec3 at = ivec3(gl_GlobalInvocationID);
+    if (at.z > 0 && is_plain(at.xy)) return;
     const float depth = texelFetch(depth_layers, at, 0).r;
     vec3 position = vec3(0.0), normal = vec3(0.0);
     if (depth > 0.0) {
@@ -60,7 +69,7 @@ void main() {
             ++filtered_here;
             if (share > 0.0 && share < 1.0) ++penumbra_here;
         }
-        imageStore(visibility, ivec3(at.xy, int(lights[i].visibility_layer) + at.z), vec4(share));
+        store_share(at, int(lights[i].visibility_layer), share);
     }
     count(filtered_here, penumbra_here);
 }

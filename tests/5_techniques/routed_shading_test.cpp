@@ -1,0 +1,151 @@
+// Shading at edges alone against shading every sample: the same bits, whichever layout, lighting technique and routing
+// (docs/algorithms/deferred.md T-MS-1).
+#include <cmath>
+#include <cstring>
+
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "captures/scenarios.h"
+#include "passes/registry.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+const std::vector<std::string> shaded_images = {"light", "color", "display"};
+
+enum class ShadowMaps { kept, left_out };
+
+/// Four samples in a picture of 64 x 36.
+Frame small_frame(std::string_view scenario, ShadowMaps maps) {
+    Frame frame = must(find_scenario(scenario))->build(0, {.width = 64, .height = 36, .samples = 4});
+    if (maps == ShadowMaps::kept) return frame;
+    for (Light& light : frame.lights) light.shadow.casts = false;
+    frame.sun.shadow.casts = false;
+    return frame;
+}
+
+struct Way {
+    std::vector<std::string> uses, sets;
+};
+
+Run shaded(Session& session, std::string_view edges, Way way, std::vector<std::string> outputs = shaded_images) {
+    way.uses.emplace_back(edges);
+    outputs.emplace_back("edges");
+    return must(session.run({.choices = chosen(way.uses, way.sets), .outputs = std::move(outputs)}));
+}
+
+/// Channels of all texels and samples whose bits differ.
+std::size_t differing_words(const HostImage& a, const HostImage& b) {
+    EXPECT_EQ(a.texels.size(), b.texels.size());
+    const std::size_t bytes = row(a.shape.format).bytes / row(a.shape.format).channels;
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.texels.size(); i += bytes) differing += std::memcmp(&a.texels[i], &b.texels[i], bytes) != 0;
+    return differing;
+}
+
+std::size_t differing_words(const Run& a, const Run& b) {
+    std::size_t differing = 0;
+    for (const std::string& name : shaded_images) differing += differing_words(a.images.at(name), b.images.at(name));
+    return differing;
+}
+
+std::size_t marked_pixels(const Run& run) {
+    std::size_t marked = 0;
+    for (const std::byte mark : run.images.at("edges").texels) marked += mark != std::byte{0};
+    return marked;
+}
+
+std::uint64_t count_of(const Run& run, std::string_view stage, std::string_view name) {
+    for (const CounterRecord& counter : run.counters)
+        if (counter.technique.starts_with(stage) && counter.name == name) return counter.value;
+    throw std::runtime_error(fmt::format("no counter {} of {}", name, stage));
+}
+
+class RoutedShading : public testing::TestWithParam<std::string> {};
+
+TEST_P(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
+    const auto session = must(Session::open({small_frame(GetParam(), ShadowMaps::left_out)}, {.validation = true}));
+    const std::vector<Way> ways = {{{"lighting/brute_force"}, {}}, {{"lighting/brute_force"}, {"routing=list"}},
+                                   {{"lighting/z_binned"}, {}},    {{"lighting/z_binned"}, {"routing=list"}},
+                                   {{"lighting/tiled"}, {}},       {{"lighting/brute_force", "gbuffer/packed"}, {}}};
+    for (const Way& way : ways) {
+        const auto all = shaded(*session, "edges/all_samples", way), routed = shaded(*session, "edges/bitwise", way);
+        const std::string what = fmt::format("{} {}", fmt::join(way.uses, " "), fmt::join(way.sets, " "));
+        EXPECT_EQ(differing_words(all, routed), 0u) << what;
+        EXPECT_GT(marked_pixels(routed), 20u) << what;
+        EXPECT_LT(marked_pixels(routed), marked_pixels(all) / 2) << what << ": little is shaded once";
+        EXPECT_LT(count_of(routed, "lighting/", "samples_shaded"), count_of(all, "lighting/", "samples_shaded")) << what;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, RoutedShading,
+                         testing::Values("crossing_planes", "city_of_boxes", "lights_room", "cornell_box"),
+                         [](const auto& scenario) { return scenario.param; });
+
+// Shadow maps are looked up where a sample is, because depth is a sample's own: shading every sample has four shadows in a plain
+// pixel, routed shading the first one's. That is all that differs.
+TEST(RoutedShadows, DifferWhereAPlainPixelsSamplesHaveShadowsOfTheirOwn) {
+    const auto session = must(Session::open({small_frame("crossing_planes", ShadowMaps::kept)}, {.validation = true}));
+    const std::vector<std::string> outputs = {"light", "visibility"};
+    const auto all = shaded(*session, "edges/all_samples", {}, outputs), routed = shaded(*session, "edges/bitwise", {}, outputs);
+    const ReferenceImage light = in_double(all.images.at("light")), once = in_double(routed.images.at("light"));
+    const ReferenceImage visibility = in_double(all.images.at("visibility")), marks = in_double(routed.images.at("edges"));
+    std::size_t differing = 0, unexplained = 0;
+    for (std::uint32_t sample = 0; sample < light.layers; ++sample)
+        for (std::uint32_t y = 0; y < light.height; ++y)
+            for (std::uint32_t x = 0; x < light.width; ++x) {
+                if (light.at(x, y, sample) == once.at(x, y, sample)) continue;
+                ++differing;
+                const bool is_own = visibility.at(x, y, sample) != visibility.at(x, y, 0);
+                unexplained += marks.at(x, y).x != 0 || !is_own;
+            }
+    EXPECT_EQ(unexplained, 0u);
+    EXPECT_GT(differing, 10u) << "then shadows are no exception any more: delete this test";
+    EXPECT_LT(differing, light.texels.size() / 20);
+    EXPECT_LT(count_of(routed, "shadows/", "filtered"), count_of(all, "shadows/", "filtered") / 2);
+    RecordProperty("differing samples", static_cast<int>(differing));
+}
+
+TEST(RoutedShading, ByAListCountsWhatThreadsCount) {
+    const auto session = must(Session::open({small_frame("city_of_boxes", ShadowMaps::left_out)}, {.validation = true}));
+    const auto threads = shaded(*session, "edges/bitwise", {}), list = shaded(*session, "edges/bitwise", {{}, {"routing=list"}});
+    EXPECT_EQ(differing_words(threads, list), 0u);
+    for (const char* name : {"samples_shaded", "evaluations"})
+        EXPECT_EQ(count_of(threads, "lighting/", name), count_of(list, "lighting/", name));
+    EXPECT_EQ(count_of(list, "lighting/", "samples_shaded"),
+              count_of(list, "edges/", "plain_pixels") + count_of(list, "edges/", "edge_samples"))
+        << "docs/algorithms/deferred.md 3.4";
+}
+
+double psnr(const HostImage& a, const HostImage& b, double& worst) {
+    const ReferenceImage one = in_double(a), other = in_double(b);
+    double sum = 0;
+    for (std::size_t i = 0; i < one.texels.size(); ++i) {
+        const glm::dvec3 apart = glm::abs(glm::dvec3(one.texels[i]) - glm::dvec3(other.texels[i]));
+        sum += glm::dot(apart, apart) / 3;
+        worst = std::max({worst, apart.x, apart.y, apart.z});
+    }
+    return -10 * std::log10(sum / double(one.texels.size()));
+}
+
+// T-MS-1 asks for numbers of what other edges cost in quality: recorded, with room for a change of a scene.
+TEST(RoutedShading, AtFewerEdgesIsAlmostTheSamePicture) {
+    const auto session = must(
+        Session::open({small_frame("city_of_boxes", ShadowMaps::left_out), small_frame("crossing_planes", ShadowMaps::left_out)},
+                      {.validation = true}));
+    for (const std::size_t frame : {0u, 1u})
+        for (const std::string_view edges : {"edges/tolerant", "edges/coverage", "edges/depth", "edges/mean"}) {
+            const auto all = must(session->run({.variant = {.frame = frame}, .choices = chosen({"edges/all_samples"})}));
+            const auto fewer = must(session->run({.variant = {.frame = frame}, .choices = chosen({std::string(edges)})}));
+            double worst = 0;
+            const double quality = psnr(all.images.at("display"), fewer.images.at("display"), worst);
+            RecordProperty(fmt::format("{} in frame {}", edges, frame),
+                           fmt::format("PSNR {:.1f} dB, worst {:.3f}", quality, worst));
+            EXPECT_GT(quality, 30) << edges << " in frame " << frame;
+        }
+}
+
+}  // namespace
+}  // namespace strata
