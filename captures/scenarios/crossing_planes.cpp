@@ -58,6 +58,7 @@ Frame crossing_planes(std::uint32_t frame, const ScenarioOptions& options) {
     spot.type = LightType::round_spot;
     spot.position = {-2.6, 3.4, 2.6};
     spot.direction = glm::normalize(glm::vec3(2.6f, -2.6f, -2.6f));
+    spot.axis_u = glm::normalize(glm::cross(spot.direction, glm::vec3(0, 1, 0)));
     spot.intensity = glm::vec3(1, 0.88f, 0.7f) * 70.f;
     spot.range = 12;
     spot.inner_angle = 0.35f;

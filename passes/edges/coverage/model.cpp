@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "passes/edges/coverage/clip_seams_model.h"
 #include "passes/edges/coverage/coverage.shared.h"
 #include "passes/edges/edges.shared.h"
 #include "passes/edges/surface_tests_model.h"
@@ -62,10 +63,10 @@ ImageSet coverage_model(const StageInput& input, const Settings& settings) {
     const Coverings coverings = coverings_of(input.frame);
     const VisiblePoints visible = visible_points(input.frame, opaque_draws(input.frame));
     // Of seams inside meshes, too, which are undecided to nobody else: there either triangle gives the sample the same surface.
-    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5);
+    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5), on_seams = pixels_on_clip_seams(input.frame);
     return marked(input, [&](std::uint32_t x, std::uint32_t y) {
         for (std::uint32_t sample = 0; sample < visible.samples; ++sample)
-            if (near_sides[visible.index(x, y, sample)]) return Verdict::undecided;
+            if (near_sides[visible.index(x, y, sample)] || on_seams[visible.index(x, y)]) return Verdict::undecided;
         const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
         const Verdict by_coverage = coverage_verdict(here, visible, {x, y});
         if (by_coverage == Verdict::edge || limits.tests == 0) return by_coverage;

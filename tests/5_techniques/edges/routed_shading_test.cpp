@@ -8,9 +8,10 @@
 
 #include "captures/scenarios.h"
 #include "passes/registry.h"
+#include "tests/support/agreement.h"
 #include "tests/support/session.h"
 
-namespace strata {
+namespace strata::routed_shading {
 namespace {
 
 const std::vector<std::string> shaded_images = {"light", "color", "display"};
@@ -30,10 +31,22 @@ struct Way {
     std::vector<std::string> uses, sets;
 };
 
-Run shaded(Session& session, std::string_view edges, Way way, std::vector<std::string> outputs = shaded_images) {
+enum : std::size_t { crossing, crossing_without_maps, city, room, volume };
+
+Session& frames() {
+    static const auto session = must(Session::open(
+        std::vector{small_frame("crossing_planes", ShadowMaps::kept), small_frame("crossing_planes", ShadowMaps::left_out),
+                    small_frame("city_of_boxes", ShadowMaps::left_out), small_frame("lights_room", ShadowMaps::left_out),
+                    small_frame("cornell_box", ShadowMaps::left_out)},
+        {.validation = true}));
+    return *session;
+}
+
+Run shaded(std::size_t frame, std::string_view edges, Way way, std::vector<std::string> outputs = shaded_images) {
     way.uses.emplace_back(edges);
     outputs.emplace_back("edges");
-    return must(session.run({.choices = chosen(way.uses, way.sets), .outputs = std::move(outputs)}));
+    return must(
+        frames().run({.variant = {.frame = frame}, .choices = chosen(way.uses, way.sets), .outputs = std::move(outputs)}));
 }
 
 /// Channels of all texels and samples whose bits differ.
@@ -63,16 +76,10 @@ std::uint64_t count_of(const Run& run, std::string_view stage, std::string_view 
     throw std::runtime_error(fmt::format("no counter {} of {}", name, stage));
 }
 
-class RoutedShading : public testing::TestWithParam<std::string> {};
-
-TEST_P(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
-    const auto session = must(Session::open({small_frame(GetParam(), ShadowMaps::left_out)}, {.validation = true}));
-    const std::vector<Way> ways = {{{"lighting/brute_force"}, {}}, {{"lighting/brute_force"}, {"routing=list"}},
-                                   {{"lighting/z_binned"}, {}},    {{"lighting/z_binned"}, {"routing=list"}},
-                                   {{"lighting/tiled"}, {}},       {{"lighting/brute_force", "gbuffer/packed"}, {}}};
+void expect_the_same_bits(std::size_t frame, const std::vector<Way>& ways) {
     for (const Way& way : ways) {
-        const auto all = shaded(*session, "edges/all_samples", way), routed = shaded(*session, "edges/bitwise", way);
-        const std::string what = fmt::format("{} {}", fmt::join(way.uses, " "), fmt::join(way.sets, " "));
+        const auto all = shaded(frame, "edges/all_samples", way), routed = shaded(frame, "edges/bitwise", way);
+        const std::string what = fmt::format("frame {}: {} {}", frame, fmt::join(way.uses, " "), fmt::join(way.sets, " "));
         EXPECT_EQ(differing_words(all, routed), 0u) << what;
         EXPECT_GT(marked_pixels(routed), 20u) << what;
         EXPECT_LT(marked_pixels(routed), marked_pixels(all) / 2) << what << ": little is shaded once";
@@ -80,16 +87,28 @@ TEST_P(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, RoutedShading,
-                         testing::Values("crossing_planes", "city_of_boxes", "lights_room", "cornell_box"),
-                         [](const auto& scenario) { return scenario.param; });
+TEST(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
+    expect_the_same_bits(crossing_without_maps, {{{"lighting/brute_force"}, {}},
+                                                 {{"lighting/brute_force", "gbuffer/packed"}, {"routing=list"}},
+                                                 {{"lighting/tiled"}, {}}});
+}
+
+// All techniques in scenes of boxes, of 32 lights and of light volumes: 24 pairs of pictures.
+TEST(ExhaustiveRoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
+    for (const std::size_t frame : {crossing_without_maps, city, room, volume})
+        expect_the_same_bits(frame, {{{"lighting/brute_force"}, {}},
+                                     {{"lighting/brute_force"}, {"routing=list"}},
+                                     {{"lighting/z_binned"}, {}},
+                                     {{"lighting/z_binned"}, {"routing=list"}},
+                                     {{"lighting/tiled"}, {}},
+                                     {{"lighting/brute_force", "gbuffer/packed"}, {}}});
+}
 
 // Shadow maps are looked up where a sample is, because depth is a sample's own: shading every sample has four shadows in a plain
 // pixel, routed shading the first one's. That is all that differs.
 TEST(RoutedShadows, DifferWhereAPlainPixelsSamplesHaveShadowsOfTheirOwn) {
-    const auto session = must(Session::open({small_frame("crossing_planes", ShadowMaps::kept)}, {.validation = true}));
     const std::vector<std::string> outputs = {"light", "visibility"};
-    const auto all = shaded(*session, "edges/all_samples", {}, outputs), routed = shaded(*session, "edges/bitwise", {}, outputs);
+    const auto all = shaded(crossing, "edges/all_samples", {}, outputs), routed = shaded(crossing, "edges/bitwise", {}, outputs);
     const ReferenceImage light = in_double(all.images.at("light")), once = in_double(routed.images.at("light"));
     const ReferenceImage visibility = in_double(all.images.at("visibility")), marks = in_double(routed.images.at("edges"));
     std::size_t differing = 0, unexplained = 0;
@@ -109,14 +128,29 @@ TEST(RoutedShadows, DifferWhereAPlainPixelsSamplesHaveShadowsOfTheirOwn) {
 }
 
 TEST(RoutedShading, ByAListCountsWhatThreadsCount) {
-    const auto session = must(Session::open({small_frame("city_of_boxes", ShadowMaps::left_out)}, {.validation = true}));
-    const auto threads = shaded(*session, "edges/bitwise", {}), list = shaded(*session, "edges/bitwise", {{}, {"routing=list"}});
+    const auto threads = shaded(crossing, "edges/bitwise", {}), list = shaded(crossing, "edges/bitwise", {{}, {"routing=list"}});
     EXPECT_EQ(differing_words(threads, list), 0u);
     for (const char* name : {"samples_shaded", "evaluations"})
         EXPECT_EQ(count_of(threads, "lighting/", name), count_of(list, "lighting/", name));
     EXPECT_EQ(count_of(list, "lighting/", "samples_shaded"),
               count_of(list, "edges/", "plain_pixels") + count_of(list, "edges/", "edge_samples"))
         << "docs/algorithms/deferred.md 3.4";
+}
+
+/// Of crossing_planes at its own extent.
+void expect_models_agree(const std::vector<std::string>& uses) {
+    Request request = on_scenario("crossing_planes", 4);
+    request.choices = chosen(uses);
+    for (const Stage stage : {Stage::shadows, Stage::lighting, Stage::combine}) {
+        const Technique& technique = *must(find_technique(techniques_of(stage).front()->name));
+        expect_within_tolerance(must(session_of_scenarios().judge(request, stage, Against::model)), technique, request,
+                                "crossing_planes");
+    }
+}
+
+TEST(RoutedShading, IsWhatTheModelsSayWhereOneSampleStandsForAll) {
+    expect_models_agree({"edges/bitwise"});
+    expect_models_agree({"edges/coverage"});  // pixels on the lines are shaded once, too
 }
 
 double psnr(const HostImage& a, const HostImage& b, double& worst) {
@@ -132,13 +166,9 @@ double psnr(const HostImage& a, const HostImage& b, double& worst) {
 
 // T-MS-1 asks for numbers of what other edges cost in quality: recorded, with room for a change of a scene.
 TEST(RoutedShading, AtFewerEdgesIsAlmostTheSamePicture) {
-    const auto session = must(
-        Session::open({small_frame("city_of_boxes", ShadowMaps::left_out), small_frame("crossing_planes", ShadowMaps::left_out)},
-                      {.validation = true}));
-    for (const std::size_t frame : {0u, 1u})
+    for (const std::size_t frame : {crossing_without_maps, city})
         for (const std::string_view edges : {"edges/tolerant", "edges/coverage", "edges/depth", "edges/mean"}) {
-            const auto all = must(session->run({.variant = {.frame = frame}, .choices = chosen({"edges/all_samples"})}));
-            const auto fewer = must(session->run({.variant = {.frame = frame}, .choices = chosen({std::string(edges)})}));
+            const auto all = shaded(frame, "edges/all_samples", {}), fewer = shaded(frame, edges, {});
             double worst = 0;
             const double quality = psnr(all.images.at("display"), fewer.images.at("display"), worst);
             RecordProperty(fmt::format("{} in frame {}", edges, frame),
@@ -148,4 +178,4 @@ TEST(RoutedShading, AtFewerEdgesIsAlmostTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace strata
+}  // namespace strata::routed_shading
