@@ -26,6 +26,7 @@ Technique bitwise() {
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),
             .tables = edge_tables(),
+            .abilities = {.stands_in_for_truth = true},
             .claims = {.ratios = shading_ratios()},
             .declare = declare,
             .model = bitwise_model,

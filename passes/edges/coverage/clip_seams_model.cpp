@@ -1,7 +1,7 @@
 #include "passes/edges/coverage/clip_seams_model.h"
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "passes/reference/fragments.h"
 #include "passes/reference/triangles.h"
@@ -41,30 +41,39 @@ std::vector<glm::dvec2> corners_if_cut(const View& view, const Corners& corners)
     return places;
 }
 
-/// Pixels within one pixel of the line.
-void mark_line(std::vector<bool>& pixels, const View& view, const glm::dvec2& from, const glm::dvec2& to) {
-    const int steps = static_cast<int>(std::ceil(glm::length(to - from) * 4)) + 1;
-    for (int i = 0; i <= steps; ++i) {
-        const glm::ivec2 at(glm::floor(glm::mix(from, to, double(i) / steps)));
-        for (int y = std::max(at.y - 1, 0); y <= std::min(at.y + 1, int(view.height) - 1); ++y)
-            for (int x = std::max(at.x - 1, 0); x <= std::min(at.x + 1, int(view.width) - 1); ++x)
-                pixels[std::size_t(y) * view.width + std::size_t(x)] = true;
+/// A triangle of which seams are noted.
+struct Noted {
+    ClipSeams& seams;
+    const View& view;
+    std::uint32_t draw, triangle;
+
+    void add(const glm::dvec2& at) const {
+        if (at.x < 0 || at.y < 0 || at.x >= view.width || at.y >= view.height) return;
+        seams.emplace(static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y), draw, triangle);
     }
-}
+    /// The pixels that the line comes nearer to than a third of a pixel: their samples may fall on either side of it.
+    void add_line(const glm::dvec2& from, const glm::dvec2& to) const {
+        const int steps = static_cast<int>(std::ceil(glm::length(to - from) * 4)) + 1;
+        for (int i = 0; i <= steps; ++i)
+            for (const glm::dvec2 aside : {glm::dvec2(-.3, -.3), {-.3, .3}, {.3, -.3}, {.3, .3}})
+                add(glm::mix(from, to, double(i) / steps) + aside);
+    }
+};
 
 }  // namespace
 
-std::vector<bool> pixels_on_clip_seams(const Frame& frame) {
-    std::vector<bool> pixels(std::size_t(frame.view.width) * frame.view.height);
+ClipSeams clip_seams(const Frame& frame) {
+    ClipSeams seams;
     for (const std::uint32_t draw : opaque_draws(frame)) {
         const DrawSpace space = draw_space(frame, draw);
         for (std::uint32_t triangle = 0; triangle < triangle_count(frame, draw); ++triangle) {
             const auto corners = corners_if_cut(frame.view, view_corners(frame, space, draw, triangle));
+            const Noted noted{seams, frame.view, draw, triangle};
             for (std::size_t i = 0; i < corners.size(); ++i)
-                for (std::size_t j = i + 2; j < corners.size(); ++j) mark_line(pixels, frame.view, corners[i], corners[j]);
+                for (std::size_t j = i + 2; j < corners.size(); ++j) noted.add_line(corners[i], corners[j]);
         }
     }
-    return pixels;
+    return seams;
 }
 
 }  // namespace strata::edges

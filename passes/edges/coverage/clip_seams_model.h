@@ -2,14 +2,19 @@
 // clips at the picture's border, without a guard band.
 #pragma once
 
-#include <vector>
+#include <cstdint>
+#include <set>
+#include <tuple>
 
 #include "capture_format/frame.h"
 
 namespace strata::edges {
 
-/// Pixels, row by row, on a line between two corners of what the view leaves of an opaque triangle that it cuts: whichever way
-/// the polygon is divided, its seams are among these lines.
-std::vector<bool> pixels_on_clip_seams(const Frame&);
+/// Pixel x, y, draw, triangle.
+using ClipSeams = std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>>;
+
+/// Pixels on a line between two corners of what the view leaves of an opaque triangle that it cuts: whichever way the polygon is
+/// divided, its seams are among these lines.
+ClipSeams clip_seams(const Frame&);
 
 }  // namespace strata::edges

@@ -63,10 +63,14 @@ ImageSet coverage_model(const StageInput& input, const Settings& settings) {
     const Coverings coverings = coverings_of(input.frame);
     const VisiblePoints visible = visible_points(input.frame, opaque_draws(input.frame));
     // Of seams inside meshes, too, which are undecided to nobody else: there either triangle gives the sample the same surface.
-    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5), on_seams = pixels_on_clip_seams(input.frame);
+    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5);
+    const ClipSeams seams = clip_seams(input.frame);
     return marked(input, [&](std::uint32_t x, std::uint32_t y) {
-        for (std::uint32_t sample = 0; sample < visible.samples; ++sample)
-            if (near_sides[visible.index(x, y, sample)] || on_seams[visible.index(x, y)]) return Verdict::undecided;
+        for (std::uint32_t sample = 0; sample < visible.samples; ++sample) {
+            const RasterPoint& nearest = visible.at(x, y, sample);
+            if (near_sides[visible.index(x, y, sample)] || seams.contains({x, y, nearest.draw, nearest.triangle}))
+                return Verdict::undecided;
+        }
         const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
         const Verdict by_coverage = coverage_verdict(here, visible, {x, y});
         if (by_coverage == Verdict::edge || limits.tests == 0) return by_coverage;

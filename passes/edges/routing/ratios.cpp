@@ -39,9 +39,9 @@ void stripe(Frame& frame, std::uint32_t spacing) {
     Mesh odd, even;
     odd.name = "odd stripes";
     even.name = "even stripes";
-    const double width = spacing > 0 ? spacing : 2 * view.width;
+    const double width = spacing > 0 ? spacing : 2 * view.width, first = spacing > 0 ? 0.5 - width : -0.5 * view.width;
     bool is_odd = false;
-    for (double left = 0.5 - width; left < view.width + 1; left += width, is_odd = !is_odd)
+    for (double left = first; left < view.width; left += width, is_odd = !is_odd)
         add_stripe(is_odd ? odd : even, view, left, left + width);
     frame.emitters.clear();
     frame.draws.clear();

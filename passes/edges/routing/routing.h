@@ -17,8 +17,8 @@ inline constexpr Param routing_row = {
     .name = "routing",
     .low = 0,
     .high = routing_list,
-    .fallback = routing_threads,
-    .help = "threads: one per sample, idle in plain pixels; list: one per pixel, then those of listed edges",
+    .fallback = routing_list,
+    .help = "threads: one per sample, idle in plain pixels; list: one per pixel, then one per further sample of listed edges",
     .choices = routings};
 
 /// What a shader that includes passes/edges/routing/routed.glsl leaves of every sample.

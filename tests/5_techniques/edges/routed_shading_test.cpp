@@ -89,7 +89,7 @@ void expect_the_same_bits(std::size_t frame, const std::vector<Way>& ways) {
 
 TEST(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
     expect_the_same_bits(crossing_without_maps, {{{"lighting/brute_force"}, {}},
-                                                 {{"lighting/brute_force", "gbuffer/packed"}, {"routing=list"}},
+                                                 {{"lighting/brute_force", "gbuffer/packed"}, {"routing=threads"}},
                                                  {{"lighting/tiled"}, {}}});
 }
 
@@ -97,9 +97,9 @@ TEST(RoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
 TEST(ExhaustiveRoutedShading, AtEdgesOfWordsIsShadingEverySampleToTheLastBit) {
     for (const std::size_t frame : {crossing_without_maps, city, room, volume})
         expect_the_same_bits(frame, {{{"lighting/brute_force"}, {}},
-                                     {{"lighting/brute_force"}, {"routing=list"}},
+                                     {{"lighting/brute_force"}, {"routing=threads"}},
                                      {{"lighting/z_binned"}, {}},
-                                     {{"lighting/z_binned"}, {"routing=list"}},
+                                     {{"lighting/z_binned"}, {"routing=threads"}},
                                      {{"lighting/tiled"}, {}},
                                      {{"lighting/brute_force", "gbuffer/packed"}, {}}});
 }
@@ -128,7 +128,8 @@ TEST(RoutedShadows, DifferWhereAPlainPixelsSamplesHaveShadowsOfTheirOwn) {
 }
 
 TEST(RoutedShading, ByAListCountsWhatThreadsCount) {
-    const auto threads = shaded(crossing, "edges/bitwise", {}), list = shaded(crossing, "edges/bitwise", {{}, {"routing=list"}});
+    const auto threads = shaded(crossing, "edges/bitwise", {{}, {"routing=threads"}}),
+               list = shaded(crossing, "edges/bitwise", {{}, {"routing=list"}});
     EXPECT_EQ(differing_words(threads, list), 0u);
     for (const char* name : {"samples_shaded", "evaluations"})
         EXPECT_EQ(count_of(threads, "lighting/", name), count_of(list, "lighting/", name));
