@@ -43,7 +43,7 @@ std::vector<DebugView> edge_views() {
              .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},
                         {{1, 1, 1}, "edge: shaded per sample"},
                         {{1, 0, 0}, "missed: an edge shaded once"},
-                        {{1, 0.8f, 0}, "needless: a plain pixel shaded per sample"}}}};
+                        {{1, 0.8f, 0}, "needless: plain, shaded per sample"}}}};
 }
 
 std::vector<DebugTable> edge_tables() {
