@@ -79,6 +79,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
     {"sixteen_normals", "Which normals does a G-buffer keep badly: on which rings, at which poles?", 64, 36,
      scenario::sixteen_normals},
     {"far_wall", "Does stored depth make stripes on planes from 1 m to 2 km?", 64, 36, scenario::far_wall},
+    {"crossing_planes", "Is the line smooth along which sheets pass through each other, where no triangle ends?", 96, 54,
+     scenario::crossing_planes},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

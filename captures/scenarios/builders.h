@@ -64,6 +64,8 @@ Frame fence_and_foliage(std::uint32_t frame, const ScenarioOptions&);
 // gbuffer_cases.cpp
 Frame sixteen_normals(std::uint32_t frame, const ScenarioOptions&);
 Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
+// crossing_planes.cpp
+Frame crossing_planes(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

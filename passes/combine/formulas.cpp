@@ -34,7 +34,7 @@ glm::dvec3 composed(const StageInput& input, const ComposedSample& at) {
     const glm::dvec4 emission = texel(input, "emission", at, glm::dvec4(0));
     if (emission.w == 0) return input.frame.background;
     const SurfacePoint p = surface(input, at);
-    const glm::dvec3 light(texel(input, "light", {at.x, at.y, at.light_sample, at.light_sample}, glm::dvec4(0)));
+    const glm::dvec3 light(texel(input, "light", at, glm::dvec4(0)));
     const FogAt fog = fog_at(input.frame, p.position.z);
     return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added;
 }

@@ -6,11 +6,10 @@
 
 namespace strata::combine {
 
-/// Radiance of one sample towards the eye: emission, reflected light, light from all around, fog. light_sample: whose light it
-/// takes (its own, or the first sample's where one stands for all). Images that are not there count as no light, no
-/// occlusion, no surface.
+/// Radiance of one sample towards the eye: emission, reflected light, light from all around, fog. Images that are not there
+/// count as no light, no occlusion, no surface.
 struct ComposedSample {
-    std::uint32_t x = 0, y = 0, sample = 0, light_sample = 0;
+    std::uint32_t x = 0, y = 0, sample = 0;
 };
 glm::dvec3 composed(const StageInput&, const ComposedSample&);
 

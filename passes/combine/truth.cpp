@@ -10,7 +10,7 @@ ImageSet combine_truth(const StageInput& input) {
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x)
-                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample, sample}), 1);
+                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample}), 1);
     // What was drawn over the combined color is given: it is another stage's to judge.
     const bool drawn_over = combine::is_drawn_over(input.frame);
     const ReferenceImage& final_color = drawn_over ? input.before.at("color") : color;

@@ -19,7 +19,7 @@ StageInfo stage() {
             .outputs = {"edges"},
             .truth = edges_truth,
             .judge = edges_judge,
-            .scenarios = {"one_sphere", "sun_and_boxes", "city_of_boxes"}};
+            .scenarios = {"one_sphere", "sun_and_boxes", "city_of_boxes", "crossing_planes"}};
 }
 
 }  // namespace strata::edges

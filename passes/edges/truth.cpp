@@ -2,6 +2,7 @@
 #include "passes/edges/truth.h"
 
 #include <array>
+#include <cstring>
 #include <string_view>
 
 namespace strata {
@@ -13,8 +14,9 @@ constexpr std::array<std::string_view, 4> surface_images = {"gbuffer0", "gbuffer
 // Within one triangle all samples carry what was shaded at the pixel's center: they are equal to the bit. A mean of samples
 // is no test: at 8 samples 46.7 % of pixels without an edge differ from theirs (docs/algorithms/deferred.md 3.2).
 bool differs(const ReferenceImage& image, std::uint32_t x, std::uint32_t y) {
+    // Bits and not numbers: zeros of both signs differ as words, and equal NaN do not.
     for (std::uint32_t sample = 1; sample < image.layers; ++sample) {
-        if (image.at(x, y, sample) != image.at(x, y, 0)) return true;
+        if (std::memcmp(&image.at(x, y, sample), &image.at(x, y, 0), sizeof(glm::dvec4)) != 0) return true;
     }
     return false;
 }

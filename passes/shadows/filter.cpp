@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "passes/choice_names.h"
+#include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/scene/map_places.h"
 #include "passes/scene/scene_facts.h"
@@ -59,7 +60,7 @@ void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& sha
         graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     ComputePass pass = graph.compute(shader);
     fix_shadow_filter(pass, frame.shadow_filter);
-    sample_gbuffer(pass, frame)
+    sample_edges(sample_gbuffer(pass, frame), frame)
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
         .stores("visibility", frame.visibility)

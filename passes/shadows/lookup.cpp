@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/edges/plain_pixels.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/shade.h"
 
@@ -102,6 +103,22 @@ Filtered fixed_lookup(const LookupScene& scene, const ShadowView& view, const Re
     return at ? filter_map(scene.maps, *at, scene.taps()) : Filtered{};
 }
 
+namespace {
+
+/// Puts the receiver under the pixel's center, on the plane of all samples; false where not all have a surface.
+bool move_to_center(const Frame& frame, const ReferenceImage& depth, Receiver& receiver) {
+    double sum = 0;
+    for (std::uint32_t sample = 0; sample < depth.layers; ++sample) {
+        const double own = depth.at(receiver.x, receiver.y, sample).x;
+        if (!(own > 0)) return false;
+        sum += own;
+    }
+    receiver.position = pixel_ray(frame, receiver.x + 0.5, receiver.y + 0.5) * (double(frame.view.near) * depth.layers / sum);
+    return true;
+}
+
+}  // namespace
+
 ImageSet visibility_model(const StageInput& input, const Settings& settings, LookUp look_up) {
     const auto maps = input.before.find("shadow_maps"), depth = input.before.find("depth_layers");
     if (maps == input.before.end() || depth == input.before.end() || !input.before.contains("surface_normal")) return {};
@@ -111,12 +128,18 @@ ImageSet visibility_model(const StageInput& input, const Settings& settings, Loo
     const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;
     ReferenceImage visibility(shape.width, shape.height, layers, glm::dvec4(1, 0, 0, 1));
     std::vector<char> undecided(visibility.texels.size(), 0);  // rows run in parallel: no packed bits
-    for_each_receiver(input, [&](const Receiver& receiver) {
+    for_each_receiver(input, [&](Receiver receiver) {
+        // In a plain pixel the shadow at its center stands for all samples.
+        const bool is_plain = is_plain_pixel(input, receiver.x, receiver.y);
+        if (is_plain && (receiver.sample > 0 || !move_to_center(input.frame, shape, receiver))) return;
+        const std::uint32_t end = is_plain ? shape.layers : receiver.sample + 1;
         for (std::uint32_t k = 0; k < shadowed.size(); ++k) {
             const Filtered result = look_up_light(scene, shadowed[k], receiver, look_up);
-            const std::size_t texel = visibility.index(receiver.x, receiver.y, k * shape.layers + receiver.sample);
-            visibility.texels[texel].x = result.lit;
-            undecided[texel] = result.undecided;
+            for (std::uint32_t sample = receiver.sample; sample < end; ++sample) {
+                const std::size_t texel = visibility.index(receiver.x, receiver.y, k * shape.layers + sample);
+                visibility.texels[texel].x = result.lit;
+                undecided[texel] = result.undecided;
+            }
         }
     });
     visibility.channels = 1;

@@ -73,20 +73,20 @@ TEST_P(Matrix, TheGpuAgreesWithTheModel) { expect_agreement(GetParam(), {}); }
 INSTANTIATE_TEST_SUITE_P(Diagonal, Matrix, testing::ValuesIn(diagonal_cases()), judged_case_name);
 INSTANTIATE_TEST_SUITE_P(Exhaustive, Matrix, testing::ValuesIn(all_cases()), judged_case_name);
 
-/// The first of the scenarios, or of them from the last on, that needs the stage and that the technique can do.
+/// The first of the scenarios that needs the stage and that the technique can do: at one sample, if any does, else at four.
 template <typename Scenarios>
-std::string first_it_can(const Technique& technique, const Scenarios& scenarios) {
-    const auto can = [&](std::string_view scenario) {
-        const Features features = frame_features(scenario_frames(scenario).front());
-        return !unsupported(technique, features) && !info(technique.stage).unwanted(features);
-    };
-    const auto found = std::ranges::find_if(scenarios, can);
-    if (found == std::ranges::end(scenarios)) throw std::logic_error(fmt::format("no scenario for {}", technique.name));
-    return std::string(*found);
+Case first_it_can(const Technique& technique, const Scenarios& scenarios) {
+    for (const std::uint32_t samples : {1u, 4u})
+        for (const std::string_view scenario : scenarios) {
+            const Features features = frame_features(scenario_frames(scenario, samples).front());
+            if (!unsupported(technique, features) && !info(technique.stage).unwanted(features))
+                return {std::string(technique.name), std::string(scenario), samples};
+        }
+    throw std::logic_error(fmt::format("no scenario for {}", technique.name));
 }
 
-std::string plainest_scenario(const Technique& technique) { return first_it_can(technique, info(technique.stage).scenarios); }
-std::string richest_scenario(const Technique& technique) {
+Case on_plainest_scenario(const Technique& technique) { return first_it_can(technique, info(technique.stage).scenarios); }
+Case on_richest_scenario(const Technique& technique) {
     return first_it_can(technique, std::views::reverse(info(technique.stage).scenarios));
 }
 
@@ -104,16 +104,16 @@ TEST_P(EveryChoice, OfEveryParameterIsWhatTheModelSays) {
         }
 }
 
-std::vector<Case> with_choices(std::string (*scenario_of)(const Technique&)) {
+std::vector<Case> with_choices(Case (*case_of)(const Technique&)) {
     std::vector<Case> found;
     for (const Technique& technique : techniques())
         if (std::ranges::any_of(technique.params, [](const Param& param) { return !param.choices.empty(); }))
-            found.push_back({std::string(technique.name), scenario_of(technique)});
+            found.push_back(case_of(technique));
     return found;
 }
 
-INSTANTIATE_TEST_SUITE_P(Plainest, EveryChoice, testing::ValuesIn(with_choices(plainest_scenario)), judged_case_name);
-INSTANTIATE_TEST_SUITE_P(Exhaustive, EveryChoice, testing::ValuesIn(with_choices(richest_scenario)), judged_case_name);
+INSTANTIATE_TEST_SUITE_P(Plainest, EveryChoice, testing::ValuesIn(with_choices(on_plainest_scenario)), judged_case_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, EveryChoice, testing::ValuesIn(with_choices(on_richest_scenario)), judged_case_name);
 
 class TwoPanes : public testing::TestWithParam<const Technique*> {};
 

@@ -1,5 +1,5 @@
 // Combine (docs/algorithms/deferred.md 8.2, 8.3): emission, reflected light and light from all around, seen through the fog;
-// linear, per sample.
+// linear, per sample. In a plain pixel the first sample stands for all (docs/algorithms/deferred.md 3.1).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
@@ -18,11 +18,7 @@ layout(set = 0, binding = 5) uniform sampler2DArray occlusion;
 layout(set = 0, binding = 6) uniform sampler2DArray indirect;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray color;
 
-// In a plain pixel the first sample's light stands for all.
-vec3 light_at(ivec3 at) {
-    if (has_light == 0u) return vec3(0.0);
-    return texelFetch(light, is_plain(at.xy) ? ivec3(at.xy, 0) : at, 0).rgb;
-}
+vec3 light_at(ivec3 at) { return has_light != 0u ? texelFetch(light, at, 0).rgb : vec3(0.0); }
 
 // The material's occlusion and the screen's both multiply (docs/algorithms/deferred.md 8.3).
 vec3 ambient(MaterialPoint m, ivec3 at) {
@@ -42,6 +38,9 @@ vec3 composed(ivec3 at) {
 
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at, imageSize(color)))) return;
-    imageStore(color, at, vec4(composed(at), 1.0));
+    if (any(greaterThanEqual(at, imageSize(color))) || at.z > 0 && is_plain(at.xy)) return;
+    const vec4 sum = vec4(composed(at), 1.0);
+    imageStore(color, at, sum);
+    if (!is_plain(at.xy)) return;
+    for (int i = 1; i < imageSize(color).z; ++i) imageStore(color, ivec3(at.xy, i), sum);
 }

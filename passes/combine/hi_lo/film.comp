@@ -1,25 +1,51 @@
-// Develops the picture (docs/algorithms/deferred.md 8.1, 3.5): every sample is exposed and tone mapped, then the samples are
-// averaged. The other order would let one sample of 100 outweigh three of 0.1.
+// Develops the picture (docs/algorithms/deferred.md 8.1, 3.5): by default every sample is exposed and tone mapped, then the samples
+// are averaged. The other order would let one sample of 100 outweigh three of 0.1.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/shaders/scene.glsl"
+#include "passes/combine/hi_lo/develop.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 1) const uint resolve = resolve_tone_mapped;
 
 layout(set = 0, binding = 0) uniform sampler2DArray color;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2D display;
 
-// x (1 + x / white^2) / (1 + x) grows everywhere and is 1 at white: clamping before it is clamping after it, without overflow.
-vec3 tone_mapped(vec3 exposed) {
-    const vec3 x = clamp(exposed, 0.0, view.white);
-    return x * (1.0 + x / (view.white * view.white)) / (1.0 + x);
+vec3 exposed(ivec2 pixel, int i) { return texelFetch(color, ivec3(pixel, i), 0).rgb * view.exposure; }
+
+// Each sample by 1 / (1 + luminance), so that one of 100 weighs a hundredth of what it adds. Bounded, because an infinite sample
+// of no weight would add what is not a number.
+vec3 weighted_mean(ivec2 pixel, int samples) {
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < samples; ++i) {
+        const vec3 x = clamp(exposed(pixel, i), 0.0, 1e30);
+        const float weight = 1.0 / (1.0 + dot(x, vec3(0.2126, 0.7152, 0.0722)));
+        sum += x * weight;
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+// What a sample adds to the mean.
+vec3 share_of(vec3 x) {
+    if (resolve == resolve_linear) return x;
+    if (resolve == resolve_lo_hi) return nearest_byte(tone_mapped(x));
+    return tone_mapped(x);
+}
+
+vec3 developed(ivec2 pixel) {
+    const int samples = textureSize(color, 0).z;
+    if (resolve == resolve_weighted) return tone_mapped(weighted_mean(pixel, samples));
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < samples; ++i) sum += share_of(exposed(pixel, i));
+    const vec3 mean = sum / float(samples);
+    if (resolve == resolve_linear) return tone_mapped(mean);
+    if (resolve == resolve_lo_hi) return nearest_byte(mean);
+    return mean;
 }
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(display)))) return;
-    const int samples = textureSize(color, 0).z;
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < samples; ++i) sum += tone_mapped(texelFetch(color, ivec3(pixel, i), 0).rgb * view.exposure);
-    imageStore(display, pixel, vec4(sum / float(samples), 1.0));
+    imageStore(display, pixel, vec4(developed(pixel), 1.0));
 }

@@ -1,4 +1,6 @@
 // Combine and develop: linear color per sample at `combine`, display light at `film`, after everything was drawn over it.
+#include "passes/choice_names.h"
+#include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/technique.h"
@@ -8,6 +10,9 @@ namespace strata::combine {
 ImageSet hi_lo_model(const StageInput&, const Settings&);
 
 namespace {
+
+constexpr auto resolves = choice_names(
+    {{resolve_tone_mapped, "tone_mapped"}, {resolve_linear, "linear"}, {resolve_weighted, "weighted"}, {resolve_lo_hi, "lo_hi"}});
 
 void add_color(Graph& graph, FrameImages& frame, const Settings&) {
     frame.color = graph.create("color", {.extent = frame.extent, .format = Format::rgba32f, .layers = frame.samples});
@@ -27,9 +32,21 @@ void add_color(Graph& graph, FrameImages& frame, const Settings&) {
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 
-void add_display(Graph& graph, FrameImages& frame, const Settings&) {
+void add_display(Graph& graph, FrameImages& frame, const Settings& settings) {
+    std::uint32_t resolve = settings.as<HiLoParams>().resolve;
+    if (frame.samples == 1 && resolve != resolve_lo_hi) resolve = resolve_tone_mapped;  // one sample is its own mean
     frame.display = graph.create("display", {.extent = frame.extent, .format = Format::rgba16f});
-    graph.compute("combine/hi_lo/film.comp").samples("color", frame.color).stores("display", frame.display).over(frame.extent);
+    graph.compute("combine/hi_lo/film.comp")
+        .samples("color", frame.color)
+        .stores("display", frame.display)
+        .fixes("resolve", resolve)
+        .over(frame.extent);
+}
+
+Image highlights(Graph& graph, FrameImages& frame, const Settings&) {
+    Image picture = graph.create("highlights", {.extent = frame.extent, .format = Format::rgba32f});
+    graph.compute("combine/hi_lo/highlights.comp").samples("color", frame.color).stores("picture", picture).over(frame.extent);
+    return picture;
 }
 
 }  // namespace
@@ -42,6 +59,18 @@ Technique hi_lo() {
             .summary =
                 "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
                 "that bright saturated colors turn white.",
+            .params = {param<&HiLoParams::resolve>(
+                {.name = "resolve",
+                 .low = 0,
+                 .high = resolve_lo_hi,
+                 .fallback = resolve_tone_mapped,
+                 .help = "how samples become a pixel: averaged after or before the tone curve, weighted, or after it in 8 bits",
+                 .choices = resolves})},
+            .points = {"resolve=linear", "resolve=weighted", "resolve=lo_hi"},
+            .views = {{.name = "highlights",
+                       .help = "the 8-bit target Hi of the original: a ninth of the exposed radiance, clipped at 9",
+                       .unit = "of 9",
+                       .declare = highlights}},
             .abilities = {.is_time_unit = true},
             .declare = add_color,
             .at_other_stages = {{.at = Stage::film, .declare = add_display}},

@@ -1,10 +1,85 @@
 // The same in double. What is developed is the color that the last act found, with everything drawn over it.
+#include <algorithm>
+#include <cmath>
+
 #include "passes/combine/formulas.h"
+#include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
 namespace {
+
+/// The samples of a pixel, exposed and not negative.
+std::vector<glm::dvec3> exposed_samples(const Frame& frame, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+    std::vector<glm::dvec3> samples;
+    for (std::uint32_t sample = 0; sample < color.layers; ++sample)
+        samples.emplace_back(glm::dvec3(color.at(x, y, sample)) * double(frame.view.exposure));
+    return samples;
+}
+
+glm::dvec3 curve(const Frame& frame, const glm::dvec3& exposed) {
+    const double white = frame.film.white;
+    return {tone_mapped(exposed.x, white), tone_mapped(exposed.y, white), tone_mapped(exposed.z, white)};
+}
+
+glm::dvec3 mean(std::span<const glm::dvec3> values) {
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& value : values) sum += value;
+    return sum / double(values.size());
+}
+
+glm::dvec3 weighted_mean(std::span<const glm::dvec3> values) {
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (glm::dvec3 value : values) {
+        value = glm::clamp(value, 0.0, 1e30);
+        const double weight = 1 / (1 + 0.2126 * value.x + 0.7152 * value.y + 0.0722 * value.z);
+        sum += value * weight;
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+/// Values as 8-bit targets keep them, and whether a float may take another one of them.
+struct Quantized {
+    glm::dvec3 value{0};
+    bool undecided = false;
+};
+
+Quantized quantized(const glm::dvec3& value) {
+    constexpr double steps = 255, doubtful = 1e-3;
+    Quantized result;
+    for (int c = 0; c < 3; ++c) {
+        const double step = std::clamp(value[c], 0.0, 1.0) * steps + 0.5;
+        result.value[c] = std::floor(step) / steps;
+        result.undecided |= std::abs(step - std::round(step)) < doubtful && value[c] > 0 && value[c] < 1;
+    }
+    return result;
+}
+
+/// Lo of the original: every sample in 8 bits, and their mean in 8 bits.
+Quantized resolved_lo(const Frame& frame, std::span<const glm::dvec3> exposed) {
+    std::vector<glm::dvec3> samples;
+    bool undecided = false;
+    for (const glm::dvec3& sample : exposed) {
+        const Quantized lo = quantized(curve(frame, sample));
+        samples.push_back(lo.value);
+        undecided |= lo.undecided;
+    }
+    Quantized result = quantized(mean(samples));
+    result.undecided |= undecided;
+    return result;
+}
+
+Quantized display_at(const StageInput& input, const ReferenceImage& color, std::uint32_t x, std::uint32_t y,
+                     std::uint32_t resolve) {
+    const std::vector<glm::dvec3> exposed = exposed_samples(input.frame, color, x, y);
+    if (resolve == resolve_linear) return {curve(input.frame, mean(exposed))};
+    if (resolve == resolve_weighted) return {curve(input.frame, weighted_mean(exposed))};
+    if (resolve == resolve_lo_hi) return resolved_lo(input.frame, exposed);
+    return {developed(input.frame, color, x, y)};
+}
 
 ReferenceImage combined(const StageInput& input) {
     const View& view = input.frame.view;
@@ -13,19 +88,25 @@ ReferenceImage combined(const StageInput& input) {
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x) {
                 const std::uint32_t shaded = is_plain_pixel(input, x, y) ? 0 : sample;
-                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, sample, shaded}), 1);
+                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, shaded}), 1);
             }
     return color;
 }
 
 }  // namespace
 
-ImageSet hi_lo_model(const StageInput& input, const Settings&) {
+ImageSet hi_lo_model(const StageInput& input, const Settings& settings) {
     const View& view = input.frame.view;
     ReferenceImage display(view.width, view.height);
+    display.undecided.assign(display.texels.size(), false);
+    const std::uint32_t resolve = settings.as<HiLoParams>().resolve;
     const ReferenceImage& found = input.before.at("color");
     for (std::uint32_t y = 0; y < view.height; ++y)
-        for (std::uint32_t x = 0; x < view.width; ++x) display.at(x, y) = glm::dvec4(developed(input.frame, found, x, y), 1);
+        for (std::uint32_t x = 0; x < view.width; ++x) {
+            const Quantized shown = display_at(input, found, x, y, resolve);
+            display.at(x, y) = glm::dvec4(shown.value, 1);
+            display.undecided[display.index(x, y)] = shown.undecided;
+        }
     ImageSet images{{"display", display}};
     if (!is_drawn_over(input.frame)) images.emplace("color", combined(input));
     return images;

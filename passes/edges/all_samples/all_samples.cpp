@@ -1,5 +1,6 @@
 // Supersampling: every pixel counts as an edge, so every sample is shaded alone.
 #include "passes/edges/all_samples/all_samples.shared.h"
+#include "passes/edges/views/views.h"
 #include "passes/technique.h"
 
 namespace strata::edges {
@@ -25,6 +26,8 @@ Technique all_samples() {
             .counters = {counter<&AllSamplesCounters::edge_pixels>(
                 {.name = "edge_pixels", .help = "pixels whose samples are shaded one by one"})},
             .counter_bytes = sizeof(AllSamplesCounters),
+            .views = edge_views(),
+            .tables = edge_tables(),
             .declare = declare,
             .model = all_samples_model,
             .tolerance = {.rmse = 0, .worst = 0, .because = "the integer 1 everywhere"}};

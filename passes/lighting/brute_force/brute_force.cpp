@@ -1,5 +1,6 @@
 // Every light on every sample: what other lighting techniques are measured against.
-#include "passes/edges/plain_pixels.h"
+#include "passes/edges/routing/ratios.h"
+#include "passes/edges/routing/routing.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/every_light.h"
@@ -12,15 +13,15 @@ ImageSet brute_force_model(const StageInput&, const Settings&);
 
 namespace {
 
-void declare(Graph& graph, FrameImages& frame, const Settings&) {
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
-    sample_edges(sample_gbuffer(graph.compute("lighting/brute_force/shade.comp"), frame), frame)
-        .samples("visibility", frame.visibility)
-        .stores("light", frame.light)
-        .fixes("has_visibility", frame.visibility ? 1u : 0u)
-        .fixes("features", frame.facts->light_features())
-        .over({frame.extent.width, frame.extent.height, frame.samples});
+    edges::shade_samples(graph, frame, settings.as<edges::RoutingParams>().routing, {"light", frame.light}, [&] {
+        return sample_gbuffer(graph.compute("lighting/brute_force/shade.comp"), frame)
+            .samples("visibility", frame.visibility)
+            .fixes("has_visibility", frame.visibility ? 1u : 0u)
+            .fixes("features", frame.facts->light_features());
+    });
 }
 
 }  // namespace
@@ -33,12 +34,14 @@ Technique brute_force() {
         .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
         .summary =
             "Loops over all lights for each sample; exact up to half floats, and its time grows with the lights that miss.",
+        .params = {param<&edges::RoutingParams::routing>(edges::routing_row)},
         .counters = {counter<&BruteForceCounters::evaluations>({.name = "evaluations", .help = "lights times samples shaded"}),
                      counter<&BruteForceCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
                      counter<&BruteForceCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(BruteForceCounters),
         .abilities = {.is_time_unit = true},
+        .claims = {.ratios = edges::routing_ratios()},
         .declare = declare,
         .model = brute_force_model,
         .tolerance = shaded_light_tolerance};

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#include "passes/edges/routing/routed.glsl"
 #include "passes/gbuffer/surface_at.glsl"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/light_term.glsl"
@@ -29,8 +30,8 @@ void count_shaded(bool shaded) {
 }
 
 void main() {
-    const ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at, imageSize(light))) || at.z > 0 && is_plain(at.xy)) return;
+    const ivec3 at = place_of_thread(imageSize(light));
+    if (any(greaterThanEqual(at, imageSize(light)))) return;
     const Surface s = surface_at(at);
     const bool shaded = takes_light(s);
     store_light(at, shaded ? every_light(lit_point(s, uvec2(at.xy)), at) : vec3(0.0));

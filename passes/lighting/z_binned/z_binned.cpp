@@ -1,6 +1,6 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
 #include "passes/choice_names.h"
-#include "passes/edges/plain_pixels.h"
+#include "passes/edges/routing/routing.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/z_binned/z_bins.h"
@@ -36,10 +36,9 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const auto params = settings.as<ZBinnedParams>();
     const ZBins lists = z_bins(graph, frame, params);
     frame.light = graph.create("light", {.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples});
-    sample_edges(bind_lists(graph.compute("lighting/z_binned/shade.comp"), frame, lists), frame)
-        .stores("light", frame.light)
-        .fixes("merge", params.merge)
-        .over({frame.extent.width, frame.extent.height, frame.samples});
+    edges::shade_samples(graph, frame, params.routing, {"light", frame.light}, [&] {
+        return bind_lists(graph.compute("lighting/z_binned/shade.comp"), frame, lists).fixes("merge", params.merge);
+    });
 }
 
 template <std::uint32_t shown>
@@ -139,7 +138,8 @@ Technique z_binned() {
                                                  .high = 1,
                                                  .fallback = merge_subgroup,
                                                  .help = "whether lanes of a subgroup walk their lists one by one or together",
-                                                 .choices = merges})},
+                                                 .choices = merges}),
+                   param<&ZBinnedParams::routing>(edges::routing_row)},
         .points = {"spacing=logarithmic", "bounds=frustum", "bins=256", "tile=32", "merge=lanes"},
         .counters = {counter<&ZBinnedCounters::evaluations>({.name = "evaluations", .help = "lights shaded, over all samples"}),
                      counter<&ZBinnedCounters::words_read>(

@@ -25,6 +25,7 @@ struct ZBinnedParams {
     uint tile;  // 0: 8 x 8 pixels, 1: 16 x 16, 2: 32 x 32
     uint bounds;
     uint merge;
+    uint routing;  // routing_* of passes/edges/routing/routing.shared.h
 };
 
 // What the steps are told.

@@ -1,0 +1,36 @@
+// Edges are pixels whose samples do not all hold the same words.
+#include "passes/edges/edges.shared.h"
+#include "passes/edges/mark.h"
+#include "passes/edges/routing/ratios.h"
+#include "passes/edges/views/views.h"
+
+namespace strata::edges {
+
+ImageSet bitwise_model(const StageInput&, const Settings&);
+
+namespace {
+
+void declare(Graph& graph, FrameImages& frame, const Settings&) {
+    if (has_samples(frame)) sample_words(mark_edges(graph, frame, "edges/bitwise/mark.comp"), frame);
+}
+
+}  // namespace
+
+Technique bitwise() {
+    return {.stage = Stage::edges,
+            .name = "edges/bitwise",
+            .title = "Words that differ",
+            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
+            .summary = "Compares every word of the G-buffer bit by bit: exact, and marks edges that nobody sees.",
+            .counters = edge_counters(),
+            .counter_bytes = sizeof(EdgeCounters),
+            .views = edge_views(),
+            .tables = edge_tables(),
+            .abilities = {.stands_in_for_truth = true},
+            .claims = {.ratios = shading_ratios()},
+            .declare = declare,
+            .model = bitwise_model,
+            .tolerance = {.rmse = 0, .worst = 0, .because = "bits are equal or not"}};
+}
+
+}  // namespace strata::edges

@@ -1,0 +1,83 @@
+// Partial coverage by the rasterizer in double: which samples of a pixel a triangle covers, and whether one of them shows it.
+#include <algorithm>
+#include <vector>
+
+#include "passes/edges/coverage/clip_seams_model.h"
+#include "passes/edges/coverage/coverage.shared.h"
+#include "passes/edges/edges.shared.h"
+#include "passes/edges/surface_tests_model.h"
+#include "passes/reference/fragments.h"
+#include "passes/technique.h"
+
+namespace strata::edges {
+namespace {
+
+/// A triangle in a pixel: bits of samples.
+struct Covering {
+    std::uint32_t draw = 0, triangle = 0, covered = 0;
+};
+
+/// In the order of pixels, row by row.
+using Coverings = std::vector<std::vector<Covering>>;
+
+Coverings coverings_of(const Frame& frame) {
+    Coverings all(std::size_t(frame.view.width) * frame.view.height);
+    rasterize(frame, opaque_draws(frame), {}, [&](const RasterPoint& point) {
+        std::vector<Covering>& here = all[std::size_t(point.y) * frame.view.width + point.x];
+        const auto is_same = [&](const Covering& c) { return c.draw == point.draw && c.triangle == point.triangle; };
+        auto found = std::ranges::find_if(here, is_same);
+        if (found == here.end()) found = here.insert(here.end(), {.draw = point.draw, .triangle = point.triangle});
+        found->covered |= 1u << point.sample;
+    });
+    return all;
+}
+
+/// Whether a sample's nearest triangle leaves a part of the pixel uncovered.
+Verdict covers_partly(const std::vector<Covering>& here, const RasterPoint& nearest, std::uint32_t samples) {
+    if (nearest.undecided) return Verdict::undecided;
+    for (const Covering& covering : here)
+        if (covering.draw == nearest.draw && covering.triangle == nearest.triangle)
+            return verdict_of(covering.covered != (1u << samples) - 1);
+    return Verdict::plain;  // the sky
+}
+
+/// Before tests of surfaces.
+Verdict coverage_verdict(const std::vector<Covering>& here, const VisiblePoints& visible, glm::uvec2 pixel) {
+    Verdict verdict = Verdict::plain;
+    for (std::uint32_t sample = 0; sample < visible.samples; ++sample) {
+        const Verdict one = covers_partly(here, visible.points[visible.index(pixel.x, pixel.y, sample)], visible.samples);
+        if (one == Verdict::undecided) return one;
+        if (one == Verdict::edge) verdict = one;
+    }
+    return verdict;
+}
+
+}  // namespace
+
+ImageSet coverage_model(const StageInput& input, const Settings& settings) {
+    if (input.frame.view.samples < 2) return {};
+    const auto params = settings.as<CoverageParams>();
+    ModelLimits limits{.depth_step = params.depth_step, .color_step = params.color_step};
+    if (params.with_tests == coverage_and_depth || params.with_tests == coverage_and_both) limits.tests |= test_depth;
+    if (params.with_tests == coverage_and_material || params.with_tests == coverage_and_both) limits.tests |= test_material;
+    const Coverings coverings = coverings_of(input.frame);
+    const VisiblePoints visible = visible_points(input.frame, opaque_draws(input.frame));
+    // Of seams inside meshes, too, which are undecided to nobody else: there either triangle gives the sample the same surface.
+    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5);
+    const ClipSeams seams = clip_seams(input.frame);
+    return marked(input, [&](std::uint32_t x, std::uint32_t y) {
+        for (std::uint32_t sample = 0; sample < visible.samples; ++sample) {
+            const RasterPoint& nearest = visible.at(x, y, sample);
+            if (near_sides[visible.index(x, y, sample)] || seams.contains({x, y, nearest.draw, nearest.triangle}))
+                return Verdict::undecided;
+        }
+        const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
+        const Verdict by_coverage = coverage_verdict(here, visible, {x, y});
+        if (by_coverage == Verdict::edge || limits.tests == 0) return by_coverage;
+        const bool is_full = covered_samples(input, x, y) == input.frame.view.samples;
+        const Verdict by_surfaces = is_full ? surface_verdict(input, x, y, limits) : Verdict::plain;
+        return by_surfaces == Verdict::plain ? by_coverage : by_surfaces;
+    });
+}
+
+}  // namespace strata::edges

@@ -1,0 +1,23 @@
+// Declares the step that marks edges, and the rows that all techniques with such a step share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/technique.h"
+
+namespace strata::edges {
+
+/// Whether there is anything to mark: pixels have several samples. The stage may be forced on where they have one.
+bool has_samples(const FrameImages&);
+
+/// Declares frame.edges and the step of a compute shader that includes passes/edges/mark.glsl.
+ComputePass mark_edges(Graph&, FrameImages&, std::string shader);
+
+/// Binds the G-buffer's words in a step whose shader includes passes/edges/words.glsl.
+ComputePass sample_words(ComputePass, const FrameImages&);
+
+/// Rows of EdgeCounters.
+std::vector<Counter> edge_counters();
+
+}  // namespace strata::edges

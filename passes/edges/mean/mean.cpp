@@ -1,0 +1,46 @@
+// Edges are pixels whose samples' mean is not the first sample: cheap to write, and wrong both ways.
+#include "passes/choice_names.h"
+#include "passes/edges/edges.shared.h"
+#include "passes/edges/mark.h"
+#include "passes/edges/mean/mean.shared.h"
+#include "passes/edges/views/views.h"
+
+namespace strata::edges {
+
+ImageSet mean_model(const StageInput&, const Settings&);
+
+namespace {
+
+constexpr auto choices = choice_names({{compares_first, "gbuffer0"}, {compares_all, "all"}});
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!has_samples(frame)) return;
+    sample_words(mark_edges(graph, frame, "edges/mean/mark.comp"), frame).fixes("compares", settings.as<MeanParams>().compares);
+}
+
+}  // namespace
+
+Technique mean() {
+    return {
+        .stage = Stage::edges,
+        .name = "edges/mean",
+        .title = "Mean against the first sample",
+        .source = "OpenXRay, shaders of the marking pass (behaviour only); docs/algorithms/deferred.md 3.2",
+        .summary =
+            "Marks pixels whose samples' mean is not the first sample: misses what averages out and what another target holds.",
+        .params = {param<&MeanParams::compares>({.name = "compares",
+                                                 .high = compares_all,
+                                                 .fallback = compares_first,
+                                                 .help = "images whose means are compared: the first, as in X-Ray, or all",
+                                                 .choices = choices})},
+        .points = {"compares=all"},
+        .counters = edge_counters(),
+        .counter_bytes = sizeof(EdgeCounters),
+        .views = edge_views(),
+        .tables = edge_tables(),
+        .declare = declare,
+        .model = mean_model,
+        .tolerance = {.rmse = 0, .worst = 0, .because = "sums of four equal floats of 11 bits are exact"}};
+}
+
+}  // namespace strata::edges
