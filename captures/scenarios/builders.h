@@ -59,6 +59,8 @@ Frame cornell_box(std::uint32_t frame, const ScenarioOptions&);
 Frame two_rooms(std::uint32_t frame, const ScenarioOptions&);
 // courtyard.cpp
 Frame courtyard(std::uint32_t frame, const ScenarioOptions&);
+// corners.cpp
+Frame corners(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);
