@@ -44,21 +44,42 @@ float height_of(Place center, Place tap, vec3 way) {
     return dot(way, center.normal) - wrong - push.bias * length(way);
 }
 
-// Cosine of the angle between the way to the eye and the highest occluder on a side of a slice; -2 where there is none.
+// Whether a tap's plane goes on to one farther away.
+bool goes_on(Place near, Place far) {
+    const vec3 way = far.position - near.position;
+    return dot(near.normal, far.normal) > 0.9 && abs(dot(way, near.normal)) < 0.02 * length(way);
+}
+
+// Where the way from one place to another, relative to the sample, leaves the sphere of the radius: the first is inside, the second is not.
+vec3 leaving_sphere(vec3 inside, vec3 outside) {
+    const vec3 way = outside - inside;
+    const float a = dot(way, way), b = dot(inside, way), c = dot(inside, inside) - push.radius * push.radius;
+    return inside + way * ((sqrt(max(b * b - a * c, 0.0)) - b) / a);
+}
+
+// Cosine of the angle between the way to the eye and the highest occluder on a side of a slice; -2 where there is none. A plane that goes
+// on beyond the radius occludes up to the radius, wherever on it the taps are.
 float highest(Center c, vec3 along, inout Tally tally) {
     const vec2 way = reach_of(c, along);
     const float pixels = length(way);
     float cosine = -2.0;
+    Place last = c.place;
     if (pixels < 1e-3) return cosine;
     for (uint i = 0u; i < steps; ++i) {
         const float part = (float(i) + c.noise.y) / float(steps);
-        const ivec2 at = ivec2(floor(c.pixel + way * (max(part * part * pixels, float(i) + 1.0) / pixels)));
+        const ivec2 at = ivec2(floor(c.pixel + way * (max(part * pixels, float(i) + 1.0) / pixels)));
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(view.extent)))) continue;
         ++tally.taps;
         const Place tap = place_at(ivec3(at, c.sample_index));
-        const vec3 d = tap.position - c.place.position;
-        if (!tap.exists || dot(d, d) > push.radius * push.radius) continue;
-        ++tally.in_reach;
+        if (!tap.exists) continue;
+        vec3 d = tap.position - c.place.position;
+        if (dot(d, d) > push.radius * push.radius) {
+            if (!goes_on(last, tap)) continue;
+            d = leaving_sphere(last.position - c.place.position, d);
+        } else {
+            last = tap;
+            ++tally.in_reach;
+        }
         const float height = height_of(c.place, tap, d);
         if (height <= 0.0) continue;
         const vec3 lowered = d + c.place.normal * (height - dot(d, c.place.normal));

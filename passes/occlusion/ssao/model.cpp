@@ -24,8 +24,11 @@ namespace {
 
 using std::numbers::pi;
 
-// Pixels and shares of the radius within which float and double may disagree.
-constexpr double undecided_pixels = 5e-4, undecided_radius = 1e-5;
+// Pixels, and shares of a threshold, within which float and double may disagree.
+constexpr double undecided_pixels = 5e-4, undecided_share = 1e-5;
+
+/// Whether rounding decides which of two numbers is larger.
+bool is_close(double a, double b) { return std::abs(a / b - 1) < undecided_share; }
 
 struct Place {
     bool exists = false;
@@ -117,7 +120,7 @@ public:
 private:
     /// Slices through the way to the eye: what is left of the cosine-weighted arcs between horizons.
     double slices() {
-        constexpr std::array<std::array<int, 2>, 4> kernels = {{{2, 2}, {2, 3}, {4, 3}, {8, 6}}};
+        constexpr std::array<std::array<int, 2>, 4> kernels = {{{1, 4}, {1, 6}, {2, 6}, {4, 12}}};
         const auto [count, steps] = kernels[scene_.params.taps];
         const glm::dvec3 x_axis = glm::normalize(glm::dvec3(1, 0, 0) - to_eye_ * to_eye_.x);
         const glm::dvec3 y_axis = glm::cross(to_eye_, x_axis);
@@ -143,13 +146,20 @@ private:
         const glm::dvec2 way = reach(along);
         const double pixels = glm::length(way);
         double least = 2 * pi;
+        const Place* last = &center_;
         if (pixels < 1e-3) return least;
         for (int i = 0; i < steps; ++i) {
             const double part = (i + noise_.y) / steps;
-            const glm::dvec2 tapped = pixel_ + way / pixels * std::max(part * part * pixels, i + 1.0);
-            const Place* tap = within_radius(tapped);
+            const glm::dvec2 tapped = pixel_ + way / pixels * std::max(part * pixels, i + 1.0);
+            const Place* tap = surface_under(tapped);
             if (!tap) continue;
-            const glm::dvec3 d = tap->position - center_.position;
+            glm::dvec3 d = tap->position - center_.position;
+            if (glm::length(d) > scene_.radius) {
+                if (!is_one_plane(*last, *tap)) continue;
+                d = on_sphere(last->position - center_.position, d);
+            } else {
+                last = tap;
+            }
             const double seen = std::abs(glm::dot(center_.position, center_.normal)),
                          other = std::abs(glm::dot(tap->position, center_.normal));
             const double lower = double(scene_.params.depth_error) * (seen + other) + double(scene_.params.bias) * glm::length(d);
@@ -182,16 +192,32 @@ private:
         return way * share;
     }
 
-    /// The surface under a place of the picture, where it is near enough to occlude.
-    const Place* within_radius(const glm::dvec2& tapped) {
+    /// The surface under a place of the picture, if there is one.
+    const Place* surface_under(const glm::dvec2& tapped) {
         undecided_ = undecided_ || is_on_border(tapped);
         const glm::ivec2 at(glm::floor(tapped));
-        if (!scene_.has(at)) return nullptr;
+        if (!scene_.has(at) || !scene_.at(at, sample_).exists) return nullptr;
         const Place& tap = scene_.at(at, sample_);
-        if (!tap.exists) return nullptr;
-        const double away = glm::length(tap.position - center_.position);
-        undecided_ = undecided_ || std::abs(away / scene_.radius - 1) < undecided_radius;
-        return away <= scene_.radius ? &tap : nullptr;
+        undecided_ = undecided_ || is_close(glm::length(tap.position - center_.position), scene_.radius);
+        return &tap;
+    }
+
+    /// Normals within 26 degrees and a way of less than .02 of its length off the first one's plane.
+    bool is_one_plane(const Place& a, const Place& b) {
+        const glm::dvec3 way = b.position - a.position;
+        const double cosine = glm::dot(a.normal, b.normal), off = std::abs(glm::dot(way, a.normal)) / glm::length(way);
+        undecided_ = undecided_ || is_close(cosine, 0.9) || is_close(off, 0.02);
+        return cosine > 0.9 && off < 0.02;
+    }
+
+    /// Where the way from inside the sphere of the radius to outside meets it: by halving.
+    glm::dvec3 on_sphere(const glm::dvec3& inside, const glm::dvec3& outside) const {
+        double low = 0, high = 1;
+        for (int i = 0; i < 50; ++i) {
+            const double middle = 0.5 * (low + high);
+            (glm::length(glm::mix(inside, outside, middle)) > scene_.radius ? high : low) = middle;
+        }
+        return glm::mix(inside, outside, low);
     }
 
     /// docs/algorithms/deferred.md 8.4: (sum w v / sum w + .2) / 1.2.
@@ -207,10 +233,11 @@ private:
                 const double turn = 2 * pi * (i + 0.5 * ring + noise_.x) / count;
                 const glm::dvec2 uv = k * glm::dvec2(0.5 / 1024, 0.5 / 768) * glm::dvec2(std::cos(turn), std::sin(turn));
                 const glm::dvec2 tapped = glm::clamp(pixel_ + uv * size * (double(ring) / ring_count), glm::dvec2(0.5), last);
-                const Place* tap = within_radius(tapped);
-                if (!tap || tap->position == center_.position) continue;
-                const glm::dvec3 d = tap->position - center_.position;
-                const double l = glm::length(d), influence = std::max(0.0, glm::dot(d / l, center_.normal));
+                const Place* tap = surface_under(tapped);
+                const glm::dvec3 d = tap ? tap->position - center_.position : glm::dvec3(0);
+                const double l = glm::length(d);
+                if (l == 0 || l > scene_.radius) continue;
+                const double influence = std::max(0.0, glm::dot(d / l, center_.normal));
                 const double weight = (influence + 0.01) * std::clamp(1 - l / scene_.radius, 0.0, 1.0);
                 weights += weight;
                 values += weight * glm::mix(1.0, std::min(l, 1.0), influence);

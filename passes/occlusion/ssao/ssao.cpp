@@ -22,11 +22,12 @@ constexpr auto edge_stops = choice_names({{edge_stop_plane, "plane"}, {edge_stop
 constexpr auto noises = choice_names({{noise_none, "none"}, {noise_interleaved, "interleaved"}, {noise_hash, "hash"}});
 constexpr auto material_rules = choice_names({{material_product, "product"}, {material_min, "min"}});
 
-/// Directions and taps along each. A slice has taps on both sides; rings are those of docs/algorithms/deferred.md 8.4.
+/// Directions and taps along each. A slice has taps on both sides, and few slices with many taps are better than many with few:
+/// the blur averages slices of other pixels, but no average finds a missed occluder. Rings: docs/algorithms/deferred.md 8.4.
 struct Kernel {
     std::uint32_t directions, steps;
 };
-constexpr Kernel horizon_kernels[] = {{2, 2}, {2, 3}, {4, 3}, {8, 6}};
+constexpr Kernel horizon_kernels[] = {{1, 4}, {1, 6}, {2, 6}, {4, 12}};
 constexpr Kernel xray_kernels[] = {{4, 2}, {4, 3}, {8, 3}, {16, 6}};
 
 /// What the steps of a frame share.
