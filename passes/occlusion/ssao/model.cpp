@@ -1,6 +1,6 @@
 // Screen-space ambient occlusion in double, from docs/algorithms/deferred.md 8.4 and Jimenez et al. 2016. Which texel a tap reads
-// hangs on rounding where it lies on a border between two, or at the radius: such texels are undecided, as are those that mix
-// them.
+// hangs on rounding where it lies on a border between two, and whether it counts where it lies at the radius: what both ways
+// differ by is followed through blur and upsampling, and texels that it changes visibly are undecided.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,11 +24,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Pixels, and shares of a threshold, within which float and double may disagree.
-constexpr double undecided_pixels = 5e-4, undecided_share = 1e-5;
-
-/// Whether rounding decides which of two numbers is larger.
-bool is_close(double a, double b) { return std::abs(a / b - 1) < undecided_share; }
+// Pixels, and shares of a threshold, within which float and double may disagree; and how much of visibility may hang on that.
+constexpr double close_pixels = 1e-4, close_share = 1e-5, most_spread = 1e-3;
 
 struct Place {
     bool exists = false;
@@ -38,7 +35,7 @@ struct Place {
 
 struct Estimate {
     double visibility = 1;
-    bool undecided = false;
+    double spread = 0;  ///< what it may differ by, if rounding decides otherwise
 };
 
 /// The places of all samples, and what estimators ask of the frame.
@@ -95,12 +92,6 @@ glm::dvec2 noise_at(const Scene& scene, glm::uvec2 texel) {
     return {((x + y) % 4 * 4 + x) / 16.0, ((y + 4 - x) % 4 + 0.5) / 4};
 }
 
-/// Whether rounding decides which pixel a place is in.
-bool is_on_border(const glm::dvec2& place) {
-    const glm::dvec2 part = glm::abs(place - glm::round(place));
-    return std::min(part.x, part.y) < undecided_pixels;
-}
-
 /// One estimate at a sample.
 class Estimator {
 public:
@@ -113,11 +104,37 @@ public:
           to_eye_(-glm::normalize(center_.position)) {}
 
     Estimate run() {
-        const double visibility = scene_.params.form == form_xray ? rings() : slices();
-        return {std::isnan(visibility) ? 1 : std::clamp(visibility, 0.0, 1.0), undecided_};
+        const double visibility = visible();
+        if (!is_close_) return {visibility, 0};
+        decides_otherwise_ = true;
+        return {visibility, std::abs(visibility - visible())};
     }
 
 private:
+    double visible() {
+        const double visibility = scene_.params.form == form_xray ? rings() : slices();
+        return std::isnan(visibility) ? 1 : std::clamp(visibility, 0.0, 1.0);
+    }
+
+    /// a > b; the other way, if that is asked for, where rounding decides.
+    bool is_more(double a, double b) {
+        const bool is_close = std::abs(a / b - 1) < close_share;
+        is_close_ = is_close_ || is_close;
+        return (a > b) != (is_close && decides_otherwise_);
+    }
+
+    /// The pixel of a place; its neighbor, if that is asked for, where rounding decides.
+    glm::ivec2 pixel_under(const glm::dvec2& place) {
+        const glm::dvec2 border = glm::round(place), off = place - border;
+        glm::ivec2 pixel(glm::floor(place));
+        for (int axis = 0; axis < 2; ++axis) {
+            if (std::abs(off[axis]) > close_pixels) continue;
+            is_close_ = true;
+            if (decides_otherwise_) pixel[axis] = int(border[axis]) - (off[axis] >= 0 ? 1 : 0);
+        }
+        return pixel;
+    }
+
     /// Slices through the way to the eye: what is left of the cosine-weighted arcs between horizons.
     double slices() {
         constexpr std::array<std::array<int, 2>, 4> kernels = {{{1, 4}, {1, 6}, {2, 6}, {4, 12}}};
@@ -154,7 +171,7 @@ private:
             const Place* tap = surface_under(tapped);
             if (!tap) continue;
             glm::dvec3 d = tap->position - center_.position;
-            if (glm::length(d) > scene_.radius) {
+            if (is_more(glm::length(d), scene_.radius)) {
                 if (!is_one_plane(*last, *tap)) continue;
                 d = on_sphere(last->position - center_.position, d);
             } else {
@@ -194,20 +211,15 @@ private:
 
     /// The surface under a place of the picture, if there is one.
     const Place* surface_under(const glm::dvec2& tapped) {
-        undecided_ = undecided_ || is_on_border(tapped);
-        const glm::ivec2 at(glm::floor(tapped));
-        if (!scene_.has(at) || !scene_.at(at, sample_).exists) return nullptr;
-        const Place& tap = scene_.at(at, sample_);
-        undecided_ = undecided_ || is_close(glm::length(tap.position - center_.position), scene_.radius);
-        return &tap;
+        const glm::ivec2 at = pixel_under(tapped);
+        return scene_.has(at) && scene_.at(at, sample_).exists ? &scene_.at(at, sample_) : nullptr;
     }
 
     /// Normals within 26 degrees and a way of less than .02 of its length off the first one's plane.
     bool is_one_plane(const Place& a, const Place& b) {
         const glm::dvec3 way = b.position - a.position;
         const double cosine = glm::dot(a.normal, b.normal), off = std::abs(glm::dot(way, a.normal)) / glm::length(way);
-        undecided_ = undecided_ || is_close(cosine, 0.9) || is_close(off, 0.02);
-        return cosine > 0.9 && off < 0.02;
+        return is_more(cosine, 0.9) && is_more(0.02, off);
     }
 
     /// Where the way from inside the sphere of the radius to outside meets it: by halving.
@@ -251,7 +263,7 @@ private:
     const std::uint32_t sample_;
     const glm::dvec2 noise_;
     const glm::dvec3 to_eye_;
-    bool undecided_ = false;
+    bool is_close_ = false, decides_otherwise_ = false;
 };
 
 /// How much a surface says about another, 0 to 1.
@@ -298,8 +310,7 @@ void fill(const Scene& scene, Estimates& made, const Make& make) {
 /// 5 x 5 texels, the outer ones half.
 Estimate blurred(const Scene& scene, const Estimates& from, glm::ivec2 texel, std::uint32_t s) {
     const Place& center = scene.at(texel * int(from.divisor), s);
-    double sum = 0, weights = 0;
-    Estimate result;
+    double sum = 0, spreads = 0, weights = 0;
     for (int dy = -2; dy <= 2; ++dy)
         for (int dx = -2; dx <= 2; ++dx) {
             const glm::ivec2 other = texel + glm::ivec2(dx, dy);
@@ -309,19 +320,18 @@ Estimate blurred(const Scene& scene, const Estimates& from, glm::ivec2 texel, st
             const double weight = fits * (std::abs(dx) == 2 ? 0.5 : 1) * (std::abs(dy) == 2 ? 0.5 : 1);
             const Estimate& there = from.at(std::uint32_t(other.x), std::uint32_t(other.y), s);
             sum += weight * there.visibility;
+            spreads += weight * there.spread;
             weights += weight;
-            result.undecided = result.undecided || (weight > 0 && there.undecided);
         }
-    result.visibility = sum / weights;
-    return result;
+    return {sum / weights, spreads / weights};
 }
 
 /// Bilinear among the four around, by fit.
 Estimate upsampled(const Scene& scene, const Estimates& from, glm::ivec2 pixel, std::uint32_t s) {
     const Place& center = scene.at(pixel, s);
     const glm::dvec2 place = glm::dvec2(pixel) / 2.0, part = glm::fract(place);
-    double sum = 0, weights = 0, nearest = HUGE_VAL;
-    Estimate result, of_nearest;
+    double sum = 0, spreads = 0, weights = 0, nearest = HUGE_VAL;
+    Estimate of_nearest;
     for (int i = 0; i < 4; ++i) {
         const glm::dvec2 far(i % 2, i / 2);
         const glm::dvec2 share = glm::mix(1.0 - part, part, far);
@@ -332,14 +342,12 @@ Estimate upsampled(const Scene& scene, const Estimates& from, glm::ivec2 pixel, 
         const Estimate& there = from.at(x, y, 0);
         const double weight = share.x * share.y * fit(center, other, scene.params.edge_stop);
         sum += weight * there.visibility;
+        spreads += weight * there.spread;
         weights += weight;
-        result.undecided = result.undecided || there.undecided;
         const double off = other.exists ? std::abs(glm::dot(other.position - center.position, center.normal)) : HUGE_VAL;
-        if (off < nearest) nearest = off, of_nearest.visibility = there.visibility;
+        if (off < nearest) nearest = off, of_nearest = there;
     }
-    result.undecided = result.undecided || std::abs(weights - 1e-3) < 1e-6;
-    result.visibility = weights >= 1e-3 ? sum / weights : of_nearest.visibility;
-    return result;
+    return weights >= 1e-3 ? Estimate{sum / weights, spreads / weights} : of_nearest;
 }
 
 ReferenceImage image_of(const Scene& scene, const Estimates& made) {
@@ -354,7 +362,7 @@ ReferenceImage image_of(const Scene& scene, const Estimates& made) {
                 const bool is_plain = is_plain_pixel(scene.input, x, y);
                 const Place& place = scene.at({int(x), int(y)}, is_plain ? 0 : s);
                 if (place.exists) image.at(x, y, s).x = occlusion_of(estimate.visibility, place.material, rule);
-                image.undecided[image.index(x, y, s)] = estimate.undecided;
+                image.undecided[image.index(x, y, s)] = estimate.spread > most_spread;
             }
     return image;
 }

@@ -221,7 +221,7 @@ Technique ssao() {
             .approximates = approximates,
             .model = ssao_model,
             .tolerance = {.rmse = 1e-3,
-                          .worst = 4e-3,
+                          .worst = 3e-3,
                           .because = "half floats of undefined rounding in up to three images, 5e-4 each; arc cosines of 2e-4"}};
 }
 
