@@ -81,6 +81,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
     {"far_wall", "Does stored depth make stripes on planes from 1 m to 2 km?", 64, 36, scenario::far_wall},
     {"crossing_planes", "Is the line smooth along which sheets pass through each other, where no triangle ends?", 96, 54,
      scenario::crossing_planes},
+    {"corners", "How much ambient light reaches a corner, the foot of a pillar and the floor under a ball?", 64, 36,
+     scenario::corners},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

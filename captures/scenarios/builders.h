@@ -66,6 +66,8 @@ Frame sixteen_normals(std::uint32_t frame, const ScenarioOptions&);
 Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
 // crossing_planes.cpp
 Frame crossing_planes(std::uint32_t frame, const ScenarioOptions&);
+// corners.cpp
+Frame corners(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

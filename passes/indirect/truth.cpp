@@ -1,10 +1,8 @@
 #include "passes/indirect/truth.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -12,6 +10,7 @@
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/leg_blockers.h"
 #include "passes/reference/decoded.h"
+#include "passes/reference/directions.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
 
@@ -20,51 +19,7 @@ namespace {
 
 using indirect::DirectLight, indirect::LegBlockers, indirect::LitSide;
 
-// Metres a ray starts off its surface, at least and per metre of view depth: the coarsest G-buffer's positions are up to 4.9e-4
-// of their depth behind it (passes/gbuffer).
-constexpr double least_lift = 1e-3, lift_per_metre = 5e-4;
 constexpr double endless = 1e9;  // metres
-
-/// SplitMix64 (Steele, Lea and Flood 2014), begun by what the numbers are for.
-class Random {
-public:
-    Random(std::uint64_t pixel, std::uint64_t batch) : state_((pixel * 0x2545f4914f6cdd1du) ^ (batch * 0xd1342543de82ef95u)) {}
-    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-    std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
-
-private:
-    std::uint64_t next() {
-        state_ += 0x9e3779b97f4a7c15u;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    std::uint64_t state_;
-};
-
-/// One point in each of side x side parts of the unit square.
-std::vector<glm::dvec2> stratified(std::uint32_t side, Random& random) {
-    std::vector<glm::dvec2> points;
-    for (std::uint32_t i = 0; i < side * side; ++i)
-        points.push_back(glm::dvec2(i % side + random.unit(), i / side + random.unit()) / double(side));
-    return points;
-}
-
-/// The same in any order (Fisher and Yates), so that they pair with other points without a pattern.
-std::vector<glm::dvec2> shuffled(std::uint32_t side, Random& random) {
-    std::vector<glm::dvec2> points = stratified(side, random);
-    for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.below(i)]);
-    return points;
-}
-
-/// Distributed by the cosine to the normal: equal areas of the unit square are equal shares of irradiance.
-glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
-    const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(helper, normal)), v = glm::cross(normal, u);
-    const double sine = std::sqrt(place.x), angle = 2 * std::numbers::pi * place.y;
-    return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
-}
 
 /// Gathers for one sample after the other.
 class Gathering {
@@ -75,7 +30,7 @@ public:
     }
 
     /// The mean over a batch of paths: irradiance / pi.
-    glm::dvec3 batch(const LitSide& sample, Random random) const {
+    glm::dvec3 batch(const LitSide& sample, DrawnNumbers random) const {
         std::vector<Leg> legs(directions_.bounces);
         for (Leg& leg : legs) {
             leg.directions = &leg == &legs.front() ? stratified(directions_.side, random) : shuffled(directions_.side, random);
@@ -96,7 +51,7 @@ private:
     /// What comes along a path, which has these legs yet to go.
     glm::dvec3 radiance(const LitSide& sample, std::span<const Leg> legs, std::size_t path) const {
         const glm::dvec3 direction = cosine_direction(sample.normal, legs.front().directions[path]);
-        const glm::dvec3 origin = sample.position + sample.normal * std::max(least_lift, lift_per_metre * sample.position.z);
+        const glm::dvec3 origin = ray_start(sample.position, sample.normal);
         const std::optional<Hit> hit = scene_.closest(origin, direction, 0, endless);
         if (!hit) return glm::dvec3(0);
         const Attributes attributes = attributes_at(frame_, hit->draw, hit->triangle, hit->barycentric);
@@ -170,7 +125,7 @@ ReferenceImage gathered_light(const StageInput& input, const GatheredDirections&
         const LitSide at = sample_at(input, x, y, sample);
         const std::size_t texel = normal.index(x, y, sample);
         std::vector<glm::dvec3> batches;
-        for (std::uint32_t i = 0; i < directions.batches; ++i) batches.push_back(gathering.batch(at, Random(texel + 1, i + 1)));
+        for (std::uint32_t i = 0; i < directions.batches; ++i) batches.push_back(gathering.batch(at, DrawnNumbers(texel + 1, i + 1)));
         const auto [mean, error] = estimate(batches);
         light.texels[texel] = glm::dvec4(mean, 1);
         light.standard_error[texel] = error;

@@ -13,12 +13,13 @@ std::optional<StandardError> standard_error(const ReferenceImage& image) {
     std::size_t compared = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         if (!decided(image, image, i)) continue;
-        const glm::dvec3 error = image.standard_error[i], color(image.texels[i]);
+        const glm::dvec3 error = image.standard_error[i], color(image.texels[i]);  // channels without a meaning are 0
         squares += glm::dot(error, error);
         power += glm::dot(color, color);
         ++compared;
     }
-    StandardError expected{.rmse = std::sqrt(squares / std::max(1.0, 3.0 * double(compared)))};
+    const double channels = std::min(image.channels, 3u);
+    StandardError expected{.rmse = std::sqrt(squares / std::max(1.0, channels * double(compared)))};
     expected.relative = power > 0 ? std::sqrt(squares / power) : expected.rmse;
     return expected;
 }

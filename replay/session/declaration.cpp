@@ -165,10 +165,14 @@ public:
         const Scope scope = graph.scopes()[act.scope];
         if (!leaves_images()) graph.drop_scope(act.scope);
         graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
+        const bool makes_nothing = std::ranges::none_of(*outputs_, [&](const auto& output) { return has_image(output.first); });
         for (const auto& [name, texels] : *outputs_) {
             const FrameImageRow* row = find_frame_image(name);
-            if (!row || !(d_->images.*row->member) || std::ranges::count(info(stage_).leaves, name) > 0) continue;
+            if (!row || std::ranges::count(info(stage_).leaves, name) > 0) continue;
             Image& image = d_->images.*row->member;
+            // Later stages do without the outputs of a baseline that declares nothing; of given ones they do not.
+            if (makes_nothing) image = graph.create(name, shape_of(texels));
+            if (!image) continue;
             const ImportId id{first_given_import + d_->given.size()};
             d_->given.emplace_back(id, &texels);
             graph.compute("shaders/given_image.comp")
@@ -180,6 +184,17 @@ public:
     }
 
 private:
+    bool has_image(std::string_view name) const {
+        const FrameImageRow* row = find_frame_image(name);
+        return row && (d_->images.*row->member);
+    }
+
+    static Shape shape_of(const ReferenceImage& texels) {
+        return {.extent = {texels.width, texels.height},
+                .format = texels.channels == 1 ? Format::r32f : Format::rgba32f,
+                .layers = texels.layers};
+    }
+
     /// Whether steps of the act make what no output can stand for.
     bool leaves_images() const {
         const auto is_left = [&](std::string_view image) { return bool(d_->images.*find_frame_image(image)->member); };

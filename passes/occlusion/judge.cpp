@@ -1,0 +1,66 @@
+#include "passes/occlusion/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/reference/decoded.h"
+#include "passes/reference/difference.h"
+
+namespace strata {
+namespace {
+
+const ReferenceImage* find(const ImageSet& images, std::string_view name) {
+    const auto found = images.find(name);
+    return found == images.end() ? nullptr : &found->second;
+}
+
+/// What the hemisphere's light is at a sample before the screen's occlusion, root mean square over the colors; 0 of an unlit
+/// surface.
+double ambient_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    const ReferenceImage *normal = find(input.before, "surface_normal"), *color = find(input.before, "surface_color"),
+                         *material = find(input.before, "surface_material");
+    if (!normal || !color || !material) return 0;
+    const DecodedTexels texels{normal->at(x, y, sample), color->at(x, y, sample), material->at(x, y, sample)};
+    const SurfacePoint p = decoded_surface(input.frame, texels, x, y);
+    if (p.model == LightingModel::unlit) return 0;
+    const glm::dvec3 light = hemisphere_light(input.frame, p);
+    return std::sqrt(glm::dot(light, light) / 3);
+}
+
+/// Sums over samples that are compared.
+struct Sums {
+    double squares = 0, worst = 0, errors = 0, count = 0;
+    double light_squares = 0, light_power = 0;
+
+    void add(double error, double wanted, double ambient) {
+        squares += error * error;
+        worst = std::max(worst, std::abs(error));
+        errors += error;
+        ++count;
+        light_squares += error * error * ambient * ambient;
+        light_power += wanted * wanted * ambient * ambient;
+    }
+};
+
+}  // namespace
+
+std::vector<Figure> occlusion_judge(const ImageSet& result, const ImageSet& truth, const StageInput& input) {
+    const ReferenceImage &got = result.at("occlusion"), &wanted = truth.at("occlusion");
+    const ReferenceImage* normal = find(input.before, "surface_normal");
+    Sums sums;
+    for (std::uint32_t sample = 0; sample < wanted.layers; ++sample)
+        for (std::uint32_t y = 0; y < wanted.height; ++y)
+            for (std::uint32_t x = 0; x < wanted.width; ++x) {
+                const std::size_t i = wanted.index(x, y, sample);
+                if (!decided(got, wanted, i) || (normal && normal->texels[i].w <= 0)) continue;
+                sums.add(signed_error(got.texels[i].x, wanted.texels[i].x), wanted.texels[i].x, ambient_at(input, x, y, sample));
+            }
+    const double count = std::max(1.0, sums.count);
+    const double light = sums.light_power > 0 ? std::sqrt(sums.light_squares / sums.light_power) : 0;
+    return {{"rmse", "", std::sqrt(sums.squares / count)},
+            {"worst", "", sums.worst},
+            {"bias", "", std::isnan(sums.errors) ? HUGE_VAL : sums.errors / count},
+            {"ambient relative rmse", "", std::isnan(light) ? HUGE_VAL : light}};
+}
+
+}  // namespace strata

@@ -1,0 +1,15 @@
+// How far ambient occlusion is from traced visibility, and what that does to ambient light.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// Of samples with a surface: the root mean square error of the occlusion image, its largest, its mean (result - truth; above 0
+/// it is too bright), and the error of the hemisphere's light after occlusion relative to that light's root mean square.
+/// Without the images of surfaces, every sample counts and light is not judged.
+std::vector<Figure> occlusion_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

@@ -1,0 +1,49 @@
+#include "passes/reference/directions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace strata {
+namespace {
+
+// Metres a ray starts off its surface, at least and per metre of view depth: the coarsest G-buffer's positions are up to 4.9e-4
+// of their depth behind it (passes/gbuffer).
+constexpr double least_lift = 1e-3, lift_per_metre = 5e-4;
+
+}  // namespace
+
+std::uint64_t DrawnNumbers::next() {
+    state_ += 0x9e3779b97f4a7c15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+std::vector<glm::dvec2> stratified(std::uint32_t side, DrawnNumbers& random) {
+    std::vector<glm::dvec2> points;
+    for (std::uint32_t i = 0; i < side * side; ++i)
+        points.push_back(glm::dvec2(i % side + random.unit(), i / side + random.unit()) / double(side));
+    return points;
+}
+
+std::vector<glm::dvec2> shuffled(std::uint32_t side, DrawnNumbers& random) {
+    std::vector<glm::dvec2> points = stratified(side, random);
+    for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.below(i)]);
+    return points;
+}
+
+glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
+    const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, normal)), v = glm::cross(normal, u);
+    const double sine = std::sqrt(place.x), angle = 2 * std::numbers::pi * place.y;
+    return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
+}
+
+glm::dvec3 ray_start(const glm::dvec3& position, const glm::dvec3& normal) {
+    return position + normal * std::max(least_lift, lift_per_metre * position.z);
+}
+
+}  // namespace strata
