@@ -23,7 +23,7 @@ constexpr std::array<Strip, 5> strips = {{{"matt", LightingModel::lambert, 1, 0}
                                           {"glossy", LightingModel::ggx, 0.5f, 0},
                                           {"metal", LightingModel::ggx, 0.3f, 1}}};
 
-void add_room(FrameBuilder& builder) {
+void add_bare_room(FrameBuilder& builder) {
     const std::uint32_t slab = builder.add(box({4, 0.1f, 0.4f}));
     double z = -1.6;
     for (const Strip& strip : strips) {
@@ -103,7 +103,7 @@ void add_areas(Frame& frame, double sway, std::uint32_t picture) {
 Frame light_types(std::uint32_t frame, const ScenarioOptions& options) {
     FrameBuilder builder(frame, options);
     builder.look({.eye = {0, 1.7, 3.6}, .target = {0, 0.7, -1}, .vertical_fov = 0.75, .swing = 0.1});
-    add_room(builder);
+    add_bare_room(builder);
     const std::uint32_t slide = builder.add(checker(4, {1, 0.8f, 0.3f}, {0.05f, 0.1f, 0.3f}));
     const double sway = 0.2 * (1 - builder.progress());
     add_points(builder.frame, sway, slide);
