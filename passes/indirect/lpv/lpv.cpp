@@ -1,6 +1,5 @@
 // Light propagation volumes: what lights reach is injected into grids and handed from cell to cell.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <string_view>
 #include <vector>
@@ -39,13 +38,6 @@ constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
-
-constexpr std::string_view on_borders =
-    "with half as wide cells, cell borders lie where walls inject their light and cell centers in a wall's plane: rounding "
-    "decides which side receives it";
-constexpr std::array exceptions = {ToleranceException{"cell_scale=1/2", "two_rooms", 3e-2, .6, on_borders},
-                                   ToleranceException{"cell_scale=1/2 iterations=64", "two_rooms", 3e-2, .6, on_borders},
-                                   ToleranceException{"cell_scale=1/2 irradiance=face", "two_rooms", 3e-2, .6, on_borders}};
 
 /// Turns of loops of a fragment that all blockers of the frame are near (passes/indirect/near_blockers.glsl); the last turn of
 /// each loop only finds that it is over. Lanes of a vector take their turns together: each blocker may be that with the most
@@ -313,8 +305,7 @@ Technique lpv() {
         .model = lpv_model,
         .tolerance = {.rmse = 3e-3,
                       .worst = 8e-2,
-                      .because = "half-float image; VPLs within a rounding of a cell's border fall to either side",
-                      .exceptions = exceptions},
+                      .because = "half-float image; VPLs within a rounding of a cell's border fall to either side"},
         .notes = notes};
 }
 

@@ -10,9 +10,9 @@ namespace {
 // Metres that the segment to a cell's middle starts before the surface (docs/algorithms/lighting.md 5.3).
 constexpr double before_surface = 0.01;
 
-// Metres before a border between cells at which the next cell begins to take lights, so that a wall whose lights fall onto the
-// border gives them all to one cell.
-constexpr double before_border = 1e-4;
+// Metres by which lights are moved on along their normals, so that a wall whose lights fall onto a border between cells gives
+// them all to the cells beyond it (docs/algorithms/lighting.md 5.3).
+constexpr double across_border = 1e-4;
 
 /// +x -x +y -y +z -z of a cell, those whose middles are nearest to a place within it first. The place is relative to the middle.
 std::array<glm::ivec3, 6> neighbours_by_distance(const glm::ivec3& cell, const glm::dvec3& place) {
@@ -32,14 +32,14 @@ std::array<glm::ivec3, 6> neighbours_by_distance(const glm::ivec3& cell, const g
 std::optional<glm::uvec3> receiving_cell(const Grid& grid, const VirtualLight& light, const InjectionRule& rule) {
     const double size = grid.cell_size;
     const glm::dvec3 biased = light.position + light.normal * (rule.bias * size);
-    const glm::ivec3 first = cell_at(grid, biased + before_border);
+    const glm::ivec3 first = cell_at(grid, biased + light.normal * across_border);
     if (!is_inside(grid, first)) return std::nullopt;
     const glm::dvec3 start = light.position + light.normal * before_surface;
     const auto takes = [&](const glm::ivec3& cell) {
         return is_inside(grid, cell) && !is_blocked(rule.barriers, {start, cell_middle(grid, cell)}, slack_of(size));
     };
     if (takes(first)) return glm::uvec3(first);
-    const glm::ivec3 ahead = cell_at(grid, light.position + light.normal * size + before_border);
+    const glm::ivec3 ahead = cell_at(grid, light.position + light.normal * (size + across_border));
     if (takes(ahead)) return glm::uvec3(ahead);
     for (const glm::ivec3& cell : neighbours_by_distance(first, in_cells(grid, biased) - glm::dvec3(first) - 0.5))
         if (takes(cell)) return glm::uvec3(cell);

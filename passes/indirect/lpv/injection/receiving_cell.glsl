@@ -10,11 +10,11 @@ layout(constant_id = 11) const uint guards = 0u;  // 1: not into cells that a bl
 layout(set = 0, binding = 3, scalar) buffer Sums { int sums[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
-// Metres before a border of cells at which the next cell begins to take light. Walls like to lie so that their light falls onto borders:
-// the rounding of each texel would decide between two cells.
-const float before_border = 1e-4;
+// Metres by which light is moved on along its normal. Walls like to lie so that their light falls onto a border of cells: the rounding of each
+// texel would decide between the cells on both sides.
+const float across_border = 1e-4;
 
-ivec3 taking_cell(GridPlace grid, vec3 place) { return cell_of(grid, place + before_border); }
+ivec3 taking_cell(GridPlace grid, vec3 place, vec3 n) { return cell_of(grid, place + across_border * n); }
 
 // +x, -x, +y, -y, +z, -z of it.
 ivec3 neighbor(ivec3 cell, uint i) {
@@ -26,7 +26,7 @@ ivec3 neighbor(ivec3 cell, uint i) {
 ivec3 guarded_cell(GridPlace grid, vec3 surface, vec3 n, ivec3 first, vec3 biased) {
     const vec3 from = in_view(surface + 0.01 * n);
     if (!is_stopped(from, in_view(middle_of(grid, first)))) return first;
-    const ivec3 farther = taking_cell(grid, surface + n * grid.cell);
+    const ivec3 farther = taking_cell(grid, surface + n * grid.cell, n);
     if (in_grid(grid, farther) && !is_stopped(from, in_view(middle_of(grid, farther)))) return farther;
     uint tried = 0u;
     for (uint turn = 0u; turn < 6u; ++turn) {
@@ -46,7 +46,7 @@ ivec3 guarded_cell(GridPlace grid, vec3 surface, vec3 n, ivec3 first, vec3 biase
 // None: x < 0. Places are relative to the eye, along the world's axes; bias in cells.
 ivec3 receiving_cell(GridPlace grid, vec3 surface, vec3 n, float bias) {
     const vec3 biased = surface + n * (bias * grid.cell);
-    const ivec3 first = taking_cell(grid, biased);
+    const ivec3 first = taking_cell(grid, biased, n);
     if (!in_grid(grid, first)) {
         atomicAdd(counters.outside, 1u);
         return ivec3(-1);

@@ -8,8 +8,9 @@ namespace strata::indirect {
 
 /// Whether the middle of a cell beside a blocker lies where its side of the blocker begins (ways.shared.h: a millimeter off the
 /// plane), as near as places relative to the eye are rounded. Light that another eye injected and propagated would be read
-/// through the blocker: a dark room was lit by .1 W/m^2 (KeptVolumes.AreLitAnewForAnotherEyeWhereItDecides*). Middles anywhere
-/// else, on the plane, too, lie on the same side for every eye.
+/// through the blocker: of the dark one of two rooms 246 samples were lit, by up to .064 of irradiance / pi where the other had
+/// 2.2 (KeptVolumes.AreLitAnewForAnotherEyeWhereItDecidesOnWhichSideOfAWallAMiddleIs). Middles anywhere else, on the plane, too,
+/// lie on the same side for every eye.
 bool has_middle_of_either_side(const Frame&, const LightGrid&);
 
 }  // namespace strata::indirect
