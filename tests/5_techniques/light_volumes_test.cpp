@@ -106,8 +106,10 @@ TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
                 ASSERT_EQ(table.rows.size(), 65u);
                 const double injected = table.rows.front()[1];
                 EXPECT_GT(injected, 50) << "W";
+                // Rounding of propagation; sums of one float would add as much again to that of energy_true.
+                const double lost = propagation == std::string("linear") ? 1e-6 : 2.5e-7;
                 for (const std::vector<double>& row : table.rows)
-                    EXPECT_NEAR(row[1] + row[2] + row[3], injected, 1e-6 * injected)
+                    EXPECT_NEAR(row[1] + row[2] + row[3], injected, lost * injected)
                         << propagation << ", " << faces << ", step " << row[0];
                 const double absorbed = table.rows.back()[2], escaped = table.rows.back()[3];
                 EXPECT_GT(frame == 0 ? absorbed : escaped, .5 * injected);

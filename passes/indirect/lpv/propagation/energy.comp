@@ -1,5 +1,5 @@
 // A row of the table of energy: what the cells hold before a step, and what was lost up to it, at blockers and over the border. Each is a
-// sum of its own, so that they prove each other. Sums are of two floats: a sum of one loses more than propagation does (README.md).
+// sum of its own, so that they prove each other. Sums are of two floats, so that their rounding does not hide that of propagation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/occlusion/links.glsl"
