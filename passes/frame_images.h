@@ -49,12 +49,12 @@ struct FrameImages {
     Image depth;                         ///< d32f, `samples` samples: reversed, near / z
     Image depth_layers;                  ///< r32f array, layer = sample: the same depth for shaders to read
     Image gbuffer0, gbuffer1, gbuffer2;  ///< arrays, layer = sample; what is in them is the technique's (its decode.glsl)
-    std::uint32_t gbuffer_layout = 0;    ///< index_in_stage of the technique that wrote them: fixes "gbuffer_layout"
+    std::uint32_t gbuffer_layout = 0;    ///< the technique that wrote them and how (gbuffer/layout.shared.h)
     Image emission;  ///< rgba16f array: radiance of emissive and unlit surfaces; a is 1 on a surface, 0 on background
     // what the G-buffer holds, decoded; computed only when somebody asks for it (passes/gbuffer/surfaces.comp)
     Image surface_normal;    ///< rgba32f array: view-space normal xyz, view z (0: no surface)
     Image surface_color;     ///< rgba32f array: base color, roughness
-    Image surface_material;  ///< rgba32f array: lighting model, metallic, occlusion
+    Image surface_material;  ///< rgba32f array: lighting model, metallic, occlusion, place (reference/place_code.h)
     // edges
     Image edges;  ///< r8ui: 1 where every sample of the pixel is shaded alone; none at 1 sample
     // occlusion, indirect

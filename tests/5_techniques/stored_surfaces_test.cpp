@@ -186,8 +186,9 @@ Probed probed(const LayoutRow& row, Written written) {
     const Buffer input = import_values(frame.graph, "probes", ImportId{1}, probes());
     frame.graph.offer(
         "View", import_values(frame.graph, "view", ImportId{2}, std::vector{scene_records(SceneFacts(probed_frame())).view}));
+    const std::uint32_t extent = written == Written::cleared ? 8 : side;
     const auto target = [&](const char* name, Format format) {
-        Image image = frame.graph.create(name, {.extent = {side, side}, .format = format});
+        Image image = frame.graph.create(name, {.extent = {extent, extent}, .format = format});
         frame.graph.clear(image, {});
         return image;
     };
@@ -208,7 +209,7 @@ Probed probed(const LayoutRow& row, Written written) {
         .stores("normals", normals)
         .stores("positions", positions)
         .push(std::uint32_t(written == Written::cleared))
-        .over({side, side});
+        .over({extent, extent});
     frame.graph.keep(normals);
     frame.graph.keep(positions);
     const Execution run = frame.run();

@@ -75,6 +75,18 @@ TEST(GBufferPlaces, PositionsLieUnderTheSampleWhereDepthIsTheSamples) {
     EXPECT_LT(wide, 0x1p-11);
 }
 
+/// The models of later stages read the place out of decoded images, the shaders out of the layout.
+TEST(GBufferPlaces, LaterStagesAndTheirModelsReadTheSamePlace) {
+    for (const char* technique : {"gbuffer/depth_rebuilt", "gbuffer/wide"}) {
+        Request request = on_scenario("sixteen_normals", 4);
+        request.choices = chosen({technique}, {"attributes=sample"});
+        for (const Stage stage : {Stage::lighting, Stage::combine}) {
+            const Accuracy accuracy = must(session_of_scenarios().judge(request, stage, Against::model));
+            expect_proven_within_tolerance(accuracy, *techniques_of(stage).front(), request, "sixteen_normals");
+        }
+    }
+}
+
 /// One sample is the pixel's center: nothing is shaded twice.
 TEST(GBufferPlaces, OneSampleIsTheCenterToTheBit) {
     Session& session = session_of_scenarios();
