@@ -76,6 +76,9 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::courtyard},
     {"fence_and_foliage", "Do a fence and leaves keep their area and their edges from 2 m to 60 m?", 96, 54,
      scenario::fence_and_foliage},
+    {"sixteen_normals", "Which normals does a G-buffer keep badly: on which rings, at which poles?", 64, 36,
+     scenario::sixteen_normals},
+    {"far_wall", "Does stored depth make stripes on planes from 1 m to 2 km?", 64, 36, scenario::far_wall},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

@@ -61,6 +61,9 @@ Frame two_rooms(std::uint32_t frame, const ScenarioOptions&);
 Frame courtyard(std::uint32_t frame, const ScenarioOptions&);
 // fence_and_foliage.cpp
 Frame fence_and_foliage(std::uint32_t frame, const ScenarioOptions&);
+// gbuffer_cases.cpp
+Frame sixteen_normals(std::uint32_t frame, const ScenarioOptions&);
+Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

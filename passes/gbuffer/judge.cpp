@@ -6,14 +6,15 @@
 #include <numbers>
 
 #include "passes/gbuffer/coverage/judge.h"
+#include "passes/reference/place_code.h"
 #include "passes/reference/shade.h"
 
 namespace strata {
 namespace {
 
 struct Sums {
-    double angle = 0, worst_angle = 0, position = 0, color = 0, roughness = 0, metallic = 0, occlusion = 0;
-    double surfaces = 0, disagreeing = 0;
+    double angle = 0, angles = 0, worst_angle = 0, along = 0, across = 0, color = 0, roughness = 0, metallic = 0, occlusion = 0;
+    double surfaces = 0, other_models = 0, disagreeing = 0;
 };
 
 // What is not a number is as wrong as can be; std::max and a comparison would pass over it.
@@ -35,26 +36,34 @@ Texel texel(const ImageSet& images, std::size_t i) {
     return {images.at("surface_normal").texels[i], images.at("surface_color").texels[i], images.at("surface_material").texels[i]};
 }
 
-/// Readers reconstruct positions at the pixel's center; the truth lies under the sample.
-double position_error(const Frame& frame, std::size_t i, double z, double true_z) {
+/// Where a reader of the texel under a sample finds its surface.
+glm::dvec3 read_position(const Frame& frame, std::size_t i, const Texel& t) {
     const View& view = frame.view;
-    const std::size_t pixels = std::size_t(view.width) * view.height;
-    const glm::dvec2 corner(double(i % pixels % view.width), double(i % pixels / view.width));
-    const glm::dvec2 at = corner + sample_position(view.samples, static_cast<std::uint32_t>(i / pixels));
-    const glm::dvec3 wanted = pixel_ray(frame, at.x, at.y) * true_z;
-    const glm::dvec3 got = pixel_ray(frame, corner.x + 0.5, corner.y + 0.5) * z;
-    return glm::length(got - wanted) / glm::length(wanted);
+    const std::size_t pixel = i % (std::size_t(view.width) * view.height);
+    const glm::dvec2 corner(double(pixel % view.width), double(pixel / view.width));
+    const glm::dvec2 at = corner + 0.5 + offset_of_place_code(t.material.w);
+    return pixel_ray(frame, at.x, at.y) * t.normal.w;
+}
+
+/// Along the eye's ray to the true place and across it, relative to the distance.
+void add_position(Sums& sums, const glm::dvec3& got, const glm::dvec3& wanted) {
+    const double distance = glm::length(wanted), along = glm::dot(got - wanted, wanted) / distance;
+    sums.along += square(along / distance);
+    const glm::dvec3 aside = got - wanted - wanted * (along / distance);
+    sums.across += glm::dot(aside, aside) / square(distance);
 }
 
 void add(Sums& sums, const Texel& got, const Texel& wanted) {
     const double angle = degrees_between(got.normal, wanted.normal);
     sums.angle += square(angle);
+    sums.angles += angle;
     sums.worst_angle = std::max(sums.worst_angle, angle);
     const glm::dvec3 color = glm::dvec3(got.color) - glm::dvec3(wanted.color);
     sums.color += glm::dot(color, color) / 3;
     sums.roughness += square(got.color.w - wanted.color.w);
     sums.metallic += square(got.material.y - wanted.material.y);
     sums.occlusion += square(got.material.z - wanted.material.z);
+    sums.other_models += got.material.x != wanted.material.x;
 }
 
 }  // namespace
@@ -69,14 +78,22 @@ std::vector<Figure> gbuffer_judge(const ImageSet& result, const ImageSet& truth,
         if (got.normal.w <= 0 || wanted.normal.w <= 0) continue;
         ++sums.surfaces;
         add(sums, got, wanted);
-        sums.position += square(position_error(input.frame, i, got.normal.w, wanted.normal.w));
+        add_position(sums, read_position(input.frame, i, got), read_position(input.frame, i, wanted));
     }
-    const auto rms = [&](double sum) { return infinite_if_nan(std::sqrt(sum / std::max(1.0, sums.surfaces))); };
-    std::vector<Figure> figures = {
-        {"normal angle rms", "degrees", rms(sums.angle)},    {"normal angle worst", "degrees", sums.worst_angle},
-        {"position rms", "of distance", rms(sums.position)}, {"base color rmse", "", rms(sums.color)},
-        {"roughness rmse", "", rms(sums.roughness)},         {"metallic rmse", "", rms(sums.metallic)},
-        {"occlusion rmse", "", rms(sums.occlusion)},         {"coverage differs", "samples", sums.disagreeing}};
+    const double surfaces = std::max(1.0, sums.surfaces);
+    const auto mean = [&](double sum) { return infinite_if_nan(sum / surfaces); };
+    const auto rms = [&](double sum) { return infinite_if_nan(std::sqrt(sum / surfaces)); };
+    std::vector<Figure> figures = {{"normal angle rms", "degrees", rms(sums.angle)},
+                                   {"normal angle worst", "degrees", sums.worst_angle},
+                                   {"normal angle mean", "degrees", mean(sums.angles)},
+                                   {"position along", "of distance", rms(sums.along)},
+                                   {"position across", "of distance", rms(sums.across)},
+                                   {"base color rmse", "", rms(sums.color), true},
+                                   {"roughness rmse", "", rms(sums.roughness), true},
+                                   {"metallic rmse", "", rms(sums.metallic), true},
+                                   {"occlusion rmse", "", rms(sums.occlusion)},
+                                   {"other lighting model", "%", 100 * mean(sums.other_models)},
+                                   {"coverage differs", "samples", sums.disagreeing, true}};
     std::ranges::copy(gbuffer::coverage_figures(result, truth, input.frame), std::back_inserter(figures));
     return figures;
 }

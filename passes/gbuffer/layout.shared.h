@@ -7,6 +7,7 @@ namespace strata::gbuffer {
 #endif
 
 const uint layout_index_mask = 0xffu;         // index_in_stage of the technique
+const uint layout_decoded = 0xffu;            // no technique: the images are surface_normal, surface_color, surface_material
 const uint layout_shaded_at_sample = 0x100u;  // attributes are the sample's and not the pixel center's
 const uint layout_reads_depth = 0x200u;       // view depth is the depth buffer's
 

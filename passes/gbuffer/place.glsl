@@ -8,4 +8,9 @@ float place_code(vec2 offset) {
     return (steps.x + 4096.0 * steps.y) / 16777216.0;
 }
 
+vec2 offset_of_place_code(float code) {
+    const float y = round(code * 4096.0);  // x is below half a step of y
+    return vec2(code * 16777216.0 - y * 4096.0, y) / 4096.0;
+}
+
 #endif

@@ -18,7 +18,9 @@ StageInfo stage() {
             .truth = gbuffer_truth,
             .judge = gbuffer_judge,
             .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "city_of_boxes", "sun_and_boxes",
-                          "fence_and_foliage"}};
+                          "sixteen_normals", "far_wall", "fence_and_foliage"},
+            // Depth is alike in all layouts, and readers of given surfaces do not read the layout.
+            .leaves = {"depth", "gbuffer0", "gbuffer1", "gbuffer2"}};
 }
 
 }  // namespace strata::gbuffer

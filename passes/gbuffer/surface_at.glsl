@@ -2,6 +2,7 @@
 #ifndef PASSES_GBUFFER_SURFACE_AT_GLSL
 #define PASSES_GBUFFER_SURFACE_AT_GLSL
 #include "passes/gbuffer/layout.shared.h"
+#include "passes/gbuffer/place.glsl"
 #include "passes/gbuffer/surface.glsl"
 #include "passes/gbuffer/decoders.glsl"
 
@@ -20,6 +21,12 @@ vec2 offset_of_sample(int index) {
     return sample_offsets[index];
 }
 
+// Surfaces as they are given in floats (passes/gbuffer/surfaces.h).
+Surface decode_surfaces(GBufferTexel t) {
+    if (!(t.g0.w > 0.0)) return no_surface();
+    return Surface(true, t.g0.xyz, t.g0.w, t.g1.rgb, t.g1.a, t.g2.y, t.g2.z, uint(t.g2.x), offset_of_place_code(t.g2.w));
+}
+
 // x and y: the pixel; z: the sample.
 Surface surface_at(ivec3 at) {
     GBufferTexel t;
@@ -35,6 +42,7 @@ Surface surface_at(ivec3 at) {
         t.sample_offset = offset_of_sample(at.z);
     }
     if ((gbuffer_layout & layout_shaded_at_sample) != 0u) t.shaded_offset = offset_of_sample(at.z);
+    if ((gbuffer_layout & layout_index_mask) == layout_decoded) return decode_surfaces(t);
     return decode_gbuffer(gbuffer_layout & layout_index_mask, t);
 }
 

@@ -1,7 +1,6 @@
 // The G-buffer of whichever layout, decoded into three float images: for reports, models and debugging, never for the frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/gbuffer/place.glsl"
 #include "passes/gbuffer/surface_at.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,6 @@
 #include "passes/gbuffer/surfaces.h"
 
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surface_at.h"
 
 namespace strata::gbuffer {
@@ -14,6 +15,13 @@ void add_surfaces(Graph& graph, FrameImages& frame) {
         .stores("surface_color", frame.surface_color)
         .stores("surface_material", frame.surface_material)
         .over({frame.extent.width, frame.extent.height, frame.samples});
+}
+
+void read_surfaces(FrameImages& frame) {
+    frame.gbuffer0 = frame.surface_normal;
+    frame.gbuffer1 = frame.surface_color;
+    frame.gbuffer2 = frame.surface_material;
+    frame.gbuffer_layout = layout_decoded;
 }
 
 }  // namespace strata::gbuffer

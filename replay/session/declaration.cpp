@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
+#include "passes/gbuffer/surfaces.h"
 
 namespace strata {
 namespace {
@@ -166,7 +167,7 @@ public:
         graph.enter({ScopeKind::given, scope.stage, scope.at, scope.technique});
         for (const auto& [name, texels] : *outputs_) {
             const FrameImageRow* row = find_frame_image(name);
-            if (!row || !(d_->images.*row->member)) continue;
+            if (!row || !(d_->images.*row->member) || std::ranges::count(info(stage_).leaves, name) > 0) continue;
             Image& image = d_->images.*row->member;
             const ImportId id{first_given_import + d_->given.size()};
             d_->given.emplace_back(id, &texels);
@@ -175,6 +176,7 @@ public:
                 .stores("image", image)
                 .over({texels.width, texels.height, texels.layers});
         }
+        if (outputs_->contains("surface_normal")) gbuffer::read_surfaces(d_->images);
     }
 
 private:

@@ -13,6 +13,8 @@
 #include "passes/indirect/judge.h"
 #include "passes/lighting/judge.h"
 #include "passes/reference/difference.h"
+#include "passes/reference/place_code.h"
+#include "passes/reference/shade.h"
 #include "passes/reference/standard_error.h"
 #include "passes/transparency/judge.h"
 #include "tests/4_references/tiny_frame.h"
@@ -172,16 +174,45 @@ TEST(gbuffer_judge, gives_each_attribute_a_figure_of_its_own) {
     const double angle = std::numbers::pi / 6;
     got.at("surface_normal").texels[2] = {std::sin(angle), 0, -std::cos(angle), 6};
     got.at("surface_color").texels[0] = {.5, .8, .5, .2};
-    got.at("surface_material").texels[1] = {0, .9, .4, 0};
+    got.at("surface_material").texels[1] = {3, .9, .4, 0};
     const Figures figures = gbuffer_figures(got, truth);
     EXPECT_NEAR(figures.at("normal angle rms"), 30 / std::sqrt(3), 1e-9);
     EXPECT_NEAR(figures.at("normal angle worst"), 30, 1e-9);
-    EXPECT_NEAR(figures.at("position rms"), .2 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("normal angle mean"), 10, 1e-9);
+    EXPECT_NEAR(figures.at("position along"), .2 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("position across"), 0, 1e-9);
     EXPECT_NEAR(figures.at("base color rmse"), std::sqrt(.09 / 9), 1e-9);
     EXPECT_NEAR(figures.at("roughness rmse"), .3 / std::sqrt(3), 1e-9);
     EXPECT_NEAR(figures.at("metallic rmse"), .4 / std::sqrt(3), 1e-9);
     EXPECT_NEAR(figures.at("occlusion rmse"), .1 / std::sqrt(3), 1e-9);
+    EXPECT_NEAR(figures.at("other lighting model"), 100. / 3, 1e-9);
     EXPECT_EQ(figures.at("coverage differs"), 0);
+}
+
+/// A depth that is right at the wrong place of the pixel: a quarter of a pixel aside is an error across the ray, and no other.
+TEST(gbuffer_judge, tells_positions_beside_the_ray_from_those_along_it) {
+    const ImageSet truth = decoded_surfaces();
+    ImageSet got = truth;
+    got.at("surface_material").texels[1].w = place_code({.25, 0});
+    const Frame frame = tiny::frame(4, 1);
+    const glm::dvec3 right = pixel_ray(frame, 1.5, .5), wrong = pixel_ray(frame, 1.75, .5);
+    const double sine = glm::length(glm::cross(right, wrong)) / glm::dot(right, right);
+    const Figures figures = gbuffer_figures(got, truth);
+    EXPECT_NEAR(figures.at("position across"), sine / std::sqrt(3), 1e-9);
+    const double along = glm::dot(wrong - right, right) / glm::dot(right, right);
+    EXPECT_NEAR(figures.at("position along"), std::abs(along) / std::sqrt(3), 1e-9);
+}
+
+TEST(PlaceCode, KeepsStandardSamplesExactlyAndOthersTo8192thsOfAPixel) {
+    for (std::uint32_t sample = 0; sample < 4; ++sample) {
+        const glm::dvec2 offset = sample_position(4, sample) - .5;
+        EXPECT_EQ(offset_of_place_code(double(float(place_code(offset)))), offset);
+    }
+    EXPECT_EQ(place_code({0, 0}), 0) << "the pixel's center is 0, which images without a place have";
+    for (const glm::dvec2 offset : {glm::dvec2(.3, -.3), glm::dvec2(-.001, .001), glm::dvec2(.4996, -.4996)}) {
+        const glm::dvec2 kept = offset_of_place_code(double(float(place_code(offset))));
+        EXPECT_LE(glm::length(kept - offset), .75 / 4096) << offset.x;
+    }
 }
 
 TEST(gbuffer_judge, counts_surfaces_that_are_missing_or_too_many_and_leaves_out_undecided_samples) {

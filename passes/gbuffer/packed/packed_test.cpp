@@ -104,5 +104,31 @@ TEST(PackedGBuffer, NoValueIsSubnormalOrInfinite) {
 
 TEST(PackedGBuffer, DepthsBeforeTheNearPlaneAreTheNearPlane) { EXPECT_EQ(half_depth(-3, 0.5), 0.5); }
 
+/// docs/algorithms/deferred.md 9, H3: the stored x and y of a normal may be longer than 1 by rounding, by 2^-10 at most; z is
+/// then 0 and not a root of less.
+TEST(PackedGBuffer, NormalsOnTheRingStayNumbers) {
+    double longest = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const double a = 2 * std::numbers::pi * i / 100000;
+        const glm::dvec2 q = packed_halves({std::cos(a), std::sin(a), 0});
+        longest = std::max(longest, glm::length(2.0 * glm::abs(q) - 1.0));
+        ASSERT_NEAR(glm::length(packed_normal(q)), 1, 1e-12);
+    }
+    EXPECT_GT(longest, 1);
+    EXPECT_LE(longest, 1 + 0x1p-10);
+}
+
+/// docs/algorithms/deferred.md 9, H4: the sign of z is lost where x is stored as 0, with |z| of .0157 at most, and a lost sign
+/// is 1.79 degrees at most.
+TEST(PackedGBuffer, ASignIsLostOnlyWhereItSaysLittle) {
+    for (int i = 1; i < 20000; ++i) {
+        const double z = -1e-6 * i;
+        const glm::dvec3 n(-std::sqrt(1 - z * z), 0, z), stored = packed_normal(packed_halves(n));
+        if (packed_halves(n).x != 0) continue;
+        EXPECT_LE(-z, .0157);
+        EXPECT_LE(std::asin(glm::length(glm::cross(n, stored))) * 180 / std::numbers::pi, 1.79);
+    }
+}
+
 }  // namespace
 }  // namespace strata::gbuffer

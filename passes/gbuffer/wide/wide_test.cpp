@@ -1,0 +1,56 @@
+// Facts of the wide layout: errors of docs/algorithms/deferred.md 2.3 and 2.5, and its codes of materials.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "passes/gbuffer/codes.h"
+#include "passes/gbuffer/wide/model.h"
+#include "passes/gbuffer/wide/wide.shared.h"
+
+namespace strata::gbuffer {
+namespace {
+
+TEST(WideGBuffer, NormalsOfAnyDirectionAreOffAsTheTableSays) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> gauss;
+    double worst = 0, sum = 0;
+    constexpr int count = 1000000;
+    for (int i = 0; i < count; ++i) {
+        const double x = gauss(random), y = gauss(random), z = gauss(random);
+        const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, z)), stored = wide_normal(n);
+        const double error = std::atan2(glm::length(glm::cross(n, stored)), glm::dot(n, stored)) * 180 / std::numbers::pi;
+        worst = std::max(worst, error);
+        sum += error;
+    }
+    EXPECT_NEAR(worst, 0.0229, 0.05 * 0.0229);
+    EXPECT_NEAR(sum / count, 0.0061, 0.05 * 0.0061);
+}
+
+/// Each coordinate by itself, so that a position leaves its ray: by half a step of a half float at x, which is 2^-9 m at 5 m.
+TEST(WideGBuffer, RoundsPositionsCoordinateByCoordinate) {
+    const glm::dvec3 stored = wide_position({5.0013, -0.3, 10.003}, 0.1);
+    EXPECT_EQ(stored.x, 5);
+    EXPECT_EQ(stored.y, -half_value(half_bits(0.3)));
+    EXPECT_EQ(stored.z, 10);
+    EXPECT_EQ(wide_position({0, 0, -3}, 0.5).z, 0.5) << "before the near plane is the near plane";
+}
+
+TEST(WideGBuffer, EveryLightingModelHasCodesOfItsOwn) {
+    std::set<std::uint32_t> codes;
+    for (std::uint32_t model = 0; model <= static_cast<std::uint32_t>(last_lighting_model); ++model)
+        for (const double metallic : {0.0, 0.5, 1.0}) {
+            SurfacePoint p;
+            p.model = static_cast<LightingModel>(model);
+            p.metallic = metallic;
+            const std::uint32_t code = wide_material_code(p);
+            EXPECT_LT(code, code_count);
+            EXPECT_EQ(code / wide_metallic_steps, model);
+            EXPECT_TRUE(codes.insert(code).second);
+        }
+}
+
+}  // namespace
+}  // namespace strata::gbuffer
