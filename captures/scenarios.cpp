@@ -74,7 +74,7 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::two_rooms},
     {"courtyard", "Does sunlight that bounces into an arcade stay steady while the cascades follow a walking eye?", 80, 45,
      scenario::courtyard},
-    {"fence_and_foliage", "Do a fence and leaves keep their area and their edges from 2 m to 60 m?", 96, 54,
+    {"fence_and_foliage", "Do a fence and leaves keep their area and their edges from 2 m to 60 m?", 80, 45,
      scenario::fence_and_foliage},
     {"sixteen_normals", "Which normals does a G-buffer keep badly: on which rings, at which poles?", 64, 36,
      scenario::sixteen_normals},

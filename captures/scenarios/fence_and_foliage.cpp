@@ -123,15 +123,19 @@ struct CardPlace {
     glm::vec3 center, right, up;
 };
 
-/// A card that can be seen from both sides, whose normals are those given to it rather than its own: lit as the round thing that
-/// it belongs to. Each side is a face of its own, because the normals of a double-sided one would turn around at its back.
+/// A card that can be seen from both sides, lit as the round thing that it belongs to: by the given normal rather than its own,
+/// as far as that is on the side that is seen. Each side is a face of its own.
 void add_card(Mesh& mesh, const CardPlace& card, glm::vec3 normal) {
     for (const float side : {1.0f, -1.0f}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const glm::vec3 right = side * card.right, front = glm::normalize(glm::cross(right, card.up));
+        const glm::vec3 seen = glm::normalize(normal + front * std::max(0.0f, 0.2f - glm::dot(normal, front)));
+        const glm::vec4 tangent(glm::normalize(right - seen * glm::dot(seen, right)), 1);
         for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1)}) {
-            mesh.positions.push_back(card.center + side * card.right * corner.x + card.up * corner.y);
-            mesh.normals.push_back(normal);
-            mesh.uv0.emplace_back(0.5f + 0.5f * side * corner.x, 0.5f - 0.5f * corner.y);
+            mesh.positions.push_back(card.center + right * corner.x + card.up * corner.y);
+            mesh.normals.push_back(seen);
+            mesh.tangents.push_back(tangent);
+            mesh.uv0.emplace_back(0.5f + 0.5f * corner.x, 0.5f - 0.5f * corner.y);
         }
         for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
     }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "passes/choice_names.h"
-#include "passes/gbuffer/coverage/coverage.h"
+#include "passes/gbuffer/coverage/fill_coverage.h"
 #include "passes/gbuffer/fill.shared.h"
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surfaces.h"
@@ -69,12 +69,12 @@ DrawPass fill_pass(Graph& graph, const FrameImages& frame, const Layout& layout,
 
 std::vector<Param> fill_params() {
     return {param<&FillParams::attributes>(
-        {.name = "attributes",
-         .low = 0,
-         .high = attributes_at_sample,
-         .fallback = attributes_at_center,
-         .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
-         .choices = attribute_places}),
+                {.name = "attributes",
+                 .low = 0,
+                 .high = attributes_at_sample,
+                 .fallback = attributes_at_center,
+                 .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
+                 .choices = attribute_places}),
             masked_param()};
 }
 

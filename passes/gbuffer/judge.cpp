@@ -5,7 +5,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "passes/gbuffer/coverage/judge_coverage.h"
+#include "passes/gbuffer/coverage/judge.h"
 #include "passes/reference/place_code.h"
 #include "passes/reference/shade.h"
 

@@ -1,6 +1,6 @@
 #include "passes/gbuffer/nearest.h"
 
-#include "passes/gbuffer/coverage/mask_model.h"
+#include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/place_code.h"
 
 namespace strata::gbuffer {

@@ -1,6 +1,6 @@
 #include "passes/gbuffer/truth.h"
 
-#include "passes/gbuffer/coverage/judge_coverage.h"
+#include "passes/gbuffer/coverage/judge.h"
 #include "passes/gbuffer/nearest.h"
 
 namespace strata {

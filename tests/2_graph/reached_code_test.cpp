@@ -56,6 +56,25 @@ TEST(ReachedCode, LightsAreLeftOutWhereNothingIsLit) {
     EXPECT_LT(unlit.size(), lit.size() * 2 / 3);
 }
 
+TEST(ReachedCode, OutputMasksOfSamplesGoWithTheFunctionThatWritesThem) {
+    const Shader& fill = shader("gbuffer/octahedral/fill.frag");
+    constexpr std::uint32_t op_decorate = 71, builtin = 11, sample_mask = 20;  // SPIR-V 1.6, 3.20, 3.21 and 3.49.3
+    const auto masks = [&](std::uint32_t method) {
+        std::vector<ConstantBits> given;
+        for (const ShaderConstant& constant : fill.constants) {
+            if (constant.name == "masked") given.push_back({constant.id, method});
+            if (constant.name == "mask_samples") given.push_back({constant.id, 4});
+        }
+        std::size_t count = 0;
+        for_each_instruction(reached_code(fill.code, given), [&](std::uint32_t op, auto words) {
+            count += op == op_decorate && words[2] == builtin && words[3] == sample_mask;
+        });
+        return count;
+    };
+    EXPECT_EQ(masks(0), 0u) << "an output that nothing writes is undefined";
+    EXPECT_EQ(masks(1), 1u);
+}
+
 TEST(ReachedCode, VolumesAreLeftOutWhereThereAreNone) {
     const Shader& draw = shader("transparency/weighted/accumulate.frag");
     const Code without = with(draw, "light_grids", 0), with_one = with(draw, "light_grids", 1);

@@ -2,21 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
+#include <utility>
 #include <vector>
 
-#include "passes/reference/textures.h"
+#include <glm/gtc/packing.hpp>
 
 namespace strata::gbuffer {
 namespace {
 
-/// Alphas of a mip, largest first.
+std::size_t texel_bytes(TextureFormat format) {
+    return format == TextureFormat::rgba32f ? 16 : format == TextureFormat::rgba16f ? 8 : 4;
+}
+
+/// Of a texel at its first byte.
+double alpha_at(const std::byte* texel, TextureFormat format) {
+    if (format == TextureFormat::rgba32f) {
+        float alpha = 0;
+        std::memcpy(&alpha, texel + 12, sizeof alpha);
+        return double(alpha);
+    }
+    if (format == TextureFormat::rgba16f) {
+        std::uint16_t alpha = 0;
+        std::memcpy(&alpha, texel + 6, sizeof alpha);
+        return double(glm::unpackHalf1x16(alpha));
+    }
+    return std::to_integer<int>(texel[3]) / 255.0;
+}
+
+std::size_t texels_of(const Texture& texture, std::uint32_t mip) {
+    return std::size_t(std::max(1u, texture.width >> mip)) * std::max(1u, texture.height >> mip);
+}
+
+/// Alphas of a mip, largest first. Mips follow each other, finest first.
 std::vector<double> sorted_alphas(const Texture& texture, std::uint32_t mip) {
-    const std::uint32_t width = std::max(1u, texture.width >> mip), height = std::max(1u, texture.height >> mip);
-    std::vector<double> alphas;
-    alphas.reserve(std::size_t(width) * height);
-    for (std::uint32_t y = 0; y < height; ++y)
-        for (std::uint32_t x = 0; x < width; ++x) alphas.push_back(texel(texture, mip, x, y).w);
+    const std::size_t stride = texel_bytes(texture.format);
+    const std::byte* texel = texture.texels.data();
+    for (std::uint32_t finer = 0; finer < mip; ++finer) texel += stride * texels_of(texture, finer);
+    std::vector<double> alphas(texels_of(texture, mip));
+    for (double& alpha : alphas) alpha = alpha_at(std::exchange(texel, texel + stride), texture.format);
     std::ranges::sort(alphas, std::greater());
     return alphas;
 }

@@ -8,7 +8,7 @@
 
 #include "capture_format/codec/texture_mips.h"
 #include "captures/scenarios.h"
-#include "passes/gbuffer/coverage/mask_model.h"
+#include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/textures.h"
 
 namespace strata::gbuffer {

@@ -1,5 +1,5 @@
 // Times of the methods of coverage.shared.h against the plain alpha test.
-#include "passes/gbuffer/coverage/coverage.h"
+#include "passes/gbuffer/coverage/fill_coverage.h"
 
 #include "capture_format/frame.h"
 

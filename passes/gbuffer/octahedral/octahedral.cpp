@@ -1,5 +1,5 @@
 // G-buffer of 96 bits: octahedral normal, log depth and material as integer codes in half-float channels.
-#include "passes/gbuffer/coverage/coverage.h"
+#include "passes/gbuffer/coverage/fill_coverage.h"
 #include "passes/gbuffer/fill.h"
 #include "passes/technique.h"
 

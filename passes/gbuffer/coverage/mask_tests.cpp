@@ -1,4 +1,4 @@
-#include "passes/gbuffer/coverage/mask_model.h"
+#include "passes/gbuffer/coverage/mask_tests.h"
 
 #include <algorithm>
 #include <cmath>

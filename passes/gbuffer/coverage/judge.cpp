@@ -1,4 +1,4 @@
-#include "passes/gbuffer/coverage/judge_coverage.h"
+#include "passes/gbuffer/coverage/judge.h"
 
 #include <algorithm>
 #include <cmath>

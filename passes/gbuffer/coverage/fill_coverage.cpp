@@ -1,4 +1,4 @@
-#include "passes/gbuffer/coverage/coverage.h"
+#include "passes/gbuffer/coverage/fill_coverage.h"
 
 #include <set>
 
