@@ -39,6 +39,7 @@ Frame frame_of_triangles(glm::uvec2 extent, std::uint32_t samples, std::span<con
         paint.name = "paint";
         paint.lighting_model = LightingModel::lambert;
         paint.base_color = glm::vec4(triangle.color, 1);
+        paint.emissive = triangle.emissive;
         paint.double_sided = true;
         frame.materials.push_back(paint);
         Draw draw;

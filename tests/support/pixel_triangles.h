@@ -13,6 +13,7 @@ namespace strata {
 struct PixelTriangle {
     std::array<glm::dvec3, 3> corners;
     glm::vec3 color{0.5f};
+    glm::vec3 emissive{0};
 };
 
 /// A triangle over more than the picture, at one depth.

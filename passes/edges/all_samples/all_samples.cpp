@@ -1,6 +1,6 @@
 // Supersampling: every pixel counts as an edge, so every sample is shaded alone.
 #include "passes/edges/all_samples/all_samples.shared.h"
-#include "passes/edges/views/views.h"
+#include "passes/edges/views/edge_views.h"
 #include "passes/technique.h"
 
 namespace strata::edges {

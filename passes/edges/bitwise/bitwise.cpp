@@ -2,7 +2,7 @@
 #include "passes/edges/edges.shared.h"
 #include "passes/edges/mark.h"
 #include "passes/edges/routing/ratios.h"
-#include "passes/edges/views/views.h"
+#include "passes/edges/views/edge_views.h"
 
 namespace strata::edges {
 

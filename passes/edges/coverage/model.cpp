@@ -66,13 +66,15 @@ ImageSet coverage_model(const StageInput& input, const Settings& settings) {
     const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5);
     const ClipSeams seams = clip_seams(input.frame);
     return marked(input, [&](std::uint32_t x, std::uint32_t y) {
+        const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
+        Verdict by_coverage = coverage_verdict(here, visible, {x, y});
         for (std::uint32_t sample = 0; sample < visible.samples; ++sample) {
             const RasterPoint& nearest = visible.at(x, y, sample);
-            if (near_sides[visible.index(x, y, sample)] || seams.contains({x, y, nearest.draw, nearest.triangle}))
-                return Verdict::undecided;
+            if (near_sides[visible.index(x, y, sample)]) return Verdict::undecided;
+            // A piece of a triangle that covers the pixel may not; a piece of one that covers a part of it never does.
+            if (by_coverage == Verdict::plain && seams.contains({x, y, nearest.draw, nearest.triangle}))
+                by_coverage = Verdict::undecided;
         }
-        const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
-        const Verdict by_coverage = coverage_verdict(here, visible, {x, y});
         if (by_coverage == Verdict::edge || limits.tests == 0) return by_coverage;
         const bool is_full = covered_samples(input, x, y) == input.frame.view.samples;
         const Verdict by_surfaces = is_full ? surface_verdict(input, x, y, limits) : Verdict::plain;

@@ -2,7 +2,7 @@
 #include "passes/choice_names.h"
 #include "passes/edges/depth/depth.shared.h"
 #include "passes/edges/surface_tests.h"
-#include "passes/edges/views/views.h"
+#include "passes/edges/views/edge_views.h"
 
 namespace strata::edges {
 

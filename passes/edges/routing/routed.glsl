@@ -1,4 +1,4 @@
-// The pixel and the sample that a thread shades, by whichever routing (passes/edges/routing/routing.h declares the steps). For
+// The pixel and the sample that a thread shades, by whichever routing (passes/edges/routing/shade_samples.h declares the steps). For
 // shaders of 8 x 8 threads a group.
 #ifndef PASSES_EDGES_ROUTED_GLSL
 #define PASSES_EDGES_ROUTED_GLSL

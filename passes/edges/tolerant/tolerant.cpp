@@ -2,7 +2,7 @@
 #include "passes/edges/tolerant/tolerant.shared.h"
 
 #include "passes/edges/surface_tests.h"
-#include "passes/edges/views/views.h"
+#include "passes/edges/views/edge_views.h"
 
 namespace strata::edges {
 

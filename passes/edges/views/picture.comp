@@ -9,7 +9,7 @@ layout(constant_id = 1) const uint shown = shows_surfaces;
 
 layout(set = 0, binding = 0, rgba32f) writeonly uniform image2D picture;
 
-// The colors of the table in views.cpp.
+// The colors of the table in edge_views.cpp.
 vec3 outcome(ivec2 pixel) {
     const bool is_edge = is_true_edge(pixel), marked = is_marked(pixel);
     if (is_edge) return marked ? vec3(1.0) : vec3(1.0, 0.0, 0.0);

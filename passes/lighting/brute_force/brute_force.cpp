@@ -1,6 +1,6 @@
 // Every light on every sample: what other lighting techniques are measured against.
 #include "passes/edges/routing/ratios.h"
-#include "passes/edges/routing/routing.h"
+#include "passes/edges/routing/shade_samples.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/every_light.h"

@@ -1,6 +1,6 @@
 // Lights in bins of view depth and tiles of the screen; a sample shades the lights that both of its hold.
 #include "passes/choice_names.h"
-#include "passes/edges/routing/routing.h"
+#include "passes/edges/routing/shade_samples.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/every_light.h"
 #include "passes/lighting/z_binned/z_bins.h"

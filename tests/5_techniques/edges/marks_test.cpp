@@ -31,7 +31,16 @@ PixelTriangle inside_the_picture(double depth) {
     return {.corners = {glm::dvec3(2.2, 1.2, depth), {2.2, 34.7, depth}, {61.7, 17.7, depth}}};
 }
 
-enum Scene : std::size_t { side_at_20_5, side_at_20_25, side_at_20, crossing, crossing_inside, one_triangle, half_sky };
+enum Scene : std::size_t {
+    side_at_20_5,
+    side_at_20_25,
+    side_at_20,
+    crossing,
+    crossing_inside,
+    one_triangle,
+    half_sky,
+    glowing_side
+};
 
 /// Walls with another before it from a column on; planes that cross at x = 15.5, over the picture and inside; one slanted plane;
 /// and a wall beside the sky.
@@ -47,6 +56,9 @@ Session& scenes() {
         add({inside_the_picture(4), slanted(inside_the_picture(4), 1. / 256, 0)});
         add({slanted(wall, 1. / 512, 1. / 2048)});
         add({right_of(extent, 20.5, 2, blue)});
+        PixelTriangle glowing = right_of(extent, 20.5, 3.9999, wall.color);  // the depth is stored in steps of 1.9e-4 of itself
+        glowing.emissive = red;
+        add({wall, glowing});
         return must(Session::open(std::move(frames), {.validation = true}));
     }();
     return *session;
@@ -97,6 +109,13 @@ TEST(Edges, AVerticalSideCoversTheSamplesRightOfItAndShadesThreeMorePerPixel) {
         EXPECT_EQ(count_of(run, "lighting/", "samples_shaded"), extent.x * extent.y + 3 * extent.y);
         EXPECT_EQ(count_of(run, "edges/", "edge_samples"), 4 * extent.y);
     }
+}
+
+TEST(Edges, ASideThatOnlyEmissionTellsIsMarkedByWordsAndByMaterials) {
+    for (const char* edges : {"edges/bitwise", "edges/tolerant"})
+        EXPECT_TRUE(is_column(marked(run_with(glowing_side, edges)), 20)) << edges;
+    EXPECT_TRUE(marked(run_with(glowing_side, "edges/mean")).empty()) << "X-Ray compares the first image alone";
+    EXPECT_TRUE(is_column(marked(run_with(glowing_side, "edges/mean", {"compares=all"})), 20));
 }
 
 TEST(Edges, DepthAloneMissesASideThatHalvesThePixel) {

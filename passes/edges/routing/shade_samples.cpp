@@ -1,4 +1,4 @@
-#include "passes/edges/routing/routing.h"
+#include "passes/edges/routing/shade_samples.h"
 
 #include "passes/edges/plain_pixels.h"
 

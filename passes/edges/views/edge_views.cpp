@@ -1,4 +1,4 @@
-#include "passes/edges/views/views.h"
+#include "passes/edges/views/edge_views.h"
 
 #include "passes/edges/mark.h"
 #include "passes/edges/plain_pixels.h"
