@@ -125,7 +125,8 @@ ReferenceImage gathered_light(const StageInput& input, const GatheredDirections&
         const LitSide at = sample_at(input, x, y, sample);
         const std::size_t texel = normal.index(x, y, sample);
         std::vector<glm::dvec3> batches;
-        for (std::uint32_t i = 0; i < directions.batches; ++i) batches.push_back(gathering.batch(at, DrawnNumbers(texel + 1, i + 1)));
+        for (std::uint32_t i = 0; i < directions.batches; ++i)
+            batches.push_back(gathering.batch(at, DrawnNumbers(texel + 1, i + 1)));
         const auto [mean, error] = estimate(batches);
         light.texels[texel] = glm::dvec4(mean, 1);
         light.standard_error[texel] = error;

@@ -332,7 +332,7 @@ Estimate upsampled(const Scene& scene, const Estimates& from, glm::ivec2 pixel, 
     const glm::dvec2 place = glm::dvec2(pixel) / 2.0, part = glm::fract(place);
     double sum = 0, spreads = 0, weights = 0, nearest = HUGE_VAL;
     Estimate of_nearest;
-    for (int i = 0; i < 4; ++i) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
         const glm::dvec2 far(i % 2, i / 2);
         const glm::dvec2 share = glm::mix(1.0 - part, part, far);
         if (share.x * share.y == 0) continue;
