@@ -2,7 +2,7 @@
 // finished depth, so that only triangles with a visible sample get here; coverage is the rasterizer's, before the depth test.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/shaders/material.glsl"
+#include "passes/shaders/alpha_test.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) in vec3 in_position;
@@ -16,12 +16,12 @@ layout(constant_id = 1) const int full_coverage = 15;
 
 layout(set = 0, binding = 0, r8ui) writeonly uniform uimage2D partly;
 
-// The surfaces that the G-buffer has: no backs of one-sided faces, nothing that the alpha test cuts away.
+// The surfaces that the G-buffer has with masked=clip: no backs of one-sided faces, nothing that the alpha test cuts away.
 bool is_drawn() {
     const MaterialRecord material = material_of(in_draw);
     const MaterialPoint m = material_point(in_draw, in_uv, Varyings(in_position, in_normal, in_tangent, in_color, gl_FrontFacing));
     if (!gl_FrontFacing && has_one_side(material.double_sided)) return false;
-    return m.alpha_mode != alpha_mask || m.alpha >= material.mask_cutoff;
+    return !is_cut_away(material, m.alpha);
 }
 
 void main() {
