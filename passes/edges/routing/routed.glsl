@@ -8,7 +8,7 @@
 layout(constant_id = 29) const uint threads_of = threads_of_samples;
 
 // Pixels, x + 65536 y, row by row; in the row below the picture, how many there are.
-layout(set = 0, binding = 25) uniform usampler2D edge_list;
+layout(set = 0, binding = 26) uniform usampler2D edge_list;
 
 ivec3 listed_place(ivec3 extent) {
     const uint group = gl_WorkGroupID.y * groups_per_row + gl_WorkGroupID.x;
