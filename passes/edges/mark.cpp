@@ -11,10 +11,6 @@ ComputePass mark_edges(Graph& graph, FrameImages& frame, std::string shader) {
     return graph.compute(std::move(shader)).samples("emission", frame.emission).stores("edges", frame.edges).over(frame.extent);
 }
 
-ComputePass sample_words(ComputePass pass, const FrameImages& frame) {
-    return pass.samples("gbuffer0", frame.gbuffer0).samples("gbuffer1", frame.gbuffer1).samples("gbuffer2", frame.gbuffer2);
-}
-
 std::vector<Counter> edge_counters() {
     return {
         counter<&EdgeCounters::plain_pixels>(

@@ -14,9 +14,6 @@ bool has_samples(const FrameImages&);
 /// Declares frame.edges and the step of a compute shader that includes passes/edges/mark.glsl.
 ComputePass mark_edges(Graph&, FrameImages&, std::string shader);
 
-/// Binds the G-buffer's words in a step whose shader includes passes/edges/words.glsl.
-ComputePass sample_words(ComputePass, const FrameImages&);
-
 /// Rows of EdgeCounters.
 std::vector<Counter> edge_counters();
 

@@ -1,11 +1,8 @@
-// The words that the G-buffer holds, whichever layout wrote them, compared bit by bit. passes/edges/mark.h binds them. 16-bit
-// floats and UNORM texels convert to 32-bit floats without loss, so their bits are equal where the words are.
+// The words of the G-buffer compared bit by bit. 16-bit floats and UNORM texels convert to 32-bit floats without loss, so their bits
+// are equal where the words are.
 #ifndef PASSES_EDGES_WORDS_GLSL
 #define PASSES_EDGES_WORDS_GLSL
-
-layout(set = 0, binding = 20) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 21) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 22) uniform sampler2DArray gbuffer2;
+#include "passes/gbuffer/words.glsl"
 
 bool bits_differ(vec4 a, vec4 b) { return any(notEqual(floatBitsToUint(a), floatBitsToUint(b))); }
 

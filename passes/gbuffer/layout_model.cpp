@@ -48,6 +48,21 @@ double octahedral_coordinate(std::uint32_t code, double steps_to_one) { return (
 
 double half_depth(double z, double near) { return nearest_half(std::max(z, near)); }
 
+ImageSet half_depth_images(const StageInput& input, const Settings& settings, glm::dvec3 (*stored)(const glm::dvec3& normal)) {
+    const double near = input.frame.view.near;
+    return stored_images(input, settings, [near, stored](NearestSurface& s, const SampleAt&) {
+        s.point = stored_material(s.point);
+        s.point.normal = stored(s.point.normal);
+        s.point.position.z = half_depth(s.point.position.z, near);
+    });
+}
+
+glm::dvec3 octahedral_rounded(const glm::dvec3& normal, double steps_to_one) {
+    const auto rounded = [&](double p) { return octahedral_coordinate(octahedral_code(p, steps_to_one), steps_to_one); };
+    const glm::dvec2 p = to_octahedron(normal);
+    return from_octahedron({rounded(p.x), rounded(p.y)});
+}
+
 void rebuild_from_depth(NearestSurface& s, const SampleAt& at) {
     s.point.position.z = double(at.frame.view.near) / double(static_cast<float>(s.depth));
     s.offset = at.offset;

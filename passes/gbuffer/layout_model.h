@@ -34,6 +34,12 @@ double octahedral_coordinate(std::uint32_t code, double steps_to_one);
 /// View depth as the nearest half float from the near plane to 65504 m.
 double half_depth(double z, double near);
 
+/// The outputs of a layout that keeps a material's code, depth as a half float, and of a normal what `stored` gives back.
+ImageSet half_depth_images(const StageInput&, const Settings&, glm::dvec3 (*stored)(const glm::dvec3& normal));
+
+/// A normal by way of octahedral codes.
+glm::dvec3 octahedral_rounded(const glm::dvec3& normal, double steps_to_one);
+
 /// Gives the surface the depth buffer's depth, a float, at the sample.
 void rebuild_from_depth(NearestSurface&, const SampleAt&);
 

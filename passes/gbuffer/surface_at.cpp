@@ -4,11 +4,13 @@
 
 namespace strata {
 
+ComputePass sample_words(ComputePass pass, const FrameImages& frame) {
+    return pass.samples("gbuffer0", frame.gbuffer0).samples("gbuffer1", frame.gbuffer1).samples("gbuffer2", frame.gbuffer2);
+}
+
 ComputePass sample_gbuffer(ComputePass pass, const FrameImages& frame) {
     const bool reads_depth = (frame.gbuffer_layout & gbuffer::layout_reads_depth) != 0;
-    return pass.samples("gbuffer0", frame.gbuffer0)
-        .samples("gbuffer1", frame.gbuffer1)
-        .samples("gbuffer2", frame.gbuffer2)
+    return sample_words(pass, frame)
         .samples("gbuffer_depth", reads_depth ? frame.depth_layers : Image{})
         .fixes("gbuffer_layout", frame.gbuffer_layout);
 }

@@ -4,22 +4,13 @@
 #include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/place.glsl"
 #include "passes/gbuffer/surface.glsl"
+#include "passes/gbuffer/words.glsl"
 #include "passes/gbuffer/decoders.glsl"
+#include "passes/shaders/sample_places.glsl"
 
 layout(constant_id = 30) const uint gbuffer_layout = 0u;  // layout.shared.h
 
-layout(set = 0, binding = 20) uniform sampler2DArray gbuffer0;
-layout(set = 0, binding = 21) uniform sampler2DArray gbuffer1;
-layout(set = 0, binding = 22) uniform sampler2DArray gbuffer2;
 layout(set = 0, binding = 25) uniform sampler2DArray gbuffer_depth;
-
-// Standard places of 4 samples, from the pixel's center (docs/algorithms/deferred.md 0.4).
-const vec2 sample_offsets[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
-
-vec2 offset_of_sample(int index) {
-    if (view.samples == 1u) return vec2(0.0);
-    return sample_offsets[index];
-}
 
 // Surfaces as they are given in floats (passes/gbuffer/surfaces.h).
 Surface decode_surfaces(GBufferTexel t) {
@@ -39,9 +30,9 @@ Surface surface_at(ivec3 at) {
     t.sample_offset = vec2(0.0);
     if ((gbuffer_layout & layout_reads_depth) != 0u) {
         t.depth = texelFetch(gbuffer_depth, at, 0).r;
-        t.sample_offset = offset_of_sample(at.z);
+        t.sample_offset = sample_place(view.samples, uint(at.z));
     }
-    if ((gbuffer_layout & layout_shaded_at_sample) != 0u) t.shaded_offset = offset_of_sample(at.z);
+    if ((gbuffer_layout & layout_shaded_at_sample) != 0u) t.shaded_offset = sample_place(view.samples, uint(at.z));
     if ((gbuffer_layout & layout_index_mask) == layout_decoded) return decode_surfaces(t);
     return decode_gbuffer(gbuffer_layout & layout_index_mask, t);
 }

@@ -1,16 +1,12 @@
 #include "passes/indirect/truth.h"
 
-#include <cmath>
 #include <numbers>
 #include <span>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "passes/indirect/direct_light.h"
 #include "passes/indirect/leg_blockers.h"
-#include "passes/reference/decoded.h"
-#include "passes/reference/directions.h"
+#include "passes/reference/estimated_image.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
 
@@ -87,63 +83,15 @@ private:
     std::vector<DrawSpace> spaces_;
 };
 
-struct Estimate {
-    glm::dvec3 mean{0}, standard_error{0};
-};
-
-Estimate estimate(const std::vector<glm::dvec3>& batches) {
-    const double count = double(batches.size());
-    Estimate result;
-    for (const glm::dvec3& batch : batches) result.mean += batch / count;
-    glm::dvec3 squares(0);
-    for (const glm::dvec3& batch : batches) squares += (batch - result.mean) * (batch - result.mean);
-    if (batches.size() > 1) result.standard_error = glm::sqrt(squares / (count - 1) / count);
-    return result;
-}
-
-/// A surface's place and side are all that irradiance asks; of hair, the lighting model makes a side of the fibre.
-bool is_first_again(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    const ReferenceImage &normal = input.before.at("surface_normal"), &material = input.before.at("surface_material");
-    return normal.at(x, y) == normal.at(x, y, sample) && material.at(x, y).x == material.at(x, y, sample).x;
-}
-
-LitSide sample_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    DecodedTexels texels{input.before.at("surface_normal").at(x, y, sample), {}, {}};
-    texels.material = input.before.at("surface_material").at(x, y, sample);
-    const SurfacePoint point = decoded_surface(input.frame, texels, x, y);
-    return {point.position, facing_normal(point)};
-}
-
 }  // namespace
 
 ReferenceImage gathered_light(const StageInput& input, const GatheredDirections& directions) {
     const Gathering gathering(input.frame, directions);
-    const ReferenceImage& normal = input.before.at("surface_normal");
-    ReferenceImage light(normal.width, normal.height, normal.layers);
-    light.standard_error.resize(light.texels.size());
-    const auto gather = [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-        const LitSide at = sample_at(input, x, y, sample);
-        const std::size_t texel = normal.index(x, y, sample);
-        std::vector<glm::dvec3> batches;
-        for (std::uint32_t i = 0; i < directions.batches; ++i)
-            batches.push_back(gathering.batch(at, DrawnNumbers(texel + 1, i + 1)));
-        const auto [mean, error] = estimate(batches);
-        light.texels[texel] = glm::dvec4(mean, 1);
-        light.standard_error[texel] = error;
-    };
-    tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < normal.width; ++x)
-            for (std::uint32_t sample = 0; sample < normal.layers; ++sample) {
-                if (normal.at(x, y, sample).w <= 0) continue;
-                if (sample == 0 || !is_first_again(input, x, y, sample)) {
-                    gather(x, y, sample);
-                    continue;
-                }
-                light.at(x, y, sample) = light.at(x, y);
-                light.standard_error[light.index(x, y, sample)] = light.standard_error[light.index(x, y)];
-            }
-    });
-    return light;
+    const GivenSurfaces given{input.before.at("surface_normal"), input.before.at("surface_material")};
+    return estimated_image(input.frame, given, directions.batches, glm::dvec4(0),
+                           [&](const SurfacePoint& at, DrawnNumbers random) {
+                               return gathering.batch({at.position, facing_normal(at)}, random);
+                           });
 }
 
 ImageSet indirect_truth(const StageInput& input) { return {{"indirect", gathered_light(input)}}; }

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
-#include "passes/reference/decoded.h"
-#include "passes/reference/directions.h"
+#include "passes/reference/estimated_image.h"
 #include "passes/reference/rays.h"
 
 namespace strata {
@@ -17,38 +13,12 @@ namespace {
 
 using occlusion::MaterialRule, occlusion::radii;
 
-SurfacePoint sample_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    DecodedTexels texels{input.before.at("surface_normal").at(x, y, sample), {}, {}};
-    texels.material = input.before.at("surface_material").at(x, y, sample);
-    return decoded_surface(input.frame, texels, x, y);
-}
-
-/// A surface's place and side are all that visibility asks; of hair, the lighting model makes a side of the fibre.
-bool is_first_again(const StageInput& input, std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    const ReferenceImage &normal = input.before.at("surface_normal"), &material = input.before.at("surface_material");
-    return normal.at(x, y) == normal.at(x, y, sample) && material.at(x, y).x == material.at(x, y, sample).x;
-}
-
 /// The share of a batch of rays that nothing stops.
 double share_of_clear_rays(const RayScene& scene, const SurfacePoint& at, double radius, std::span<const glm::dvec2> places) {
     const glm::dvec3 normal = facing_normal(at), start = ray_start(at.position, normal);
     std::size_t clear = 0;
     for (const glm::dvec2& place : places) clear += scene.clear(start, cosine_direction(normal, place), 0, radius);
     return double(clear) / double(places.size());
-}
-
-struct Estimate {
-    double mean = 0, standard_error = 0;
-};
-
-Estimate estimate(std::span<const double> batches) {
-    const double count = double(batches.size());
-    Estimate result;
-    for (const double batch : batches) result.mean += batch / count;
-    double squares = 0;
-    for (const double batch : batches) squares += (batch - result.mean) * (batch - result.mean);
-    if (batches.size() > 1) result.standard_error = std::sqrt(squares / (count - 1) / count);
-    return result;
 }
 
 template <std::size_t radius, MaterialRule rule>
@@ -83,34 +53,12 @@ double occlusion_of(double visibility, double material, MaterialRule rule) {
 
 ReferenceImage traced_visibility(const StageInput& input, double radius, const TracedDirections& directions) {
     const RayScene scene(input.frame, RayMask::opaque);
-    const ReferenceImage& normal = input.before.at("surface_normal");
-    ReferenceImage visibility(normal.width, normal.height, normal.layers, glm::dvec4(1, 0, 0, 1));
+    const GivenSurfaces given{input.before.at("surface_normal"), input.before.at("surface_material")};
+    ReferenceImage visibility =
+        estimated_image(input.frame, given, directions.batches, {1, 0, 0, 1}, [&](const SurfacePoint& at, DrawnNumbers random) {
+            return glm::dvec3(share_of_clear_rays(scene, at, radius, stratified(directions.side, random)), 0, 0);
+        });
     visibility.channels = 1;
-    visibility.standard_error.resize(visibility.texels.size());
-    const auto trace = [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-        const SurfacePoint at = sample_at(input, x, y, sample);
-        const std::size_t texel = normal.index(x, y, sample);
-        std::vector<double> batches;
-        for (std::uint32_t i = 0; i < directions.batches; ++i) {
-            DrawnNumbers random(texel + 1, i + 1);
-            batches.push_back(share_of_clear_rays(scene, at, radius, stratified(directions.side, random)));
-        }
-        const auto [mean, error] = estimate(batches);
-        visibility.texels[texel].x = mean;
-        visibility.standard_error[texel].x = error;
-    };
-    tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < normal.width; ++x)
-            for (std::uint32_t sample = 0; sample < normal.layers; ++sample) {
-                if (normal.at(x, y, sample).w <= 0) continue;
-                if (sample == 0 || !is_first_again(input, x, y, sample)) {
-                    trace(x, y, sample);
-                    continue;
-                }
-                visibility.at(x, y, sample) = visibility.at(x, y);
-                visibility.standard_error[visibility.index(x, y, sample)] = visibility.standard_error[visibility.index(x, y)];
-            }
-    });
     return visibility;
 }
 

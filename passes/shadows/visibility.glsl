@@ -3,6 +3,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/shaders/camera.glsl"
+#include "passes/shaders/sample_places.glsl"
 #include "passes/shadows/shadows.shared.h"
 #include "passes/gbuffer/surface_at.glsl"
 
@@ -15,11 +16,8 @@ layout(set = 0, binding = 5, r16f) writeonly uniform image2DArray visibility;
 layout(set = 0, binding = 6, scalar) buffer Counters { ShadowCounters counters; };
 #include "passes/shaders/shadow_filter.glsl"
 
-// Depth is a sample's own, so the ray is too: then position lies on the surface. Standard places
-// (docs/algorithms/deferred.md 0.4).
-const vec2 places[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
-
-vec2 sample_position(uint i) { return view.samples == 1u ? vec2(0.5) : places[i]; }
+// Depth is a sample's own, so the ray is too: then position lies on the surface.
+vec2 sample_position(uint i) { return 0.5 + sample_place(view.samples, i); }
 
 void count(uint filtered_here, uint penumbra_here) {
     const uint filtered_sum = subgroupAdd(filtered_here);

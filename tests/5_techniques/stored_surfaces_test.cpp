@@ -13,6 +13,7 @@
 #include "passes/reference/shade.h"
 #include "passes/scene/scene_facts.h"
 #include "replay/scene/scene_records.h"
+#include "tests/support/normal_errors.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
@@ -214,10 +215,6 @@ Probed probed(const LayoutRow& row, Written written) {
     frame.graph.keep(positions);
     const Execution run = frame.run();
     return {in_double(run.images.at(normals.id)), in_double(run.images.at(positions.id))};
-}
-
-double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
 class GBufferLayout : public testing::TestWithParam<LayoutRow> {};

@@ -32,6 +32,7 @@ constexpr std::array parts_of_references = {
     Exception{"passes/combine/formulas", "the stage's formulas in double"},
     Exception{"passes/culling/view_sides", "the sides of the view in double"},
     Exception{"passes/gbuffer/codes", "the codes of a G-buffer in double"},
+    Exception{"passes/gbuffer/coverage/bands", "how alpha becomes a pattern of samples, in double"},
     Exception{"passes/gbuffer/coverage/mask_tests", "which samples masked surfaces cover, in double"},
     Exception{"passes/gbuffer/nearest", "the nearest surfaces in double"},
     Exception{"passes/indirect/direct_light", "light that arrives at a ray's hit, in double"},

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/combine/hi_lo/develop.glsl"
+#include "passes/shaders/luminance.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 1) const uint resolve = resolve_tone_mapped;
@@ -19,7 +20,7 @@ vec3 weighted_mean(ivec2 pixel, int samples) {
     float weights = 0.0;
     for (int i = 0; i < samples; ++i) {
         const vec3 x = clamp(exposed(pixel, i), 0.0, 1e30);
-        const float weight = 1.0 / (1.0 + dot(x, vec3(0.2126, 0.7152, 0.0722)));
+        const float weight = 1.0 / (1.0 + luminance(x));
         sum += x * weight;
         weights += weight;
     }

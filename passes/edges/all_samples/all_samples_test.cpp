@@ -55,13 +55,4 @@ TEST(every_sample, misses_no_edge_and_needlessly_shades_all_other_pixels) {
     EXPECT_EQ(figures[2].value, 100);
 }
 
-TEST(every_sample, does_nothing_at_one_sample) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = all_samples();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace strata::edges

@@ -3,6 +3,7 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/routing/ratios.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
 

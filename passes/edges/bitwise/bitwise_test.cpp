@@ -64,14 +64,5 @@ TEST(BitwiseEdges, APixelThatIsPartlyCoveredIsAnEdgeAndTheSkyIsPlain) {
     EXPECT_EQ(mark_of(before), 0);
 }
 
-TEST(BitwiseEdges, OneSampleHasNoEdges) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = bitwise();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace
 }  // namespace strata::edges

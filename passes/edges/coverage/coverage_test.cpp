@@ -65,14 +65,5 @@ TEST(CoverageEdges, SeamsInsideAMeshAreMarked) {
     EXPECT_GT(marked_pixels(quad), 10u) << "two triangles of one plane, whose samples are all the same";
 }
 
-TEST(CoverageEdges, OneSampleHasNone) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = coverage();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace
 }  // namespace strata::edges

@@ -79,14 +79,5 @@ TEST(DepthEdges, TheSkyIsPlain) {
     EXPECT_EQ(mark_of(before), 1);
 }
 
-TEST(DepthEdges, OneSampleHasNone) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = depth();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace
 }  // namespace strata::edges

@@ -4,6 +4,7 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/mean/mean.shared.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
 

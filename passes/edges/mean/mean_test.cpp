@@ -86,14 +86,5 @@ TEST(MeanEdges, WhatTheFirstImageDoesNotHoldIsMissed) {
     EXPECT_EQ(mark_of({.25, .25, .25, .25}, "all", .9), 1);
 }
 
-TEST(MeanEdges, OneSampleHasNone) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = mean();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace
 }  // namespace strata::edges

@@ -100,14 +100,5 @@ TEST(TolerantEdges, AFloatOnTheLimitDecidesNothing) {
     EXPECT_TRUE(result.at("edges").undecided[0]);
 }
 
-TEST(TolerantEdges, OneSampleHasNoEdges) {
-    Graph graph;
-    FrameImages images;
-    const Technique technique = tolerant();
-    technique.declare(graph, images, Settings(technique.params));
-    EXPECT_FALSE(images.edges);
-    EXPECT_TRUE(graph.steps().empty());
-}
-
 }  // namespace
 }  // namespace strata::edges

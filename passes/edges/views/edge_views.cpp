@@ -3,6 +3,7 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/edges/views/views.shared.h"
+#include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
 namespace {

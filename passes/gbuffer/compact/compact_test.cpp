@@ -1,29 +1,16 @@
 // Facts of the compact layout: the errors of normals of docs/algorithms/deferred.md 2.5, and what is left of materials.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "passes/gbuffer/compact/model.h"
+#include "tests/support/normal_errors.h"
 
 namespace strata::gbuffer {
 namespace {
 
 TEST(CompactGBuffer, AMillionNormalsAreOffAsTheTableSays) {
-    std::mt19937_64 random(1);
-    std::normal_distribution<double> gauss;
-    double worst = 0, sum = 0;
-    constexpr int count = 1000000;
-    for (int i = 0; i < count; ++i) {
-        const double x = gauss(random), y = gauss(random), z = gauss(random);
-        const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, z)), stored = compact_normal(n);
-        const double error = std::atan2(glm::length(glm::cross(n, stored)), glm::dot(n, stored)) * 180 / std::numbers::pi;
-        worst = std::max(worst, error);
-        sum += error;
-    }
-    EXPECT_NEAR(worst, .2365, .05 * .2365);
-    EXPECT_NEAR(sum / count, .0837, .05 * .0837);
+    const NormalErrors errors = errors_of_a_million_normals(compact_normal);
+    EXPECT_NEAR(errors.worst, .2365, .05 * .2365);
+    EXPECT_NEAR(errors.mean, .0837, .05 * .0837);
 }
 
 TEST(CompactGBuffer, TwoBitsTellUnlitHairMetalsAndTheRest) {

@@ -10,18 +10,8 @@
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
-namespace {
 
-double stored(double coordinate) {
-    return octahedral_coordinate(octahedral_code(coordinate, compact_normal_steps), compact_normal_steps);
-}
-
-}  // namespace
-
-glm::dvec3 compact_normal(const glm::dvec3& n) {
-    const glm::dvec2 p = to_octahedron(n);
-    return from_octahedron({stored(p.x), stored(p.y)});
-}
+glm::dvec3 compact_normal(const glm::dvec3& n) { return octahedral_rounded(n, compact_normal_steps); }
 
 SurfacePoint compact_material(SurfacePoint p) {
     p.metallic = p.metallic >= 0.5 ? 1 : 0;

@@ -5,16 +5,10 @@
 #include <cmath>
 
 #include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/reference/pcg.h"
 
 namespace strata::gbuffer {
 namespace {
-
-/// A mirror of the shader's: the numbers are those of the paper.
-std::uint32_t pcg(std::uint32_t input) {
-    const std::uint32_t state = input * 747796405u + 2891336453u;
-    const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
-    return (word >> 22) ^ word;
-}
 
 std::uint32_t surface_key(const BandPlace& at) { return pcg(pcg(at.draw) + at.triangle); }
 

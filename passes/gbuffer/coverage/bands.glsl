@@ -2,21 +2,15 @@
 #ifndef PASSES_GBUFFER_COVERAGE_BANDS_GLSL
 #define PASSES_GBUFFER_COVERAGE_BANDS_GLSL
 #include "passes/gbuffer/coverage/coverage.shared.h"
+#include "passes/shaders/hash.shared.h"
 
 layout(constant_id = 54) const uint masked = masked_clip;
 layout(constant_id = 56) const uint mask_samples = 1u;  // per pixel: 1 or 4
 
 const uint every_sample = 0xfu;
 
-// PCG (Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020).
-uint mask_hash(uint value) {
-    const uint state = value * 747796405u + 2891336453u;
-    const uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
 // Draw and triangle as one number.
-uint mask_surface(uint draw, uint triangle) { return mask_hash(mask_hash(draw) + triangle); }
+uint mask_surface(uint draw, uint triangle) { return hashed(hashed(draw) + triangle); }
 
 uint mask_dither(uvec2 pixel, uint surface) {
     if (masked == masked_a2c_or) return (pixel.x | pixel.y) & 3u;
@@ -53,7 +47,7 @@ uint turning_pattern(uint count, uint p) {
 // The first `count` samples, turned around by a hash of surface and pixel: layers over each other then hide as much as they should.
 uint hashed_pattern(uint count, uvec2 pixel, uint surface) {
     const uint first = (1u << count) - 1u;
-    const uint turn = mask_hash(surface + mask_hash(pixel.x + mask_hash(pixel.y))) >> 30u;
+    const uint turn = hashed(surface + hashed(pixel.x + hashed(pixel.y))) >> 30u;
     return (first << turn | first >> (4u - turn)) & every_sample;
 }
 

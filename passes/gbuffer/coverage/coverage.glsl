@@ -4,14 +4,12 @@
 #define PASSES_GBUFFER_COVERAGE_GLSL
 #include "passes/gbuffer/coverage/bands.glsl"
 #include "passes/shaders/alpha_test.glsl"
+#include "passes/shaders/sample_places.glsl"
 
 // 1: the shader runs for every sample, and its varyings are the sample's.
 layout(constant_id = 55) const uint masks_at_sample = 0u;
 
 layout(set = 0, binding = 25) uniform sampler2D mask_scales;  // as mask_scale_texel() places them
-
-// Standard sample positions, from the pixel's center (docs/algorithms/deferred.md 0.4).
-const vec2 mask_places[4] = vec2[](vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
 
 // A vertex's alpha with its derivatives.
 struct VertexAlpha {
@@ -35,7 +33,7 @@ uint covered_by_taps(MaterialRecord material, Footprint f, VertexAlpha v, float 
     if (masks_at_sample != 0u) return alpha_beside(material, f, v, vec2(0.0), scale) >= material.mask_cutoff ? every_sample : 0u;
     uint covered = 0u;
     for (uint i = 0u; i < mask_samples; ++i)
-        if (alpha_beside(material, f, v, mask_places[i], scale) >= material.mask_cutoff) covered |= 1u << i;
+        if (alpha_beside(material, f, v, sample_places[i], scale) >= material.mask_cutoff) covered |= 1u << i;
     return covered;
 }
 

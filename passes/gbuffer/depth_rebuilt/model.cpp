@@ -7,18 +7,8 @@
 #include "passes/technique.h"
 
 namespace strata::gbuffer {
-namespace {
 
-double stored(double coordinate) {
-    return octahedral_coordinate(octahedral_code(coordinate, depth_rebuilt_steps), depth_rebuilt_steps);
-}
-
-}  // namespace
-
-glm::dvec3 depth_rebuilt_normal(const glm::dvec3& n) {
-    const glm::dvec2 p = to_octahedron(n);
-    return from_octahedron({stored(p.x), stored(p.y)});
-}
+glm::dvec3 depth_rebuilt_normal(const glm::dvec3& n) { return octahedral_rounded(n, depth_rebuilt_steps); }
 
 ImageSet depth_rebuilt_model(const StageInput& input, const Settings& settings) {
     return stored_images(input, settings, [](NearestSurface& s, const SampleAt& at) {

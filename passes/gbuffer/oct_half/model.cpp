@@ -13,12 +13,7 @@ glm::dvec2 oct_half_coordinates(const glm::dvec3& n) {
 }
 
 ImageSet oct_half_model(const StageInput& input, const Settings& settings) {
-    const double near = input.frame.view.near;
-    return stored_images(input, settings, [near](NearestSurface& s, const SampleAt&) {
-        s.point = stored_material(s.point);
-        s.point.normal = from_octahedron(oct_half_coordinates(s.point.normal));
-        s.point.position.z = half_depth(s.point.position.z, near);
-    });
+    return half_depth_images(input, settings, [](const glm::dvec3& n) { return from_octahedron(oct_half_coordinates(n)); });
 }
 
 }  // namespace strata::gbuffer

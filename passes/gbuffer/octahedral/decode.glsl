@@ -1,5 +1,5 @@
 // Decodes layout D of docs/algorithms/deferred.md 2.1: octahedral normal codes, log-depth code, material code.
-#include "passes/gbuffer/codes.glsl"
+#include "passes/gbuffer/coded_surface.glsl"
 #include "passes/gbuffer/octahedral/octahedral.shared.h"
 #include "passes/gbuffer/octahedron.glsl"
 
@@ -11,9 +11,6 @@ float octahedral_depth(uint code) {
 
 Surface decode_octahedral(GBufferTexel t) {
     if (t.g0.a == 0.0) return no_surface();
-    const PackedMaterial material = unpack_material(t.g0.a);
-    const vec4 color = unpack_color(t.g1);
     const vec3 normal = octahedral_normal(uvec2(code_of_half(t.g0.x), code_of_half(t.g0.y)));
-    return Surface(true, normal, octahedral_depth(code_of_half(t.g0.z)), color.rgb, color.a, material.metallic, material.occlusion,
-                   material.lighting_model, t.shaded_offset);
+    return coded_surface(normal, octahedral_depth(code_of_half(t.g0.z)), t.g0.a, t.g1, t.shaded_offset);
 }

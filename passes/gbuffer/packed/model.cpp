@@ -22,12 +22,7 @@ glm::dvec3 packed_normal(const glm::dvec2& q) {
 }
 
 ImageSet packed_model(const StageInput& input, const Settings& settings) {
-    const double near = input.frame.view.near;
-    return stored_images(input, settings, [near](NearestSurface& s, const SampleAt&) {
-        s.point = stored_material(s.point);
-        s.point.normal = packed_normal(packed_halves(s.point.normal));
-        s.point.position.z = half_depth(s.point.position.z, near);
-    });
+    return half_depth_images(input, settings, [](const glm::dvec3& n) { return packed_normal(packed_halves(n)); });
 }
 
 }  // namespace strata::gbuffer

@@ -9,29 +9,12 @@
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/layout_model.h"
 #include "passes/gbuffer/packed/model.h"
+#include "tests/support/normal_errors.h"
 
 namespace strata::gbuffer {
 namespace {
 
-double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
-}
-
-struct Errors {
-    double worst = 0, mean = 0;
-};
-
-template <typename MakeNormal>
-Errors errors_of(int count, MakeNormal make_normal) {
-    Errors errors;
-    for (int i = 0; i < count; ++i) {
-        const glm::dvec3 n = make_normal();
-        const double error = degrees_between(packed_normal(packed_halves(n)), n);
-        errors.worst = std::max(errors.worst, error);
-        errors.mean += error / count;
-    }
-    return errors;
-}
+glm::dvec3 packed_stored(const glm::dvec3& n) { return packed_normal(packed_halves(n)); }
 
 TEST(PackedGBuffer, StoresTheHalvesOfTheChapter) {
     struct Row {
@@ -62,22 +45,18 @@ TEST(PackedGBuffer, AClearedTexelWouldLookLikeANormal) {
 }
 
 TEST(PackedGBuffer, NormalsOfAnyDirectionAreOffByTheMeanOfTheTable) {
-    std::mt19937_64 random(1);
-    std::normal_distribution<double> gauss;
-    const Errors errors =
-        errors_of(1000000, [&] { return glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random))); });
-    EXPECT_NEAR(errors.mean, 0.0473, 0.05 * 0.0473);
+    EXPECT_NEAR(errors_of_a_million_normals(packed_stored).mean, 0.0473, 0.05 * 0.0473);
 }
 
 TEST(PackedGBuffer, NormalsSeenEdgeOnAreTheWorst) {
     // The ring z = 0 near x = y: z_err = sqrt(2 |x dx + y dy|) with dx, dy up to 2^-11.
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> around(0, 2 * std::numbers::pi), above(-0.04, 0.04);
-    const Errors errors = errors_of(1000000, [&] {
+    const auto on_the_ring = [&] {
         const double a = around(random), z = above(random), r = std::sqrt(1 - z * z);
         return glm::dvec3(r * std::cos(a), r * std::sin(a), z);
-    });
-    EXPECT_NEAR(errors.worst, 2.124, 0.05 * 2.124);
+    };
+    EXPECT_NEAR(normal_errors(1000000, on_the_ring, packed_stored).worst, 2.124, 0.05 * 2.124);
 }
 
 TEST(PackedGBuffer, DepthStepsAreThoseOfHalfFloats) {

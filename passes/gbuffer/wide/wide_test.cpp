@@ -1,32 +1,20 @@
 // Facts of the wide layout: errors of docs/algorithms/deferred.md 2.3 and 2.5, and its codes of materials.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <set>
 
 #include "passes/gbuffer/codes.h"
 #include "passes/gbuffer/wide/model.h"
 #include "passes/gbuffer/wide/wide.shared.h"
+#include "tests/support/normal_errors.h"
 
 namespace strata::gbuffer {
 namespace {
 
 TEST(WideGBuffer, NormalsOfAnyDirectionAreOffAsTheTableSays) {
-    std::mt19937_64 random(1);
-    std::normal_distribution<double> gauss;
-    double worst = 0, sum = 0;
-    constexpr int count = 1000000;
-    for (int i = 0; i < count; ++i) {
-        const double x = gauss(random), y = gauss(random), z = gauss(random);
-        const glm::dvec3 n = glm::normalize(glm::dvec3(x, y, z)), stored = wide_normal(n);
-        const double error = std::atan2(glm::length(glm::cross(n, stored)), glm::dot(n, stored)) * 180 / std::numbers::pi;
-        worst = std::max(worst, error);
-        sum += error;
-    }
-    EXPECT_NEAR(worst, 0.0229, 0.05 * 0.0229);
-    EXPECT_NEAR(sum / count, 0.0061, 0.05 * 0.0061);
+    const NormalErrors errors = errors_of_a_million_normals(wide_normal);
+    EXPECT_NEAR(errors.worst, 0.0229, 0.05 * 0.0229);
+    EXPECT_NEAR(errors.mean, 0.0061, 0.05 * 0.0061);
 }
 
 /// Each coordinate by itself, so that a position leaves its ray: by half a step of a half float at x, which is 2^-9 m at 5 m.

@@ -1,5 +1,5 @@
 // Decodes layout B' of docs/algorithms/deferred.md 2.1: n.z as it is, n.x with the sign of n.y, half-float view z, material code.
-#include "passes/gbuffer/codes.glsl"
+#include "passes/gbuffer/coded_surface.glsl"
 
 // The sign bit and not q.y < 0: a -0 decodes as it was meant.
 vec3 z_first_normal(vec2 q) {
@@ -10,8 +10,5 @@ vec3 z_first_normal(vec2 q) {
 
 Surface decode_z_first(GBufferTexel t) {
     if (t.g0.a == 0.0) return no_surface();
-    const PackedMaterial material = unpack_material(t.g0.a);
-    const vec4 color = unpack_color(t.g1);
-    return Surface(true, z_first_normal(t.g0.xy), t.g0.z, color.rgb, color.a, material.metallic, material.occlusion,
-                   material.lighting_model, t.shaded_offset);
+    return coded_surface(z_first_normal(t.g0.xy), t.g0.z, t.g0.a, t.g1, t.shaded_offset);
 }

@@ -20,12 +20,7 @@ glm::dvec3 z_first_normal(const glm::dvec2& q) {
 }
 
 ImageSet z_first_model(const StageInput& input, const Settings& settings) {
-    const double near = input.frame.view.near;
-    return stored_images(input, settings, [near](NearestSurface& s, const SampleAt&) {
-        s.point = stored_material(s.point);
-        s.point.normal = z_first_normal(z_first_halves(s.point.normal));
-        s.point.position.z = half_depth(s.point.position.z, near);
-    });
+    return half_depth_images(input, settings, [](const glm::dvec3& n) { return z_first_normal(z_first_halves(n)); });
 }
 
 }  // namespace strata::gbuffer

@@ -5,14 +5,12 @@
 #include <numbers>
 
 #include "passes/gbuffer/z_first/model.h"
+#include "tests/support/normal_errors.h"
 
 namespace strata::gbuffer {
 namespace {
 
-double degrees_off(const glm::dvec3& n) {
-    const glm::dvec3 stored = z_first_normal(z_first_halves(n));
-    return std::atan2(glm::length(glm::cross(n, stored)), glm::dot(n, stored)) * 180 / std::numbers::pi;
-}
+double degrees_off(const glm::dvec3& n) { return degrees_between(z_first_normal(z_first_halves(n)), n); }
 
 TEST(ZFirstGBuffer, DecodesTheExampleOfTheChapter) {
     const glm::dvec3 n(.6, 0, -.8), stored = z_first_normal(z_first_halves(n));

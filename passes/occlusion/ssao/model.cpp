@@ -17,6 +17,7 @@
 #include "passes/occlusion/ssao/ssao.shared.h"
 #include "passes/occlusion/truth.h"
 #include "passes/reference/decoded.h"
+#include "passes/reference/pcg.h"
 #include "passes/technique.h"
 
 namespace strata::occlusion {
@@ -72,12 +73,6 @@ public:
 private:
     std::vector<Place> places_;
 };
-
-/// PCG as a hash (Jarzynski and Olano 2020), chained over pixel and frame.
-std::uint32_t pcg(std::uint32_t v) {
-    const std::uint32_t s = v * 747796405u + 2891336453u, w = ((s >> ((s >> 28) + 4)) ^ s) * 277803737u;
-    return (w >> 22) ^ w;
-}
 
 /// Shares of the turn to the next direction and of the way to the next tap.
 glm::dvec2 noise_at(const Scene& scene, glm::uvec2 texel) {

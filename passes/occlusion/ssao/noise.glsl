@@ -4,7 +4,7 @@
 #define PASSES_OCCLUSION_SSAO_NOISE_GLSL
 #include "passes/occlusion/ssao/ssao.shared.h"
 #include "passes/shaders/scene.glsl"
-#include "passes/transparency/hash.shared.h"
+#include "passes/shaders/hash.shared.h"
 
 layout(constant_id = 4) const uint noise = noise_interleaved;
 

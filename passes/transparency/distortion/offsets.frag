@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/luminance.glsl"
+#include "passes/shaders/luminance.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_offset;  // a: what it lets through

@@ -2,7 +2,7 @@
 #ifndef PASSES_TRANSPARENCY_OPTICAL_DEPTH_GLSL
 #define PASSES_TRANSPARENCY_OPTICAL_DEPTH_GLSL
 #include "passes/transparency/functions/function.shared.h"
-#include "passes/transparency/luminance.glsl"
+#include "passes/shaders/luminance.glsl"
 
 float optical_depth(float t) {
     const float a = 1.0 - t;

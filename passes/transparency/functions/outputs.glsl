@@ -3,7 +3,7 @@
 #ifndef PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
 #define PASSES_TRANSPARENCY_FUNCTION_OUTPUTS_GLSL
 #include "passes/transparency/functions/function.shared.h"
-#include "passes/transparency/luminance.glsl"
+#include "passes/shaders/luminance.glsl"
 #include "passes/transparency/functions/motion.glsl"
 #include "passes/transparency/functions/optical_depth.glsl"
 #include "passes/transparency/functions/tint.glsl"

@@ -5,7 +5,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "passes/transparency/distortion/bent_background.glsl"
 #include "passes/transparency/lists/event_lists.shared.h"
-#include "passes/transparency/luminance.glsl"
+#include "passes/shaders/luminance.glsl"
 
 layout(push_constant, scalar) uniform Push { Band band; };
 #include "passes/shaders/finished.glsl"

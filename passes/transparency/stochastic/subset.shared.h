@@ -2,7 +2,7 @@
 // Alphas are fixed-point numbers of 24 bits.
 #ifndef PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_SHARED_H
 #define PASSES_TRANSPARENCY_STOCHASTIC_SUBSET_SHARED_H
-#include "passes/transparency/hash.shared.h"
+#include "passes/shaders/hash.shared.h"
 #ifdef __cplusplus
 namespace strata::transparency {
 inline uint fragment_key(uint seed, uvec3 place, uint draw, uint triangle);

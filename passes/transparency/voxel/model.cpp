@@ -6,8 +6,8 @@
 
 #include "passes/reference/ordering.h"
 #include "passes/reference/triangles.h"
+#include "passes/shaders/hash.shared.h"
 #include "passes/transparency/functions/model.h"
-#include "passes/transparency/hash.shared.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/voxel/factors/model.h"
 #include "passes/transparency/voxel/slices/depth_curve.h"

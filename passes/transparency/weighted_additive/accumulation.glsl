@@ -2,7 +2,7 @@
 #ifndef PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #define PASSES_TRANSPARENCY_WEIGHTED_ADDITIVE_ACCUMULATION_GLSL
 #include "passes/transparency/event.glsl"
-#include "passes/transparency/luminance.glsl"
+#include "passes/shaders/luminance.glsl"
 #include "passes/transparency/weighted_additive/weighted_additive.shared.h"
 
 layout(constant_id = 3) const uint low_resolution = 0u;  // 1: two pixels of the frame per pixel drawn, each way

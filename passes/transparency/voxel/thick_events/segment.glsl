@@ -2,7 +2,7 @@
 // double. A shader that includes this includes event.glsl and volume/voxels.glsl first.
 #ifndef PASSES_TRANSPARENCY_VOXEL_SEGMENT_GLSL
 #define PASSES_TRANSPARENCY_VOXEL_SEGMENT_GLSL
-#include "passes/transparency/hash.shared.h"
+#include "passes/shaders/hash.shared.h"
 #include "passes/transparency/functions/optical_depth.glsl"
 #include "passes/transparency/voxel/thick_events/thickness.glsl"
 

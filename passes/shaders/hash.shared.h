@@ -1,9 +1,9 @@
 // Random numbers that C++ and GLSL draw alike, in integers only and with no state anywhere.
-#ifndef PASSES_TRANSPARENCY_HASH_SHARED_H
-#define PASSES_TRANSPARENCY_HASH_SHARED_H
+#ifndef PASSES_SHADERS_HASH_SHARED_H
+#define PASSES_SHADERS_HASH_SHARED_H
 #include "passes/shader_interop.h"
 #ifdef __cplusplus
-namespace strata::transparency {
+namespace strata {
 inline uint hashed(uint value);
 inline uint hashed(uint key, uvec3 value);
 #endif
@@ -18,6 +18,6 @@ uint hashed(uint value) {
 uint hashed(uint key, uvec3 value) { return hashed(hashed(hashed(key ^ value.x) ^ value.y) ^ value.z); }
 
 #ifdef __cplusplus
-}  // namespace strata::transparency
+}  // namespace strata
 #endif
 #endif

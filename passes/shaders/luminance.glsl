@@ -1,7 +1,7 @@
 // How bright linear light of the primaries of BT.709 is: one number where a method keeps no color
 // (docs/algorithms/transparency.md 0.3).
-#ifndef PASSES_TRANSPARENCY_LUMINANCE_GLSL
-#define PASSES_TRANSPARENCY_LUMINANCE_GLSL
+#ifndef PASSES_SHADERS_LUMINANCE_GLSL
+#define PASSES_SHADERS_LUMINANCE_GLSL
 
 float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
