@@ -28,7 +28,8 @@ Result<void> check(Session& session, const Variant& way) {
 Result<std::pair<Variant, Variant>> ways_of(Session& session, const Claim& claim) {
     const bool changes = claim.ratio->of_frame.change || claim.ratio->against_frame.change;
     if (changes && !claim.against_frame)
-        return fail(Fault::usage, "this ratio is defined on modified frames of scenario {}; run strata bench without a capture",
+        return fail(Fault::usage,
+                    "this ratio changes frames of scenario {} and cannot be measured on a capture: run strata bench without one",
                     claim.ratio->scenario);
     const auto of = variant_of(*claim.technique, claim.ratio->of, claim.base);
     if (!of) return of.error();

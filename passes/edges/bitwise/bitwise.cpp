@@ -22,7 +22,7 @@ Technique bitwise() {
             .name = "edges/bitwise",
             .title = "Words that differ",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
-            .summary = "Compares every word of the G-buffer bit by bit: exact, and marks edges that nobody sees.",
+            .summary = "Compares every word of the G-buffer bit by bit: exact, and marks differences too small to see.",
             .counters = edge_counters(),
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),

@@ -13,13 +13,14 @@ namespace strata::edges {
 
 inline constexpr auto routings = choice_names({{routing_threads, "threads"}, {routing_list, "list"}});
 /// The row of a technique that leaves the routing to its user.
-inline constexpr Param routing_row = {
-    .name = "routing",
-    .low = 0,
-    .high = routing_list,
-    .fallback = routing_list,
-    .help = "threads: one per sample, idle in plain pixels; list: one per pixel, then one per further sample of listed edges",
-    .choices = routings};
+inline constexpr Param routing_row = {.name = "routing",
+                                      .low = 0,
+                                      .high = routing_list,
+                                      .fallback = routing_list,
+                                      .help =
+                                          "assignment of threads to samples; threads: one per sample, also in plain pixels; "
+                                          "list: one per pixel, then one per further sample of edges",
+                                      .choices = routings};
 
 /// What a shader that includes passes/edges/routing/routed.glsl leaves of every sample.
 struct Shaded {

@@ -29,8 +29,9 @@ Technique oct_half() {
         .model = oct_half_model,
         .tolerance = {.rmse = 1.5e-3,
                       .worst = 0.018,
-                      .because = "a float on a rounding boundary takes the neighbouring half, 2^-11 of it; colors as in 8 bits "
-                                 "sRGB, 0.0087 linear"}};
+                      .because =
+                          "a float on a rounding boundary may become the neighboring half, 2^-11 of it away; colors as in 8 bits "
+                          "sRGB, 0.0087 linear"}};
 }
 
 }  // namespace strata::gbuffer

@@ -151,12 +151,12 @@ Technique lpv() {
                                              .help = "blockers tested with taps=visible; on: those near the macro-cell (4x4x4 "
                                                      "cells); off: all, for the same image",
                                              .choices = switches}),
-             param<&LpvParams::apply_resolution>(
-                 {.name = "apply_resolution",
-                  .high = 1,
-                  .fallback = resolution_full,
-                  .help = "resolution at which grids are read; half: one of 2x2 pixels, upsampled by distance and normal",
-                  .choices = resolutions}),
+             param<&LpvParams::apply_resolution>({.name = "apply_resolution",
+                                                  .high = 1,
+                                                  .fallback = resolution_full,
+                                                  .help = "resolution at which light is read from the grids; half: once per 2x2 "
+                                                          "pixels, upsampled by depth and normal",
+                                                  .choices = resolutions}),
              param<&LpvParams::relight>(
                  {.name = "relight",
                   .high = 1,
@@ -224,20 +224,21 @@ Technique lpv() {
              counter<&LpvCounters::samples>({.name = "samples", .help = "samples lit by a grid, summed over all grids"}),
              counter<&LpvCounters::hidden_taps>(
                  {.name = "hidden taps",
-                  .help = "cells that samples do not interpolate because a blocker hides them, summed over samples"}),
+                  .help = "taps (cells around a sample) left out because a blocker hides them from it, summed over samples"}),
              counter<&LpvCounters::unfinished>(unfinished_row),
              counter<&LpvCounters::samples_near_blockers>(
                  {.name = "samples near blockers", .help = "samples with at least one blocker near their macro-cell"}),
              counter<&LpvCounters::blocker_tests>(
                  {.name = "blocker tests",
-                  .help = "(segment, blocker) intersection tests; segments lead from samples to cells and to other pixels"}),
+                  .help = "segment-blocker intersection tests; a segment leads from a sample to a cell or to another pixel"}),
              counter<&LpvCounters::full_resolution_pixels>(
                  {.name = "full resolution pixels",
                   .help = "samples that read the grid themselves with apply_resolution=half because no neighbor fits"}),
              counter<&LpvCounters::cells_relit>(
                  {.name = "cells relit", .help = "cells lit anew in this frame, summed over all grids; 0: their light was kept"}),
              counter<&LpvCounters::faces_rebuilt>(
-                 {.name = "faces rebuilt", .help = "cell faces whose transmission was computed in this frame; 0: it was kept"}),
+                 {.name = "faces rebuilt",
+                  .help = "cell faces whose transmission was computed in this frame; 0: all were kept from earlier frames"}),
              counter<&LpvCounters::overflowed>(
                  {.name = "overflowed", .help = "fixed-point sums of light in a cell that overflowed", .is_fatal = true}),
              counter<&LpvCounters::reflected>(
@@ -261,7 +262,8 @@ Technique lpv() {
               .declare = near_blockers,
               .if_zero = "no blocker is near the macro-cell of a visible surface"},
              {.name = "volume",
-              .help = "grid with the largest share in a pixel, counted from 1, plus half the share of all others; 0: none",
+              .help = "number, from 1, of the grid that lights a pixel most; its fraction is half the share of all other grids; "
+                      "0: no grid",
               .unit = "grid",
               .high = 8,
               .declare = lighting_volume,
@@ -295,7 +297,8 @@ Technique lpv() {
               .declare = energy_table,
               .is_curves = true},
              {.name = "bounces",
-              .help = "energy injected into the first grid by bounce, R+G+B; 0 earlier bounces: light straight from its source",
+              .help = "energy injected into the first grid for each bounce, R+G+B; 0 earlier bounces: from surfaces that lights "
+                      "shine on",
               .columns = {{"earlier bounces", ""}, {"injected", "W"}},
               .declare = bounces_table}},
         .beyond_device = beyond_device,

@@ -30,7 +30,7 @@ Technique none() {
         .declare = declare_nothing,
         .at_other_stages = {{.at = Stage::film, .declare = make_ones}},
         .model = none_model,
-        .tolerance = {.rmse = 0, .worst = 0, .because = "1 is exact as a half float"}};
+        .tolerance = {.rmse = 0, .worst = 0, .because = "the image is 1 everywhere, which a half float holds exactly"}};
 }
 
 }  // namespace strata::occlusion

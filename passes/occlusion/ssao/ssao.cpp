@@ -126,51 +126,54 @@ std::string_view approximates(const Settings& settings) {
 }
 
 std::vector<Param> params() {
-    return {
-        param<&SsaoParams::form>({.name = "ao_form",
-                                  .fallback = form_horizon,
-                                  .help = "estimator: cosine-weighted horizons, or X-Ray's taps on rings as published",
-                                  .choices = forms}),
-        param<&SsaoParams::taps>({.name = "ao_taps",
-                                  .fallback = taps_24,
-                                  .help = "taps per estimate; more: less noise, fewer missed occluders, proportional time",
-                                  .choices = tap_counts}),
-        param<&SsaoParams::radius>({.name = "ao_radius",
-                                    .fallback = default_radius,
-                                    .help = "distance in world space beyond which surfaces do not occlude",
-                                    .choices = radius_names}),
-        param<&SsaoParams::resolution>({.name = "ao_resolution",
-                                        .fallback = resolution_full,
-                                        .help = "half estimates one of 2x2 pixels and upsamples by surface",
-                                        .choices = resolutions}),
-        param<&SsaoParams::blur>({.name = "ao_blur",
-                                  .fallback = 1,
-                                  .help = "average visibility over 5x5 texels of one surface; removes interleaved noise",
-                                  .choices = switches}),
-        param<&SsaoParams::edge_stop>({.name = "ao_edge_stop",
-                                       .fallback = edge_stop_plane,
-                                       .help = "surfaces that blur and upsampling mix: in one plane, or at similar depth "
-                                               "(X-Ray)",
-                                       .choices = edge_stops}),
-        param<&SsaoParams::noise>({.name = "ao_noise",
-                                   .fallback = noise_interleaved,
-                                   .help = "turns taps per pixel: a fixed 4x4 pattern, or a hash of pixel, seed and frame",
-                                   .choices = noises}),
-        param<&SsaoParams::material>({.name = "ao_material",
-                                      .fallback = material_product,
-                                      .help = "combine with the material's occlusion: multiply both, or take the darker",
-                                      .choices = material_rules}),
-        param<&SsaoParams::depth_error>({.name = "ao_depth_error",
-                                         .low = 1e-7,
-                                         .high = 1e-2,
-                                         .fallback = 1e-4,
-                                         .help = "relative error of the G-buffer's depth; heights within it do not occlude",
-                                         .scale = Scale::logarithmic}),
-        param<&SsaoParams::bias>({.name = "ao_bias",
-                                  .low = 0,
-                                  .high = 0.5,
-                                  .fallback = 1e-3,
-                                  .help = "sine of the elevation below which a tap does not occlude; hides errors of normals"})};
+    return {param<&SsaoParams::form>({.name = "ao_form",
+                                      .fallback = form_horizon,
+                                      .help = "estimator: cosine-weighted horizons, or X-Ray's taps on rings as published",
+                                      .choices = forms}),
+            param<&SsaoParams::taps>(
+                {.name = "ao_taps",
+                 .fallback = taps_24,
+                 .help = "depth taps per estimate; more: less noise and fewer missed occluders, in proportion to time",
+                 .choices = tap_counts}),
+            param<&SsaoParams::radius>({.name = "ao_radius",
+                                        .fallback = default_radius,
+                                        .help = "distance in world space beyond which surfaces do not occlude",
+                                        .choices = radius_names}),
+            param<&SsaoParams::resolution>({.name = "ao_resolution",
+                                            .fallback = resolution_full,
+                                            .help = "half estimates one of 2x2 pixels and upsamples by surface",
+                                            .choices = resolutions}),
+            param<&SsaoParams::blur>(
+                {.name = "ao_blur",
+                 .fallback = 1,
+                 .help = "bilateral blur: averages visibility over 5x5 texels of one surface; removes interleaved noise",
+                 .choices = switches}),
+            param<&SsaoParams::edge_stop>({.name = "ao_edge_stop",
+                                           .fallback = edge_stop_plane,
+                                           .help = "surfaces that blur and upsampling mix: in one plane, or at similar depth "
+                                                   "(X-Ray)",
+                                           .choices = edge_stops}),
+            param<&SsaoParams::noise>({.name = "ao_noise",
+                                       .fallback = noise_interleaved,
+                                       .help = "turns taps per pixel: a fixed 4x4 pattern, or a hash of pixel, seed and frame",
+                                       .choices = noises}),
+            param<&SsaoParams::material>(
+                {.name = "ao_material",
+                 .fallback = material_product,
+                 .help = "rule that joins screen-space and material occlusion: product, or min: the darker of both",
+                 .choices = material_rules}),
+            param<&SsaoParams::depth_error>({.name = "ao_depth_error",
+                                             .low = 1e-7,
+                                             .high = 1e-2,
+                                             .fallback = 1e-4,
+                                             .help = "relative error of the G-buffer's depth; heights within it do not occlude",
+                                             .scale = Scale::logarithmic}),
+            param<&SsaoParams::bias>(
+                {.name = "ao_bias",
+                 .low = 0,
+                 .high = 0.5,
+                 .fallback = 1e-3,
+                 .help = "horizon bias: sine of the elevation below which a tap does not occlude; hides errors of normals"})};
 }
 
 Claims claims() {
@@ -186,43 +189,45 @@ Claims claims() {
 }  // namespace
 
 Technique ssao() {
-    return {.stage = Stage::occlusion,
-            .name = "occlusion/ssao",
-            .title = "Screen-space ambient occlusion",
-            .source =
-                "Jimenez, Wu, Pesce, Jarabo: Practical Realtime Strategies for Accurate Indirect Occlusion, SIGGRAPH 2016; "
-                "Lobanchikov, Gruen: S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (ao_form=xray)",
-            .summary =
-                "Darkens ambient light by what the depth buffer shows around a pixel; surfaces off the screen or behind others "
-                "do not "
-                "occlude, and thin ones occlude as if they had no back.",
-            .params = params(),
-            .points = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off",
-                       "ao_blur=off ao_noise=none", "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8",
-                       "ao_edge_stop=depth", "ao_radius=50cm", "ao_material=min", "ao_form=xray", "ao_form=xray ao_taps=8",
-                       "ao_form=xray ao_taps=96", "ao_form=xray ao_edge_stop=depth ao_resolution=half"},
-            .counters = {counter<&SsaoCounters::samples>({.name = "samples", .help = "samples whose visibility is estimated"}),
-                         counter<&SsaoCounters::taps>({.name = "taps", .help = "surfaces read by estimates"}),
-                         counter<&SsaoCounters::out_of_reach>(
-                             {.name = "out_of_reach", .help = "samples with no tap within the radius: nothing occludes them"}),
-                         counter<&SsaoCounters::unfit>(
-                             {.name = "unfit",
-                              .help = "samples without a fitting neighbor at half resolution: the nearest is taken"})},
-            .counter_bytes = sizeof(SsaoCounters),
-            .views = {{.name = "ambient visibility",
-                       .help = "share of ambient light that arrives, as combine multiplies by it; first sample",
-                       .declare = show_occlusion},
-                      {.name = "estimated visibility",
-                       .help = "the estimate before blur and upsampling: what noise looks like; first sample",
-                       .declare = show_estimate}},
-            .abilities = {.is_time_unit = true},
-            .claims = claims(),
-            .declare = declare,
-            .approximates = approximates,
-            .model = ssao_model,
-            .tolerance = {.rmse = 1e-3,
-                          .worst = 3e-3,
-                          .because = "half floats of undefined rounding in up to three images, 5e-4 each; arc cosines of 2e-4"}};
+    return {
+        .stage = Stage::occlusion,
+        .name = "occlusion/ssao",
+        .title = "Screen-space ambient occlusion",
+        .source =
+            "Jimenez, Wu, Pesce, Jarabo: Practical Realtime Strategies for Accurate Indirect Occlusion, SIGGRAPH 2016; "
+            "Lobanchikov, Gruen: S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (ao_form=xray)",
+        .summary =
+            "Darkens ambient light by what the depth buffer shows around a pixel; surfaces off the screen or behind others "
+            "do not "
+            "occlude, and thin ones occlude as if they had no back.",
+        .params = params(),
+        .points = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off", "ao_blur=off ao_noise=none",
+                   "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8", "ao_edge_stop=depth", "ao_radius=50cm",
+                   "ao_material=min", "ao_form=xray", "ao_form=xray ao_taps=8", "ao_form=xray ao_taps=96",
+                   "ao_form=xray ao_edge_stop=depth ao_resolution=half"},
+        .counters = {counter<&SsaoCounters::samples>(
+                         {.name = "samples", .help = "samples for which ambient visibility was estimated from taps"}),
+                     counter<&SsaoCounters::taps>({.name = "taps", .help = "depth taps read by all estimates"}),
+                     counter<&SsaoCounters::out_of_reach>(
+                         {.name = "out_of_reach", .help = "samples with no tap within the radius: nothing occludes them"}),
+                     counter<&SsaoCounters::unfit>(
+                         {.name = "unfit",
+                          .help = "samples without a fitting neighbor at half resolution: the nearest is taken"})},
+        .counter_bytes = sizeof(SsaoCounters),
+        .views = {{.name = "ambient visibility",
+                   .help = "ambient visibility of each pixel's first sample: the factor that combine applies to ambient light",
+                   .declare = show_occlusion},
+                  {.name = "estimated visibility",
+                   .help = "ambient visibility of each pixel's first sample before blur and upsampling: shows the noise",
+                   .declare = show_estimate}},
+        .abilities = {.is_time_unit = true},
+        .claims = claims(),
+        .declare = declare,
+        .approximates = approximates,
+        .model = ssao_model,
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 3e-3,
+                      .because = "half floats of undefined rounding in up to three images, 5e-4 each; arc cosines of 2e-4"}};
 }
 
 }  // namespace strata::occlusion
