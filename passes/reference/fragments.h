@@ -55,6 +55,7 @@ enum class ShadeAt { sample, pixel_center };
 struct RasterOptions {
     ShadeAt shade_at = ShadeAt::sample;
     bool near_misses = false;  ///< visit samples, too, that are outside by less than is undecided (covered = false)
+    bool near_seams = false;   ///< seams of a mesh are sides like others: which of two triangles covers a sample is asked
 };
 
 /// Calls `visit` for every covered sample of the given draws, in submission order within each pixel row. Not thread safe

@@ -119,17 +119,24 @@ void set_edges(RasterTriangle& triangle, std::span<const SnappedCorner> corners,
 
 enum class Verdict { outside, near_miss, covered, covered_undecided };
 
-Verdict verdict_at(const RasterTriangle& triangle, const glm::i64vec2& p, double undecided_within) {
+/// What decides on a verdict beside the place.
+struct Sides {
+    double undecided_within;
+    bool seams;  ///< decide, too
+};
+
+Verdict verdict_at(const RasterTriangle& triangle, const glm::i64vec2& p, const Sides& sides) {
     bool covered = true, near_side = false;
     for (std::uint32_t i = 0; i < triangle.edge_count; ++i) {
         const RasterEdge& edge = triangle.edges[i];
         const std::int64_t height = edge.dx * p.y - edge.dy * p.x + edge.offset;
         const double distance = double(height) * edge.inverse_length;
-        if (distance < -undecided_within) return Verdict::outside;
+        if (distance < -sides.undecided_within) return Verdict::outside;
+        const bool decides = edge.decides || sides.seams;
         const bool inside = height > 0 || (height == 0 && edge.top_left);
-        if (!inside && !edge.decides) return Verdict::outside;
+        if (!inside && !decides) return Verdict::outside;
         covered = covered && inside;
-        near_side = near_side || (edge.decides && distance <= undecided_within);
+        near_side = near_side || (decides && distance <= sides.undecided_within);
     }
     if (!covered) return Verdict::near_miss;
     return near_side ? Verdict::covered_undecided : Verdict::covered;
@@ -249,7 +256,8 @@ void Raster::visit_pixel(const RasterTriangle& triangle, glm::uvec2 pixel, Raste
     const View& view = frame_->view;
     for (std::uint32_t sample = 0; sample < view.samples; ++sample) {
         const glm::dvec2 at = glm::dvec2(pixel) + sample_position(view.samples, sample);
-        const Verdict verdict = verdict_at(triangle, glm::i64vec2(at * double(snap_steps)), undecided_within_);
+        const Verdict verdict =
+            verdict_at(triangle, glm::i64vec2(at * double(snap_steps)), {undecided_within_, options.near_seams});
         if (verdict == Verdict::outside || (verdict == Verdict::near_miss && !options.near_misses)) continue;
         const glm::dvec3 sample_ray = pixel_ray(*frame_, at.x, at.y);
         RasterPoint point{.x = pixel.x, .y = pixel.y, .sample = sample, .draw = triangle.draw, .triangle = triangle.triangle};

@@ -120,6 +120,17 @@ TEST(Raster, SamplesNearSidesAreThoseWithinTheStepsAlsoBeyondThePolygon) {
     }
 }
 
+/// Of a square that covers all 8 x 8 pixels, one diagonal is a seam; it passes through the middles of 8 of them.
+TEST(Raster, SeamsAreSidesForThoseWhoAskWhichTriangleCoversASample) {
+    Frame frame = tiny::frame(8, 8);
+    tiny::add_quad(frame, {.left = 0, .top = 0, .right = 8, .bottom = 8}, 2);
+    for (const bool near_seams : {false, true}) {
+        const std::vector<RasterPoint> points = points_of(frame, {.near_seams = near_seams});
+        EXPECT_EQ(points.size(), 64u);
+        EXPECT_EQ(std::ranges::count(points, true, &RasterPoint::undecided), near_seams ? 8 : 0);
+    }
+}
+
 TEST(Raster, FourSamplesSeeAVerticalEdgeAsDeferredTMS2Says) {
     const std::array<std::pair<double, std::vector<std::uint32_t>>, 3> cases = {{{10.5, {0, 2}}, {10.25, {2}}, {10.0, {}}}};
     for (const auto& [edge, expected] : cases) {

@@ -1,6 +1,4 @@
 // Edges are pixels in which a visible triangle covers some samples and not all.
-#include <array>
-
 #include "passes/choice_names.h"
 #include "passes/edges/coverage/coverage.shared.h"
 #include "passes/edges/surface_tests.h"
@@ -24,11 +22,6 @@ std::uint32_t tests_of(std::uint32_t with_tests) {
     const bool has_material = with_tests == coverage_and_material || with_tests == coverage_and_both;
     return (has_depth ? test_depth : 0) | (has_material ? test_material : 0);
 }
-
-/// Not explained yet: the seam of the wall's two triangles is more than 100 / 256 pixel away from that sample in the model.
-constexpr std::array exceptions = {ToleranceException{
-    "", "odd_size_at_four_samples", .05, 1,
-    "llvmpipe 22.3 has one triangle cover all of pixel (3, 5), where the model has a seam above the first sample"}};
 
 /// 1 where a visible triangle covers a part of the pixel: a raster step over the visible draws and the finished depth. The
 /// G-stage could write it on the way, into a target of its own that every technique would pay for.
@@ -57,29 +50,27 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 }  // namespace
 
 Technique coverage() {
-    return {
-        .stage = Stage::edges,
-        .name = "edges/coverage",
-        .title = "Triangles that cover a part of a pixel",
-        .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (centroid trick)",
-        .summary =
-            "Draws opaque triangles once more and marks where coverage is partial: marks seams inside meshes, misses "
-            "triangles that cross.",
-        .params = {param<&CoverageParams::with_tests>({.name = "with_tests",
-                                                       .high = coverage_and_both,
-                                                       .fallback = coverage_alone,
-                                                       .help = "tests of surfaces that mark further pixels",
-                                                       .choices = companions}),
-                   param<&CoverageParams::depth_step>(depth_step_row), param<&CoverageParams::color_step>(color_step_row)},
-        .points = {"with_tests=depth", "with_tests=material", "with_tests=depth_and_material"},
-        .counters = edge_counters(),
-        .counter_bytes = sizeof(EdgeCounters),
-        .views = edge_views(),
-        .tables = edge_tables(),
-        .declare = declare,
-        .model = coverage_model,
-        .tolerance = {
-            .rmse = 0, .worst = 0, .because = "pixels whose coverage hangs on rounding are undecided", .exceptions = exceptions}};
+    return {.stage = Stage::edges,
+            .name = "edges/coverage",
+            .title = "Triangles that cover a part of a pixel",
+            .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (centroid trick)",
+            .summary =
+                "Draws opaque triangles once more and marks where coverage is partial: marks seams inside meshes, misses "
+                "triangles that cross.",
+            .params = {param<&CoverageParams::with_tests>({.name = "with_tests",
+                                                           .high = coverage_and_both,
+                                                           .fallback = coverage_alone,
+                                                           .help = "tests of surfaces that mark further pixels",
+                                                           .choices = companions}),
+                       param<&CoverageParams::depth_step>(depth_step_row), param<&CoverageParams::color_step>(color_step_row)},
+            .points = {"with_tests=depth", "with_tests=material", "with_tests=depth_and_material"},
+            .counters = edge_counters(),
+            .counter_bytes = sizeof(EdgeCounters),
+            .views = edge_views(),
+            .tables = edge_tables(),
+            .declare = declare,
+            .model = coverage_model,
+            .tolerance = {.rmse = 0, .worst = 0, .because = "pixels whose coverage hangs on rounding are undecided"}};
 }
 
 }  // namespace strata::edges

@@ -17,18 +17,27 @@ struct Covering {
     std::uint32_t draw = 0, triangle = 0, covered = 0;
 };
 
-/// In the order of pixels, row by row.
-using Coverings = std::vector<std::vector<Covering>>;
+struct CoveredPixel {
+    std::vector<Covering> triangles;
+    /// Rounding decides on which side of a triangle a sample lies. Of seams inside meshes, too, which are undecided to nobody
+    /// else: there either triangle gives the sample the same surface.
+    bool undecided = false;
 
-Coverings coverings_of(const Frame& frame) {
-    Coverings all(std::size_t(frame.view.width) * frame.view.height);
-    rasterize(frame, opaque_draws(frame), {}, [&](const RasterPoint& point) {
-        std::vector<Covering>& here = all[std::size_t(point.y) * frame.view.width + point.x];
+    void add(const RasterPoint& point) {
+        undecided = undecided || point.undecided;
+        if (!point.covered) return;
         const auto is_same = [&](const Covering& c) { return c.draw == point.draw && c.triangle == point.triangle; };
-        auto found = std::ranges::find_if(here, is_same);
-        if (found == here.end()) found = here.insert(here.end(), {.draw = point.draw, .triangle = point.triangle});
+        auto found = std::ranges::find_if(triangles, is_same);
+        if (found == triangles.end()) found = triangles.insert(found, {.draw = point.draw, .triangle = point.triangle});
         found->covered |= 1u << point.sample;
-    });
+    }
+};
+
+/// In the order of pixels, row by row.
+std::vector<CoveredPixel> covered_pixels(const Frame& frame) {
+    std::vector<CoveredPixel> all(std::size_t(frame.view.width) * frame.view.height);
+    rasterize(frame, opaque_draws(frame), {.near_misses = true, .near_seams = true},
+              [&](const RasterPoint& point) { all[std::size_t(point.y) * frame.view.width + point.x].add(point); });
     return all;
 }
 
@@ -60,17 +69,15 @@ ImageSet coverage_model(const StageInput& input, const Settings& settings) {
     ModelLimits limits{.depth_step = params.depth_step, .color_step = params.color_step};
     if (params.with_tests == coverage_and_depth || params.with_tests == coverage_and_both) limits.tests |= test_depth;
     if (params.with_tests == coverage_and_material || params.with_tests == coverage_and_both) limits.tests |= test_material;
-    const Coverings coverings = coverings_of(input.frame);
+    const std::vector<CoveredPixel> covered = covered_pixels(input.frame);
     const VisiblePoints visible = visible_points(input.frame, opaque_draws(input.frame));
-    // Of seams inside meshes, too, which are undecided to nobody else: there either triangle gives the sample the same surface.
-    const std::vector<bool> near_sides = samples_near_sides(input.frame, 1.5);
     const ClipSeams seams = clip_seams(input.frame);
     return marked(input, [&](std::uint32_t x, std::uint32_t y) {
-        const auto& here = coverings[std::size_t(y) * input.frame.view.width + x];
-        Verdict by_coverage = coverage_verdict(here, visible, {x, y});
+        const CoveredPixel& here = covered[std::size_t(y) * input.frame.view.width + x];
+        if (here.undecided) return Verdict::undecided;
+        Verdict by_coverage = coverage_verdict(here.triangles, visible, {x, y});
         for (std::uint32_t sample = 0; sample < visible.samples; ++sample) {
             const RasterPoint& nearest = visible.at(x, y, sample);
-            if (near_sides[visible.index(x, y, sample)]) return Verdict::undecided;
             // A piece of a triangle that covers the pixel may not; a piece of one that covers a part of it never does.
             if (by_coverage == Verdict::plain && seams.contains({x, y, nearest.draw, nearest.triangle}))
                 by_coverage = Verdict::undecided;
