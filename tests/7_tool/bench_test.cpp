@@ -97,7 +97,7 @@ TEST(BenchVerb, MeasuresAWayInAChangedFrameOfTheScenario) {
     ASSERT_EQ(strata("record two_rooms -o rooms.strata").code, 0);
     const Finished of_capture = strata("bench lpv rooms.strata --only 'injection: 4 lights' --repeats 1");
     EXPECT_NE(of_capture.code, 0);
-    EXPECT_THAT(of_capture.err, HasSubstr("modified frames of scenario hall_of_lights_65; run strata bench without a capture"));
+    EXPECT_THAT(of_capture.err, HasSubstr("changes frames of scenario hall_of_lights_65 and cannot be measured on a capture: run strata bench without one"));
 }
 
 TEST(BenchVerb, CountsInTheLastRepeatWhichIsTimedAndNotInTheWarmUp) {
