@@ -8,6 +8,7 @@ namespace {
 constexpr FrameImageRow rows[] = {
     {"visible", &FrameImages::visible, "1 where an opaque draw is drawn, by its number"},
     {"shadow_maps", &FrameImages::shadow_maps, "depth from each light", Content::coded},
+    {"shadow_bounds", &FrameImages::shadow_bounds, "bounds of depth in blocks of shadow maps", Content::coded},
     {"visibility", &FrameImages::visibility, "share of each light that arrives, 1 lit"},
     {"depth", &FrameImages::depth, "device depth, near / z, reversed, of every sample", Content::depth},
     {"depth_layers", &FrameImages::depth_layers, "the same with a layer for each sample", Content::depth},
@@ -31,7 +32,9 @@ constexpr FrameImageRow rows[] = {
     {"indirect", &FrameImages::indirect, "indirect irradiance / pi", Content::radiance},
     {"volume_light", &FrameImages::volume_light, "light in the cells of light volumes, in records", Content::coded},
     {"light", &FrameImages::light, "radiance that opaque surfaces reflect", Content::radiance},
+    {"shafts", &FrameImages::shafts, "sunlight that the air before surfaces scatters to the eye", Content::radiance},
     {"color", &FrameImages::color, "radiance of the frame", Content::radiance},
+    {"exposure", &FrameImages::exposure, "factor of the recorded exposure, one texel"},
     {"display", &FrameImages::display, "the picture after exposure and tone curve", Content::display},
 };
 

@@ -44,7 +44,8 @@ struct FrameImages {
     // shadows
     Image shadow_maps;           ///< d32f, maps in its layers (ShadowRecord of scene.shared.h), 0 nothing, 1 at the light
     ShadowFilter shadow_filter;  ///< how they are looked up: fixes the constants of passes/shaders/shadow_filter.glsl
-    Image visibility;            ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
+    Image shadow_bounds;  ///< rgba32f, layers as shadow_maps: what blocks of texels hold; none unless a technique makes them
+    Image visibility;     ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
     // gbuffer
     Image depth;                         ///< d32f, `samples` samples: reversed, near / z
     Image depth_layers;                  ///< r32f array, layer = sample: the same depth for shaders to read
@@ -62,8 +63,12 @@ struct FrameImages {
     Image indirect;   ///< rgba16f array: irradiance / pi from the indirect stage; none when left out
     // lighting
     Image light;  ///< rgba16f array: radiance reflected from lights; none when left out
+    // sun_shafts
+    Image shafts;  ///< rgba16f: sunlight that the air before the surface scatters to the eye; none when left out
     // combine, transparency
     Image color;  ///< rgba32f array: linear radiance, per sample
+    // lens
+    Image exposure;  ///< r32f, one texel: what the recorded exposure is multiplied by; none where it does not adapt
     // film end
     Image display;  ///< rgba16f, one layer: resolved, exposed, tone mapped, linear display light
     // What indirect leaves to stages that light places without a surface of the G-buffer (passes/indirect/volume_light.glsl).
