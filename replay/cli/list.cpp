@@ -75,6 +75,8 @@ ordered_json json_of(const Technique& technique) {
                                       {"help", param.help}});
     }
     json["points"] = technique.points;
+    json["also_at"] = ordered_json::array();
+    for (const StageWork& other : technique.at_other_stages) json["also_at"].push_back(name(other.at));
     for (const Counter& counter : technique.counters)
         json["counters"].push_back({{"name", counter.name}, {"help", counter.help}});
     return json;
@@ -141,6 +143,15 @@ Result<void> list_outputs(const ListArguments& options, const char* schema, cons
     return {};
 }
 
+/// A stage without techniques of its own, by those of other stages that do its work.
+void print_served(const StageInfo& stage) {
+    to_stdout("{}: {}\n", stage.name, stage.purpose);
+    for (const Technique& technique : techniques())
+        if (std::ranges::count(technique.at_other_stages, stage.stage, &StageWork::at) > 0)
+            to_stdout("  {:<32}{}. Does the work of this stage for its own: {}\n", technique.name, technique.title,
+                      name(technique.stage));
+}
+
 Result<void> list(const ListArguments& options) {
     if (options.scenarios) return list_scenarios(options);
     if (options.images) return list_outputs(options, "strata.images", "images", images_of_frames());
@@ -160,6 +171,7 @@ Result<void> list(const ListArguments& options) {
             print(*technique, options);
         }
         if (whole_stage && !options.what.empty()) found = true;
+        if (whole_stage && techniques_of(stage.stage).empty() && !options.json && !options.names) print_served(stage);
     }
     if (!found) {
         std::vector<std::string_view> known;

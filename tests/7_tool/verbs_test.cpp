@@ -21,8 +21,10 @@ namespace {
 
 using nlohmann::json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 void record_panes(const std::string& options = "") { ASSERT_EQ(strata("record three_panes -o panes.strata " + options).code, 0); }
 
@@ -105,6 +107,10 @@ TEST(List, ShowsEveryTechniqueAndItsParameters) {
         const Finished one = strata("list " + std::string(technique.name));
         for (const Param& param : technique.params) EXPECT_THAT(one.out, HasSubstr(std::string(param.name)));
     }
+    for (const StageInfo& stage : stages())
+        EXPECT_THAT(strata("list " + std::string(stage.name)).out,
+                    AllOf(StartsWith(stage.name), ContainsRegex("\n  [a-z_]+/[a-z_]+ ")))
+            << "every stage is done by some technique";
     EXPECT_EQ(strata("list --stage transparency").out, strata("list transparency").out);
 }
 
