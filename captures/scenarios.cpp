@@ -90,6 +90,9 @@ constexpr auto scenario_table = std::to_array<Scenario>({
     {"leaves", "What do bounds of a shadow map's texels cost under trees, where they decide little?", 96, 54, scenario::leaves},
     {"hall_with_shafts", "Do shafts of sunlight in a dusty hall begin and end at the windows and the hole in the roof?", 96, 54,
      scenario::hall_with_shafts},
+    {"zone_at_dusk",
+     "Do low sun, wet concrete and rain agree: where it is lit, where it is wet, and where a roof keeps both off?", 96, 54,
+     scenario::zone_at_dusk},
     {"night_market", "What does a frame of a game cost that needs every stage, and what does each technique get wrong there?", 96,
      54, scenario::night_market},
     // The scenes of two public demonstrations, at the extents that times are published for.

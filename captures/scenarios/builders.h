@@ -74,6 +74,8 @@ Frame thirty_boxes(std::uint32_t frame, const ScenarioOptions&);
 Frame leaves(std::uint32_t frame, const ScenarioOptions&);
 // hall_with_shafts.cpp
 Frame hall_with_shafts(std::uint32_t frame, const ScenarioOptions&);
+// zone_at_dusk.cpp
+Frame zone_at_dusk(std::uint32_t frame, const ScenarioOptions&);
 // night_market.cpp
 Frame night_market(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp

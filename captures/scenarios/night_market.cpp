@@ -69,14 +69,14 @@ namespace {
 void add_moon(FrameBuilder& builder) {
     Sun& moon = builder.frame.sun;
     moon.direction = glm::normalize(glm::vec3(0.22f, -0.72f, 0.66f));
-    moon.irradiance = {0.42f, 0.62f, 1.05f};
+    moon.irradiance = {0.6f, 0.92f, 1.6f};
     moon.shadow = {.casts = true, .map_size = 512, .bias = 0.03f, .soft = false};
     moon.cascades = 2;
     moon.shadow_distance = 26;
     moon.shafts = true;
-    builder.frame.hemisphere = {.sky = {0.022f, 0.034f, 0.062f}, .ground = {0.018f, 0.014f, 0.012f}};
-    builder.frame.background = {0.018f, 0.028f, 0.055f};
-    builder.frame.fog = {.density = 0.022f, .color = {0.04f, 0.052f, 0.085f}};
+    builder.frame.hemisphere = {.sky = {0.026f, 0.044f, 0.085f}, .ground = {0.018f, 0.014f, 0.012f}};
+    builder.frame.background = {0.02f, 0.034f, 0.07f};
+    builder.frame.fog = {.density = 0.022f, .color = {0.036f, 0.052f, 0.092f}};
 }
 
 void add_weather_and_lens(Frame& frame) {

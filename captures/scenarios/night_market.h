@@ -16,7 +16,7 @@ struct Materials {
     std::uint32_t setts, kerb, brick, plaster, planks, boards;  // surfaces of the street
     std::uint32_t iron, steel, ceramic, dough, rubber;
     std::uint32_t red_cloth, blue_cloth, green_cloth, coat, dark_coat, skin, red_nylon, dark_nylon;
-    std::uint32_t paper, lit_window, dark_window, warm_bulb;
+    std::uint32_t paper, lit_paper, lit_window, dark_window, warm_bulb;
     std::uint32_t pink_neon, amber_neon, cyan_neon;
     std::uint32_t clear_glass, green_glass, amber_glass, blue_glass, red_glass;
     std::uint32_t orange, apple, lime, plum, leaf;

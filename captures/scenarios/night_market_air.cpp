@@ -70,11 +70,11 @@ void add_smoke_and_steam(FrameBuilder& builder, const Lamps& lamps, std::uint32_
               builder, lamps);
     add_plume(smoke.particles,
               {.source = grill,
-               .drift = {-1.9, 2.6, 0.7},
-               .puffs = 330,
+               .drift = {-2.3, 2.5, 1.4},
+               .puffs = 420,
                .width = 0.25,
                .size = {0.12, 0.75},
-               .alpha = 0.22f,
+               .alpha = 0.3f,
                .albedo = 0.6f},
               builder, lamps);
     builder.frame.emitters.push_back(std::move(steam));
@@ -149,7 +149,7 @@ void add_glow(FrameBuilder& builder) {
     };
     for (const double x : {-1.7, -1.15, -0.6, -0.05}) halo({x, 3.27, -8.7}, 0.6f, {0.14f, 0.02f, 0.065f});
     for (const double x : {1.35, 1.7, 2.05}) halo({x, 2.7, -4.6 + 0.69 * (x - 1.35)}, 0.4f, {0.07f, 0.025f, 0.004f});
-    for (const double y : {3.2, 3.8, 4.4}) halo({2.2, y, -11.6}, 0.7f, {0.012f, 0.08f, 0.11f});
+    for (const double y : {3.2, 3.8, 4.4}) halo({1.65, y, -11.6}, 0.7f, {0.012f, 0.08f, 0.11f});
     for (const Light& light : builder.frame.lights)
         if (light.type == LightType::sphere) halo(light.position, 0.8f, glm::normalize(light.intensity) * 0.07f);
     builder.frame.emitters.push_back(std::move(halos));

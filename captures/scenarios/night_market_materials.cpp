@@ -240,6 +240,7 @@ Materials add_materials(FrameBuilder& builder) {
             .red_nylon = nylon(builder, "red umbrella", {0.5f, 0.03f, 0.025f}),
             .dark_nylon = nylon(builder, "dark umbrella", {0.05f, 0.055f, 0.08f}),
             .paper = add_paper(builder),
+            .lit_paper = shining(builder, "lit paper", {1.25f, 0.9f, 0.5f}),
             .lit_window = add_lit_window(builder),
             .dark_window = plain(builder, "dark window", {0.02f, 0.025f, 0.035f}, 0.12f),
             .warm_bulb = shining(builder, "bulb", {9, 5.5f, 2.4f}),

@@ -36,7 +36,7 @@ void add_head(Parts& parts, const Materials& materials, const Figure& figure) {
     part::ball(parts.of(materials.skin), {0, 1.62f, 0.02f}, {0.095f, 0.125f}, 16);
     if (figure.headwear == Headwear::straw_hat) {
         constexpr glm::vec2 hat[] = {{0.0f, 0.17f}, {0.26f, 0.0f}, {0.25f, -0.01f}, {0.0f, 0.1f}};
-        part::turned(parts.of(materials.dough), hat, {0, 1.68f, 0.02f}, 20);
+        part::turned(parts.of(materials.dough), hat, {0, 1.64f, 0.02f}, 20);
         return;
     }
     constexpr glm::vec2 hood[] = {{0.0f, 0.31f},  {0.07f, 0.295f}, {0.115f, 0.24f},
@@ -78,11 +78,12 @@ void add_people(FrameBuilder& builder, const Materials& materials) {
     add_figure(
         builder, materials,
         {.place = {.position = {1.98, 0, -6.0}, .yaw = -1.2}, .coat = materials.dark_coat, .headwear = Headwear::straw_hat});
-    add_figure(builder, materials, {.place = {.position = {-2.2, 0, -4.3}, .yaw = 0.9}, .coat = materials.dark_coat});
+    add_figure(builder, materials,
+               {.place = {.position = {-2.3, 0, -4.25}, .yaw = 0.9}, .coat = materials.coat, .headwear = Headwear::straw_hat});
     add_figure(builder, materials, {.place = {.position = {0.62, 0, -7.05}, .yaw = 1.9}, .coat = materials.coat});
     const double walked = 0.35 * (builder.progress() - 1);
     add_figure(builder, materials,
-               {.place = {.position = {1.05, 0, -9.9 - walked}, .yaw = 2.9},
+               {.place = {.position = {-0.46, 0, -8.15 - walked}, .yaw = 2.9},
                 .coat = materials.dark_coat,
                 .umbrella = materials.red_nylon,
                 .stride = 0.5f});

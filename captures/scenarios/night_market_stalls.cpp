@@ -39,14 +39,14 @@ public:
         const Stall stall{.place = {.position = {1.6, 0, -5.5}, .yaw = -1.0}, .width = 2.6f, .cloth = m_.red_cloth};
         add_frame(stall);
         add_pot({-0.85f, counter_top, 0.05f});
-        add_bowls({-0.42f, counter_top, 0.15f});
-        add_glass_case(stall, {-0.12f, counter_top, -0.12f}, {0.62f, counter_top + 0.4f, 0.24f});
+        add_bowls({-0.5f, counter_top, 0.15f});
+        add_glass_case(stall, {-0.26f, counter_top, -0.12f}, {0.44f, counter_top + 0.4f, 0.24f});
         add_board({-1.15f, 1.55f, -0.78f}, {1.15f, 2.05f, -0.74f});
         parts_.draw(stall.place);
         const std::uint32_t glasses[] = {m_.green_glass, m_.amber_glass, m_.clear_glass, m_.blue_glass,
                                          m_.amber_glass, m_.red_glass,   m_.green_glass};
         for (int i = 0; i < 7; ++i)
-            add_bottle(stall, glasses[i], {0.76f + 0.075f * float(i), counter_top, i % 2 == 0 ? 0.22f : 0.1f},
+            add_bottle(stall, glasses[i], {0.56f + 0.085f * float(i), counter_top, i % 2 == 0 ? 0.22f : 0.1f},
                        1 + 0.12f * float(i % 3));
         for (const float x : {-1.15f, -0.4f, 0.4f, 1.15f}) hang_lantern(stall, {x, awning_low - 0.32f, awning_front}, 1);
         lamps_->globe("lanterns at the left", at(stall, {-0.75f, awning_low - 0.35f, awning_front + 0.1f}), {3.4f, 1.35f, 0.42f},
@@ -80,20 +80,12 @@ public:
         builder_->draw(bulb_, m_.warm_bulb, {.position = lamp.position}).casts_shadow = false;
     }
 
-    /// Panes of colored glass lean against each other, through each other: no order of them is right.
     void add_glass_stall() {
         const Stall stall{.place = {.position = {-1.95, 0, -6.7}, .yaw = 1.2}, .width = 2.2f, .cloth = m_.green_cloth};
         add_frame(stall);
         parts_.draw(stall.place);
-        const std::uint32_t pane = builder_->add(quad({0.26f, 0.36f}));
-        const std::uint32_t glasses[] = {m_.red_glass,   m_.amber_glass, m_.blue_glass,
-                                         m_.green_glass, m_.amber_glass, m_.blue_glass};
-        for (int i = 0; i < 6; ++i) {
-            const float x = -0.8f + 0.3f * float(i);
-            builder_->draw(
-                pane, glasses[i],
-                {.position = at(stall, {x, counter_top + 0.38f, 0.05f}), .yaw = stall.place.yaw + (i % 2 == 0 ? 0.75 : -0.75)});
-        }
+        add_panes(stall, {-0.65f, counter_top + 0.02f, 0.05f}, 0.3f);
+        const std::uint32_t glasses[] = {m_.red_glass, m_.amber_glass, m_.blue_glass, m_.green_glass};
         for (int i = 0; i < 4; ++i) add_bottle(stall, glasses[i], {0.8f + 0.08f * float(i), counter_top, 0.22f}, 1.2f);
         for (const float x : {-0.7f, 0.1f, 0.8f}) hang_lantern(stall, {x, awning_low - 0.3f, awning_front}, 1);
         lamps_->globe("lamp behind the glass", at(stall, {-0.1f, 1.5f, -0.55f}), {3.6f, 2.6f, 1.5f}, 0.1f);
@@ -126,14 +118,21 @@ public:
     /// Beside the eye, out of focus: a lantern above and a plant in a tub below.
     void add_foreground() {
         const Stall near{.place = {.position = {0, 0, 0}}};
+        const Stall rack{.place = {.position = {2.2, 0, -3.95}, .yaw = -0.45}};
+        part::box(parts_.of(m_.planks), {-0.42f, 0, -0.22f}, {0.42f, 0.62f, 0.22f});
+        part::box(parts_.of(m_.lit_paper), {-0.4f, 0.64f, -0.3f}, {0.4f, 1.3f, -0.28f});
+        part::box(parts_.of(m_.planks), {-0.44f, 0.62f, -0.34f}, {0.44f, 1.34f, -0.3f});
+        parts_.draw(rack.place);
+        lamps_->globe("lamp of the rack", at(rack, {0, 1.1f, 0.4f}), {0.7f, 0.55f, 0.35f}, 0.2f).range = 3;
+        add_panes(rack, {-0.33f, 0.63f, 0}, 0.13f);
         hang_lantern(near, {-1.12f, 2.12f, -1.75f}, 1.15f);
         lamps_->globe("near lantern", {-1.12, 2.1, -1.75}, {0.9f, 0.36f, 0.11f}, 0.14f).range = 3.5f;
         constexpr glm::vec2 tub[] = {{0.0f, 0.5f}, {0.24f, 0.5f}, {0.24f, 0.55f}, {0.28f, 0.55f}, {0.28f, 0.46f}, {0.22f, 0.0f}};
-        part::turned(parts_.of(m_.ceramic), tub, {1.15f, 0, -1.75f}, 24);
-        part::box(parts_.of(m_.planks), {0.8f, 0, -2.6f}, {1.5f, 0.35f, -2.1f});
+        part::turned(parts_.of(m_.ceramic), tub, {1.44f, 0, -1.8f}, 24);
+        part::box(parts_.of(m_.planks), {1.1f, 0, -2.6f}, {1.8f, 0.35f, -2.15f});
         parts_.draw({});
         const std::uint32_t bush = builder_->add(crown(builder_->seed() + 9, 46, 0.46f));
-        builder_->draw(bush, m_.leaf, {.position = {1.15, 0.86, -1.75}, .scale = {0.4, 0.44, 0.4}});
+        builder_->draw(bush, m_.leaf, {.position = {1.44, 0.84, -1.8}, .scale = {0.38, 0.42, 0.38}});
     }
 
 private:
@@ -247,6 +246,17 @@ private:
         }
     }
 
+    /// Six upright panes in two directions, each through the next: no order of them is right.
+    void add_panes(const Stall& stall, glm::vec3 first, float apart) {
+        if (pane_ == no_index) pane_ = builder_->add(quad({0.15f, 0.35f}));
+        const std::uint32_t glasses[] = {m_.red_glass,   m_.amber_glass, m_.blue_glass,
+                                         m_.green_glass, m_.amber_glass, m_.blue_glass};
+        for (int i = 0; i < 6; ++i)
+            builder_->draw(pane_, glasses[i],
+                           {.position = at(stall, first + glm::vec3(apart * float(i), 0.35f, 0)),
+                            .yaw = stall.place.yaw + (i % 2 == 0 ? 0.75 : -0.75)});
+    }
+
     void add_bottle(const Stall& stall, std::uint32_t material, glm::vec3 foot, double scale) {
         if (bottle_ == no_index) {
             constexpr glm::vec2 profile[] = {{0.0f, 0.3f},     {0.013f, 0.3f},  {0.013f, 0.23f}, {0.02f, 0.2f},
@@ -285,7 +295,7 @@ private:
     Lamps* lamps_;
     Parts parts_;
     Random random_;
-    std::uint32_t lantern_, bulb_, bottle_ = no_index;
+    std::uint32_t lantern_, bulb_, bottle_ = no_index, pane_ = no_index;
 };
 
 }  // namespace

@@ -215,14 +215,14 @@ void add_signs(FrameBuilder& builder, const Materials& materials, Lamps& lamps) 
     };
     Mesh boards;
     part::box(boards, {-2.0f, 2.95f, house_front + 0.05f}, {0.3f, 3.6f, house_front + 0.1f});
-    part::box(boards, {1.9f, 2.9f, -12.02f}, {2.55f, 4.6f, -11.96f});
+    part::box(boards, {1.4f, 2.9f, -12.02f}, {2.6f, 4.6f, -11.96f});
     builder.draw(builder.add(std::move(boards)), materials.iron, {});
     sign(neon_letters("STRATA", 0.37f, Lettering::along), materials.pink_neon, {.position = {-1.92, 3.09, house_front + 0.15}});
     lamps.tube("sign STRATA", {-0.85, 3.25, house_front + 0.35}, {1.1f, 0, 0}, {4.6f, 0.7f, 2.2f});
     sign(neon_letters("NOODLES", 0.19f, Lettering::along), materials.amber_neon, {.position = {1.2, 2.6, -4.75}, .yaw = -0.6});
     lamps.tube("sign NOODLES", {1.7, 2.72, -4.2}, glm::vec3(0.5f, 0, 0.35f), {2.2f, 0.8f, 0.12f});
-    sign(neon_letters("TEA", 0.4f, Lettering::down), materials.cyan_neon, {.position = {2.08, 4.1, -11.92}});
-    lamps.tube("sign TEA", {2.2, 3.8, -11.7}, {0, 0.7f, 0}, {0.4f, 2.4f, 3.2f});
+    sign(neon_letters("TEA", 0.4f, Lettering::down), materials.cyan_neon, {.position = {1.5, 4.1, -11.92}});
+    lamps.tube("sign TEA", {1.65, 3.8, -11.7}, {0, 0.7f, 0}, {0.4f, 2.4f, 3.2f});
 }
 
 /// Walls and ceiling of the room stop its lamp but for the door, and bounced light.
@@ -247,7 +247,7 @@ void light_room(FrameBuilder& builder, const Materials& materials, Lamps& lamps)
                              .half_v = 0.5f * door_head,
                              .blocker = 0});
     constexpr glm::dvec3 hangs{-0.9, 2.25, -10.9};
-    Light& lamp = lamps.globe("lamp of the room", hangs, {13, 8, 3.6f}, 0.15f);
+    Light& lamp = lamps.globe("lamp of the room", hangs, {30, 18, 7.5f}, 0.15f);
     lamp.range = 11;
     lamp.blockers = {0, 1, 2, 3, 4};
     lamp.portals = {0};
