@@ -86,7 +86,7 @@ void add_weather_and_lens(Frame& frame) {
                   .auto_exposure = false,
                   .exposure_speed = 1,
                   .focus_distance = 5.6f,
-                  .aperture = 0.03f,
+                  .aperture = 0.045f,
                   .distortion = false};
     frame.film = {.grain = 0.03f, .fade = 0, .white = 1.7f};
 }

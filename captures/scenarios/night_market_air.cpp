@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "captures/scenarios/night_market.h"
-#include "captures/scenarios/painting.h"
 #include "captures/scenarios/pictures.h"
 #include "captures/scenarios/random.h"
 
@@ -14,17 +13,6 @@ namespace strata::scenario::market {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-
-/// A drop that fell while the shutter was open.
-Texture streak() {
-    Texture texture = painted("streak", {.edge = 32, .format = TextureFormat::rgba8_unorm}, [](glm::vec2 uv) {
-        const glm::vec2 p = uv * 2.0f - 1.0f;
-        const float across = std::max(0.0f, 1 - std::abs(p.x) * 11), along = std::max(0.0f, 1 - p.y * p.y);
-        return glm::vec4(1, 1, 1, across * along);
-    });
-    texture.address = AddressMode::clamp;
-    return texture;
-}
 
 /// What rises from a place: everything about a puff follows from its number and the time.
 struct Plume {

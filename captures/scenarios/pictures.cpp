@@ -43,6 +43,16 @@ Texture glow() {
     return texture;
 }
 
+Texture streak() {
+    Texture texture = painted("streak", {.edge = 32, .format = TextureFormat::rgba8_unorm}, [](glm::vec2 uv) {
+        const glm::vec2 p = uv * 2.0f - 1.0f;
+        const float across = std::max(0.0f, 1 - std::abs(p.x) * 11), along = std::max(0.0f, 1 - p.y * p.y);
+        return glm::vec4(1, 1, 1, across * along);
+    });
+    texture.address = AddressMode::clamp;
+    return texture;
+}
+
 Texture foliage(std::uint64_t seed) {
     Texture texture = painted("foliage", {}, [=](glm::vec2 uv) {
         const glm::vec2 cell = glm::floor(uv * 5.0f), local = uv * 5.0f - cell;

@@ -103,7 +103,7 @@ void add_hut(FrameBuilder& builder) {
     Light lamp;
     lamp.name = "lamp in the hut";
     lamp.position = lamp_at;
-    lamp.intensity = {5, 3.1f, 1.4f};
+    lamp.intensity = {13, 8, 3.6f};
     lamp.range = 6;
     lamp.shadow = {.casts = true, .map_size = 256, .bias = 0.03f, .soft = false};
     builder.frame.lights.push_back(lamp);
@@ -201,7 +201,8 @@ void add_particles(FrameBuilder& builder) {
     smoke.name = "smoke", rain.name = "rain", flames.name = "flames";
     smoke.texture = builder.add(puff(builder.seed()));
     smoke.soft_depth_fade = 0.3f;
-    flames.texture = rain.texture = builder.add(glow());
+    flames.texture = builder.add(glow());
+    rain.texture = builder.add(streak());
     flames.alpha_mode = AlphaMode::additive;
     Random random(builder.seed() + 4);
     const auto around = [&](double width) {
@@ -229,7 +230,8 @@ void add_particles(FrameBuilder& builder) {
         const double z = 4 - 14 * random.unit(), x = random.between(-6.0, 6.0);
         const double y = 5 * std::fmod(random.unit() + 2.3 * (1 - builder.progress()), 1.0);
         if (x < -1.4 && z < -2 && y < 2.8) continue;  // the roof
-        rain.particles.push_back({.center = {x, y, z}, .size = 0.012f, .color = {0.6f, 0.45f, 0.35f}, .alpha = 0.5f});
+        rain.particles.push_back(
+            {.center = {x, y, z}, .size = 0.13f, .rotation = -0.14f, .color = {0.75f, 0.55f, 0.42f}, .alpha = 0.22f});
     }
     builder.frame.emitters.push_back(std::move(smoke));
     builder.frame.emitters.push_back(std::move(rain));
