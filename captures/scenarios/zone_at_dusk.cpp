@@ -25,6 +25,7 @@ namespace zone {
 namespace {
 
 constexpr glm::dvec3 fire{0.9, 0.1, -3.4};
+const Pose hut{.position = {-3.4, 0, -4.2}, .yaw = -0.35};
 constexpr glm::vec3 towards_sun{0.3f, 0.2f, -0.93f};
 
 /// 0 dry, 1 under water: hollows of the concrete, 6 m a tile.
@@ -94,9 +95,8 @@ void add_hut(FrameBuilder& builder) {
     part::box(walls, {-1.6f, 0.7f, -1.1f}, {-0.4f, 0.76f, -0.3f});
     for (const float x : {-1.5f, -0.55f}) part::box(walls, {x, 0.06f, -0.8f}, {x + 0.08f, 0.7f, -0.6f});
     part::box(walls, {-0.3f, 0.06f, 0.5f}, {0.4f, 0.55f, 1.1f});
-    const Pose place{.position = {-3.4, 0, -4.2}, .yaw = -0.35};
-    parts.draw(place);
-    const glm::dvec3 lamp_at(transform(place) * glm::dvec4(-0.9, 1.75, 0, 1));
+    parts.draw(hut);
+    const glm::dvec3 lamp_at(transform(hut) * glm::dvec4(-0.9, 1.75, 0, 1));
     Material bulb = lambert("lamp", glm::vec3(0.1f));
     bulb.emissive = {7, 4, 1.6f};
     builder.draw(builder.add(sphere(0.06f, 12)), builder.add(bulb), {.position = lamp_at}).casts_shadow = false;
@@ -226,10 +226,12 @@ void add_particles(FrameBuilder& builder) {
                                     .size = float(0.17 * (1.2 - age)),
                                     .color = heat * 0.5f});
     }
+    const glm::dmat4 to_hut = glm::inverse(transform(hut));
     for (int i = 0; i < 500; ++i) {
         const double z = 4 - 14 * random.unit(), x = random.between(-6.0, 6.0);
         const double y = 5 * std::fmod(random.unit() + 2.3 * (1 - builder.progress()), 1.0);
-        if (x < -1.4 && z < -2 && y < 2.8) continue;  // the roof
+        const glm::dvec3 from_hut(to_hut * glm::dvec4(x, y, z, 1));
+        if (std::abs(from_hut.x + 0.25) < 2.2 && std::abs(from_hut.z) < 2 && y < 2.6) continue;  // below its roof
         rain.particles.push_back(
             {.center = {x, y, z}, .size = 0.13f, .rotation = -0.14f, .color = {0.75f, 0.55f, 0.42f}, .alpha = 0.22f});
     }
