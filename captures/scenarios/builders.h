@@ -68,6 +68,16 @@ Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
 Frame crossing_planes(std::uint32_t frame, const ScenarioOptions&);
 // corners.cpp
 Frame corners(std::uint32_t frame, const ScenarioOptions&);
+// shadow_cases.cpp
+Frame tilted_ground(std::uint32_t frame, const ScenarioOptions&);
+Frame thirty_boxes(std::uint32_t frame, const ScenarioOptions&);
+Frame leaves(std::uint32_t frame, const ScenarioOptions&);
+// hall_with_shafts.cpp
+Frame hall_with_shafts(std::uint32_t frame, const ScenarioOptions&);
+// zone_at_dusk.cpp
+Frame zone_at_dusk(std::uint32_t frame, const ScenarioOptions&);
+// night_market.cpp
+Frame night_market(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

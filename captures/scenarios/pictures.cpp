@@ -2,66 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <string>
-#include <utility>
 
-#include "capture_format/codec/texture_mips.h"
-#include "capture_format/srgb.h"
+#include "captures/scenarios/painting.h"
 #include "captures/scenarios/random.h"
 
 namespace strata::scenario {
 namespace {
 
-constexpr std::uint32_t edge = 64;
-
-/// Paints every texel at its center; `paint` gets uv in 0..1 and returns linear color and alpha.
-Texture painted(std::string name, TextureFormat format, const std::function<glm::vec4(glm::vec2)>& paint) {
-    Texture texture;
-    texture.name = std::move(name);
-    texture.format = format;
-    texture.width = texture.height = edge;
-    for (std::uint32_t y = 0; y < edge; ++y) {
-        for (std::uint32_t x = 0; x < edge; ++x) {
-            glm::vec4 color = paint((glm::vec2(x, y) + 0.5f) / static_cast<float>(edge));
-            if (format == TextureFormat::rgba8_srgb) {
-                color = glm::vec4(encode_srgb(color.x), encode_srgb(color.y), encode_srgb(color.z), color.w);
-            }
-            for (int c = 0; c < 4; ++c) texture.texels.push_back(unorm8(color[c]));
-        }
-    }
-    return with_mips(std::move(texture));
-}
-
-/// Value noise of a lattice, 0..1, smooth.
-float noise(glm::vec2 p, std::uint64_t seed) {
-    const glm::vec2 cell = glm::floor(p), f = p - cell, s = f * f * (3.0f - 2.0f * f);
-    const auto corner = [&](float x, float y) {
-        const auto i = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.x + x));
-        const auto j = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell.y + y));
-        return static_cast<float>(Random(seed + i * 0x632be59bd9b4e019ull + j * 0x9e6c63d0676a9a99ull).unit());
-    };
-    return glm::mix(glm::mix(corner(0, 0), corner(1, 0), s.x), glm::mix(corner(0, 1), corner(1, 1), s.x), s.y);
-}
-
-float fractal_noise(glm::vec2 p, std::uint64_t seed) {
-    float sum = 0, weight = 0.5f;
-    for (std::uint64_t octave = 0; octave < 4; ++octave, p *= 2.0f, weight *= 0.5f) sum += weight * noise(p, seed + octave);
-    return sum / 0.9375f;  // 1/2 + 1/4 + 1/8 + 1/16
-}
+constexpr Canvas linear{.format = TextureFormat::rgba8_unorm};
 
 }  // namespace
 
 Texture checker(std::uint32_t cells, glm::vec3 light, glm::vec3 dark) {
-    return painted("checker", TextureFormat::rgba8_srgb, [=](glm::vec2 uv) {
+    return painted("checker", {}, [=](glm::vec2 uv) {
         const glm::vec2 cell = glm::floor(uv * static_cast<float>(cells));
         return glm::vec4(std::fmod(cell.x + cell.y, 2.0f) == 0 ? light : dark, 1);
     });
 }
 
 Texture puff(std::uint64_t seed) {
-    Texture texture = painted("puff", TextureFormat::rgba8_unorm, [=](glm::vec2 uv) {
+    Texture texture = painted("puff", linear, [=](glm::vec2 uv) {
         const glm::vec2 p = uv * 2.0f - 1.0f;
         const float torn = glm::length(p) + 0.5f * (fractal_noise(uv * 5.0f, seed) - 0.35f);
         const float border = std::clamp((1 - glm::length(p)) * 6, 0.0f, 1.0f);
@@ -73,7 +34,7 @@ Texture puff(std::uint64_t seed) {
 }
 
 Texture glow() {
-    Texture texture = painted("glow", TextureFormat::rgba8_unorm, [](glm::vec2 uv) {
+    Texture texture = painted("glow", linear, [](glm::vec2 uv) {
         const glm::vec2 p = uv * 2.0f - 1.0f;
         const float inside = std::max(0.0f, 1 - glm::dot(p, p));
         return glm::vec4(1, 1, 1, inside * inside);
@@ -82,8 +43,18 @@ Texture glow() {
     return texture;
 }
 
+Texture streak() {
+    Texture texture = painted("streak", {.edge = 32, .format = TextureFormat::rgba8_unorm}, [](glm::vec2 uv) {
+        const glm::vec2 p = uv * 2.0f - 1.0f;
+        const float across = std::max(0.0f, 1 - std::abs(p.x) * 11), along = std::max(0.0f, 1 - p.y * p.y);
+        return glm::vec4(1, 1, 1, across * along);
+    });
+    texture.address = AddressMode::clamp;
+    return texture;
+}
+
 Texture foliage(std::uint64_t seed) {
-    Texture texture = painted("foliage", TextureFormat::rgba8_srgb, [=](glm::vec2 uv) {
+    Texture texture = painted("foliage", {}, [=](glm::vec2 uv) {
         const glm::vec2 cell = glm::floor(uv * 5.0f), local = uv * 5.0f - cell;
         Random random(seed + static_cast<std::uint64_t>(cell.x * 7 + cell.y * 131));
         const float lean = random.between(-0.6f, 0.6f), length = random.between(0.7f, 1.0f), shade = random.between(0.5f, 1.0f);
@@ -98,7 +69,7 @@ Texture foliage(std::uint64_t seed) {
 }
 
 Texture studs(std::uint32_t cells) {
-    return painted("studs", TextureFormat::rgba8_unorm, [=](glm::vec2 uv) {
+    return painted("studs", linear, [=](glm::vec2 uv) {
         const glm::vec2 local = glm::fract(uv * static_cast<float>(cells)) * 2.0f - 1.0f;
         const float r = glm::length(local);
         const glm::vec2 slope = r < 0.7f ? local / 0.7f * 0.6f : glm::vec2(0);

@@ -15,6 +15,8 @@ Texture checker(std::uint32_t cells, glm::vec3 light, glm::vec3 dark);
 Texture puff(std::uint64_t seed);
 /// A round glow, alpha (1 - r^2)^2.
 Texture glow();
+/// A drop that fell while the shutter was open: an upright line, a tenth as wide as long.
+Texture streak();
 /// Leaves on stems with holes between them, for alpha masking; clamps at its border.
 Texture foliage(std::uint64_t seed);
 /// A normal map of round studs, `cells` x `cells`.

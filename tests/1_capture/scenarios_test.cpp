@@ -8,7 +8,9 @@
 #include <set>
 #include <string>
 
+#include "capture_format/frame_features.h"
 #include "capture_format/reader.h"
+#include "capture_format/recorder.h"
 #include "captures/scenarios.h"
 
 namespace strata {
@@ -187,6 +189,42 @@ TEST(Scenarios, CityShowsFewOfItsBoxes) {
     }
     EXPECT_GT(ahead, 10);
     EXPECT_LT(ahead, 150);
+}
+
+TEST(Scenarios, TheNightMarketHasWorkForEveryStageAndStaysSmall) {
+    const Frame frame = build(**find_scenario("night_market"), 0, 1);
+    const Features features = frame_features(frame);
+    for (const Feature feature :
+         {Feature::masked,   Feature::transparent, Feature::chromatic,     Feature::additive, Feature::soft_particles,
+          Feature::emissive, Feature::sun,         Feature::local_lights,  Feature::shadows,  Feature::hemisphere,
+          Feature::fog,      Feature::area_lights, Feature::light_volumes, Feature::blockers, Feature::portals,
+          Feature::rain,     Feature::sun_shafts,  Feature::bloom,         Feature::grain,    Feature::depth_of_field})
+        EXPECT_TRUE(features.has(feature)) << name(feature);
+    std::size_t triangles = 0, particles = 0;
+    for (const Draw& draw : frame.draws) triangles += frame.meshes[draw.mesh].indices.size() / 3;
+    for (const Emitter& emitter : frame.emitters) particles += emitter.particles.size();
+    EXPECT_LT(triangles, 60'000u);
+    EXPECT_LT(particles, 2500u);
+    EXPECT_LT(recorded_bytes(frame), 6u << 20) << "before compression";
+}
+
+/// The roof keeps its 4 x 4 m dry, as the stage rain must find by itself on the surfaces.
+TEST(Scenarios, NoDropOfTheZoneFallsThroughTheRoof) {
+    const Frame frame = build(**find_scenario("zone_at_dusk"), 0, 1);
+    const auto rain = std::ranges::find(frame.emitters, "rain", &Emitter::name);
+    const auto roof = std::ranges::find(frame.draws, "rusty sheet", &Draw::name);
+    ASSERT_NE(rain, frame.emitters.end());
+    ASSERT_NE(roof, frame.draws.end());
+    EXPECT_GT(rain->particles.size(), 300u);
+    for (const Particle& drop : rain->particles) {
+        const glm::dvec3 at(glm::inverse(roof->to_world) * glm::dvec4(drop.center, 1));
+        EXPECT_FALSE(std::abs(at.x + 0.25) < 2 && std::abs(at.z) < 1.8 && at.y < 2.4) << at.x << ' ' << at.y << ' ' << at.z;
+    }
+}
+
+TEST(Scenarios, ThirtyBoxesAreThirty) {
+    const Frame frame = build(**find_scenario("thirty_boxes"), 0, 1);
+    EXPECT_EQ(std::ranges::count_if(frame.draws, [](const Draw& draw) { return draw.name != "paving"; }), 30);
 }
 
 }  // namespace

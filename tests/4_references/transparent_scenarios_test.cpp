@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <ranges>
+#include <span>
 #include <vector>
 
 #include "capture_format/frame_features.h"
@@ -137,6 +140,32 @@ TEST(TransparentScenarios, AnExplosionBurnsInsideItsSmoke) {
     };
     EXPECT_TRUE(smokes(true));
     EXPECT_TRUE(smokes(false));
+}
+
+/// Nearer in some pixels and farther in others: no order of the two draws is right.
+bool cross(const std::map<std::uint32_t, double>& a, const std::map<std::uint32_t, double>& b) {
+    bool nearer = false, farther = false;
+    for (const auto& [pixel, depth] : a)
+        if (const auto other = b.find(pixel); other != b.end()) (depth > other->second ? nearer : farther) = true;
+    return nearer && farther;
+}
+
+TEST(TransparentScenarios, PanesOfTheNightMarketCrossEachOther) {
+    const Frame frame = build("night_market", 320, 180);
+    std::vector<std::map<std::uint32_t, double>> panes;  // device depth by pixel
+    for (std::uint32_t i = 0; i < frame.draws.size(); ++i) {
+        if (!frame.draws[i].name.ends_with("glass") || frame.meshes[frame.draws[i].mesh].name != "quad") continue;
+        std::mutex guard;
+        auto& pixels = panes.emplace_back();
+        rasterize(frame, std::span(&i, 1), {}, [&](const RasterPoint& point) {
+            const std::lock_guard lock(guard);
+            if (point.covered) pixels[point.y * 320 + point.x] = point.depth;
+        });
+    }
+    int crossing = 0;
+    for (std::size_t a = 0; a < panes.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) crossing += cross(panes[a], panes[b]);
+    EXPECT_GT(crossing, 5);
 }
 
 }  // namespace
