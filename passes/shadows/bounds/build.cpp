@@ -13,7 +13,7 @@ namespace strata {
 
 namespace {
 
-struct Work {
+struct Wanted {
     const Image& maps;
     std::vector<BoundsPush> pushes;  ///< of the maps that are as large as a block
     BoundsSettings settings;
@@ -39,7 +39,7 @@ struct Blocks {
     Format format;
 };
 
-Image create_blocks(Graph& graph, const Work& work, const Blocks& what) {
+Image create_blocks(Graph& graph, const Wanted& work, const Blocks& what) {
     const Shape maps = graph.shape(work.maps);
     const Extent extent{blocks(maps.extent.width, what.block), blocks(maps.extent.height, what.block)};
     Image image = graph.create(what.name, {.extent = extent, .format = what.format, .layers = maps.layers});
@@ -49,7 +49,7 @@ Image create_blocks(Graph& graph, const Work& work, const Blocks& what) {
 
 Extent block_extent(const BoundsPush& push, std::uint32_t block) { return {blocks(push.size, block), blocks(push.size, block)}; }
 
-void add_extremes(Graph& graph, const Work& work, const BoundsSettings& settings, Image& bounds) {
+void add_extremes(Graph& graph, const Wanted& work, const BoundsSettings& settings, Image& bounds) {
     for (const BoundsPush& push : work.pushes) {
         ComputePass pass = graph.compute("shadows/bounds/extremes.comp");
         fix_shadow_bounds(pass, settings)
@@ -61,7 +61,7 @@ void add_extremes(Graph& graph, const Work& work, const BoundsSettings& settings
 }
 
 /// Of windows: by way of the largest blocks that both the block and the reach are made of.
-Image extremes_of(Graph& graph, const Work& work) {
+Image extremes_of(Graph& graph, const Wanted& work) {
     Image bounds = create_blocks(graph, work, {"shadow_bounds", work.settings.block, Format::rg32f});
     const std::uint32_t part = std::gcd(work.settings.block, work.settings.reach);
     if (work.settings.reach == 0 || part == 1) {
@@ -83,7 +83,7 @@ Image extremes_of(Graph& graph, const Work& work) {
 }
 
 /// Levels side by side: of an image of 2 h texels per edge the first is h wide, the second h / 2, and so on.
-Image levels_of(Graph& graph, const Work& work) {
+Image levels_of(Graph& graph, const Wanted& work) {
     const Shape maps = graph.shape(work.maps);
     const std::uint32_t block = work.settings.block;
     const std::uint32_t texels = block * blocks(std::max(maps.extent.width, maps.extent.height), block);
@@ -103,7 +103,7 @@ Image levels_of(Graph& graph, const Work& work) {
     return bounds;
 }
 
-Image slabs_of(Graph& graph, const Work& work) {
+Image slabs_of(Graph& graph, const Wanted& work) {
     Image bounds = create_blocks(graph, work, {"shadow_bounds", work.settings.block, Format::rgba32f});
     for (const BoundsPush& push : work.pushes) {
         ComputePass pass = graph.compute("shadows/bounds/slabs.comp");
@@ -123,7 +123,7 @@ Image slabs_of(Graph& graph, const Work& work) {
 Image add_shadow_bounds(Graph& graph, const Image& shadow_maps, std::span<const ShadowView> views,
                         const BoundsSettings& settings) {
     assert(settings.block >= 2 && settings.block <= 8 && std::has_single_bit(settings.block));
-    const Work work{shadow_maps, pushes_of(views, settings.block), settings};
+    const Wanted work{shadow_maps, pushes_of(views, settings.block), settings};
     if (settings.form == BoundsForm::extremes) return extremes_of(graph, work);
     return settings.form == BoundsForm::levels ? levels_of(graph, work) : slabs_of(graph, work);
 }
