@@ -34,6 +34,9 @@ vec4 bounds_texel(ivec3 corner, ivec2 block) {
     return texelFetch(shadow_bounds, ivec3(corner.xy / bounds_block + block, corner.z), 0);
 }
 
+// Of the texels that its window holds.
+vec2 window_center(ivec2 block) { return vec2(block * bounds_block) + 0.5 * float(bounds_block); }
+
 // Form extremes: the least and the greatest depth within the reach of u. One fetch.
 vec2 extremes_at(ivec3 corner, int size, vec2 u) {
     return has_bounds(size) ? bounds_texel(corner, block_of(size, u)).xy : unbounded;
@@ -54,8 +57,8 @@ vec2 slab_at(ivec3 corner, int size, vec2 u, ivec2 first, ivec2 last) {
     const ivec2 block = block_of(size, u);
     const vec4 slab = bounds_texel(corner, block);
     const float rim = 0.5 * float(bounds_block - 1) + float(bounds_reach);  // of the window, from its center
-    const vec2 center = vec2(block * bounds_block) + 0.5 * float(bounds_block - 1);
-    const vec2 a = slab.zw * clamp(vec2(first) - center, -rim, rim), b = slab.zw * clamp(vec2(last) - center, -rim, rim);
+    const vec2 to_first = vec2(first) + 0.5 - window_center(block), to_last = vec2(last) + 0.5 - window_center(block);
+    const vec2 a = slab.zw * clamp(to_first, -rim, rim), b = slab.zw * clamp(to_last, -rim, rim);
     const vec2 least = min(a, b), greatest = max(a, b);
     return vec2(slab.x + least.x + least.y, slab.y + greatest.x + greatest.y);
 }
