@@ -99,9 +99,13 @@ Answer early_answer(const ReferenceImage& maps, const Lookup& at, std::int64_t t
     const glm::dvec2 a = rise * (glm::dvec2(footprint.begin) - center_of(window)),
                      b = rise * (glm::dvec2(footprint.last) - center_of(window));
     const glm::dvec2 low = glm::min(a, b), high = glm::max(a, b);
-    const double receiver = std::max(at.depth + glm::dot(at.gradient, center_of(window) + 0.5 - at.u), 0.0);  // NaN stays
+    double receiver = at.depth + glm::dot(at.gradient, center_of(window) + 0.5 - at.u);
+    // Lookups compare with depth 0 where the receiver's plane lies behind everything. One that is level does everywhere.
+    if (at.gradient == glm::dvec2(0)) receiver = std::max(receiver, 0.0);  // NaN stays
     if (receiver >= slab.greatest + high.x + high.y) return Answer::lit;
-    return receiver < slab.least + low.x + low.y ? Answer::shadowed : Answer::expensive;
+    if (!(receiver < slab.least + low.x + low.y)) return Answer::expensive;
+    const bool is_drawn = at.gradient == glm::dvec2(0) || extremes_of(maps, at, window).least > 0;
+    return is_drawn ? Answer::shadowed : Answer::expensive;
 }
 
 }  // namespace strata::shadows

@@ -81,9 +81,10 @@ Image class_table(Graph& graph, FrameImages& frame, const Settings& settings) {
     Image numbers = graph.create("rows of classes", {.extent = {1, std::max(slots, 1u)}, .format = Format::rgba32f});
     graph.clear(numbers, {});
     if (!frame.shadow_bounds) return numbers;
+    const Classes classes = classes_of(graph, frame, settings.as<MinMaxParams>());
     graph.compute("shadows/min_max/class_rows.comp")
         .stores("numbers", numbers)
-        .loads("MapClasses", classes_of(graph, frame, settings.as<MinMaxParams>()).by_map)
+        .loads("MapClasses", classes.by_map)
         .push(ClassRowsPush{.slots = slots})
         .over({1, slots});
     return numbers;
