@@ -76,8 +76,10 @@ FittedSlab slab_of(const ReferenceImage& maps, const Lookup& at, const BoundsSet
         tilted.greatest = std::max(tilted.greatest, over);
     });
     const double width = tilted.greatest - tilted.least;
+    const glm::ivec2 inside = glm::clamp(window.last, glm::ivec2(0), glm::ivec2(static_cast<int>(at.size) - 1));
+    const bool is_inside = std::min(window.begin.x, window.begin.y) >= 0 && inside == window.last;
     const bool is_plane = width < double(plane_tolerance) && level.least > 0;
-    const bool may_tilt = settings.form == BoundsForm::slabs || (settings.form == BoundsForm::planes && is_plane);
+    const bool may_tilt = is_inside && (settings.form == BoundsForm::slabs || (settings.form == BoundsForm::planes && is_plane));
     return {may_tilt && width < level.greatest - level.least ? tilted : level, width};
 }
 

@@ -19,8 +19,8 @@ enum class Answer : std::uint32_t { lit, shadowed, expensive };
 /// First texel of the block that serves a lookup.
 glm::ivec2 block_begin(const Lookup&, std::uint32_t block);
 
-/// The window around the block of a lookup: level at reach and forms without slopes. `width` is the distance of the tilted planes
-/// even where level ones are closer, or a tolerance (planes) forbids them.
+/// Of the window around the block that serves a lookup. It is level in forms without slopes, where that is as close, and where
+/// the window leaves the map. `width` is the distance of the tilted planes whether they are kept or not.
 struct FittedSlab {
     Slab kept;
     double width = 0;

@@ -15,7 +15,7 @@ namespace strata {
 enum class BoundsForm : std::uint32_t {
     extremes,  ///< rg32f: the least and the greatest depth
     levels,    ///< the same of blocks of 2, 4, .. `block` texels, each level made from 2 x 2 texels of the one below; no reach
-    slabs,     ///< rgba32f: two parallel planes between which all depths lie
+    slabs,     ///< rgba32f: two parallel planes between which all depths lie; level ones at the map's edges
     planes,    ///< the same where they are closer than plane_tolerance, else the least and the greatest depth
 };
 
