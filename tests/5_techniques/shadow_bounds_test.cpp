@@ -162,6 +162,27 @@ void expect_no_mismatch(const MinMaxParams& params, std::uint32_t count) {
     }
 }
 
+// A gather at the corner of four texels gives (x, y + 1), (x + 1, y + 1), (x + 1, y), (x, y) (5.2, T-SM-6).
+TEST(ShadowBounds, GatherTexelsInTheOrderOfTheChapter) {
+    TestFrame frame;
+    frame.shader("numbered.comp", R"(
+        layout(set = 0, binding = 0, r32f) writeonly uniform image2DArray map;
+        void main() {
+            const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+            imageStore(map, ivec3(at, 0), vec4(at.x + 10 * at.y));
+        })");
+    frame.shader("gather.comp", R"(
+        layout(set = 0, binding = 0) uniform sampler2DArray map;
+        layout(set = 0, binding = 1, scalar) writeonly buffer Found { vec4 found; };
+        void main() { found = textureGather(map, vec3(vec2(3.0, 6.0) / 10.0, 0.0)); })");
+    Image map = frame.graph.create("map", {.extent = {10, 10}, .format = Format::r32f});
+    frame.graph.compute("numbered.comp").stores("map", map).groups({10, 10});
+    Buffer found = frame.graph.create("found", sizeof(glm::vec4));
+    frame.graph.compute("gather.comp").samples("map", map).stores("Found", found).groups({});
+    frame.graph.keep(found);
+    EXPECT_EQ(values_of<glm::vec4>(frame.run().buffers.at(found.id))[0], glm::vec4(62, 63, 53, 52));
+}
+
 TEST(ShadowBounds, AnswerAMillionLookupsPerSceneAndKernelAsFullFilteringDoes) {
     for (std::uint32_t kernel = 0; kernel < 3; ++kernel)
         expect_no_mismatch(params_of(shadows::form_overlapping, kernel, 1), 1'000'000);

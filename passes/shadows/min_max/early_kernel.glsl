@@ -2,7 +2,8 @@
 // those do not settle it (Dmitriev, Uralsky 2005; Lobanchikov, Gruen: Clear Sky, GDC 2009; Gruen, GPU Pro 2010;
 // docs/algorithms/deferred.md 5.3 to 5.6). Include it after shadow_filter.glsl.
 //
-// The result has the bits of fixed_kernel. llvmpipe runs both sides of a branch: only a loop that begins at its end is spared.
+// The result has the bits of fixed_kernel. llvmpipe runs both sides of a branch: only a loop that begins at its end is spared, but
+// for one turn.
 #include "passes/shadows/bounds/query.glsl"
 #include "passes/shadows/min_max/min_max.shared.h"
 
@@ -125,16 +126,42 @@ uint class_by_bounds(inout MapPoint p) {
 
 // --- the lookup -------------------------------------------------------------------------------------------------------------
 
+// Whether the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) of the map are lit. Quads are gathered at the corner that they
+// share: half a texel from where a device's rounding would choose another one (5.2).
+uvec4 are_lit(MapPoint p, ivec2 texel) {
+    const vec2 corner = vec2(p.corner.xy + texel + 1) / vec2(textureSize(shadow_maps, 0).xy);
+    const vec4 depth = textureGather(shadow_maps, vec3(corner, float(p.corner.z))).wzxy;
+    const vec4 receiver = vec4(plane_depth(p, texel), plane_depth(p, texel + ivec2(1, 0)), plane_depth(p, texel + ivec2(0, 1)),
+                               plane_depth(p, texel + 1));
+    return uvec4(greaterThanEqual(receiver, depth));
+}
+
+// As fixed_kernel_from, of a kernel that lies in the map: (N / 2)^2 gathers.
+float gathered_kernel_from(int y, MapPoint p) {
+    const KernelPlace k = kernel_place(p.u);
+    uint sum = 0u;
+    for (; y < shadow_kernel; y += 2) {
+        uvec2 in_rows = uvec2(0u);
+        for (int x = 0; x < shadow_kernel; x += 2) {
+            const uvec4 lit = are_lit(p, k.first + ivec2(x, y));
+            in_rows += kernel_weight(x, k.f.x) * lit.xz + kernel_weight(x + 1, k.f.x) * lit.yw;
+        }
+        sum += kernel_weight(y, k.f.y) * in_rows.x + kernel_weight(y + 1, k.f.y) * in_rows.y;
+    }
+    return share_of_weight(sum);
+}
+
 // `found` is its class. The gradient of p becomes the one that the comparisons follow.
 float early_share(inout MapPoint p, out uint found) {
+    const ivec2 first = kernel_place(p.u).first, end = first + shadow_kernel;
+    const bool is_inside = all(greaterThanEqual(first, ivec2(0))) && all(lessThanEqual(end, ivec2(p.size)));
     // The hierarchy's nodes know nothing of the texels that go on beyond a face.
-    if (bounds_form == form_hierarchical && has_bounds(p.size)) {
-        const ivec2 first = kernel_place(p.u).first, last = first + (shadow_kernel - 1);
-        if (!p.at_seams || (kept_on_face(p, first) == first && kept_on_face(p, last) == last))
-            return hierarchical_share(p, found);
-    }
+    if (bounds_form == form_hierarchical && has_bounds(p.size) && (is_inside || !p.at_seams)) return hierarchical_share(p, found);
     found = class_expensive;
     if (bounds_form != form_hierarchical) found = class_by_bounds(p);
-    const float compared = fixed_kernel_from(found == class_expensive ? 0 : shadow_kernel, p);
-    return found == class_lit ? 1.0 : compared;
+    const bool compares = found == class_expensive;
+    const float gathered = gathered_kernel_from(compares && is_inside ? 0 : shadow_kernel, p);
+    const float fetched = fixed_kernel_from(compares && !is_inside ? 0 : shadow_kernel, p);
+    if (found == class_lit) return 1.0;
+    return is_inside ? gathered : fetched;
 }
