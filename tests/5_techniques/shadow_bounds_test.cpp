@@ -7,6 +7,7 @@
 
 #include "passes/shadows/bounds/build.h"
 #include "passes/shadows/min_max/min_max.h"
+#include "replay/images/host_image.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
 
@@ -225,6 +226,74 @@ TEST(ShadowBounds, AsSlabsAnswerOnTiltedGroundWhatLevelOnesLeaveOpen) {
     EXPECT_NEAR(percent(shadows::form_overlapping, 6), 66.7, 1);
     EXPECT_EQ(percent(shadows::form_slab, 4.01f), 100);
     EXPECT_EQ(percent(shadows::form_plane, .25f), 100) << "receivers follow the ground";
+}
+
+// --- whole frames -----------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view min_max = "shadows/min_max";
+
+Run run_of(std::string_view scenario, const std::string& use, const std::vector<std::string>& sets,
+           const std::vector<std::string>& insides = {}) {
+    Request request = on_scenario(scenario);
+    request.choices = chosen({use}, sets);
+    request.outputs = insides;
+    request.outputs.push_back("visibility");
+    return must(session_of_scenarios().run(request));
+}
+
+double total(const Run& run, std::string_view name) {
+    for (const CounterRecord& counter : run.counters)
+        if (counter.technique == min_max && counter.name == name) return double(counter.value);
+    ADD_FAILURE() << "no counter " << name;
+    return 0;
+}
+
+double sum_of_column(const Run& run, std::size_t column) {
+    double sum = 0;
+    for (const std::vector<double>& row : run.tables.at("shadows/min_max:classes_by_map").rows) sum += row[column];
+    return sum;
+}
+
+/// Pixels whose lookup of the shown light is expensive: red.
+double red_pixels(const Run& run) {
+    const HostImage& shown = run.images.at("shadows/min_max:class");
+    double count = 0;
+    for (std::uint32_t y = 0; y < shown.shape.extent.height; ++y)
+        for (std::uint32_t x = 0; x < shown.shape.extent.width; ++x)
+            count += texel(shown, x, y).x == 1 && texel(shown, x, y).y == 0;
+    return count;
+}
+
+TEST(MinMax, HasTheBitsOfFullFilteringInEveryMapWhereverThatLies) {
+    struct Case {
+        std::string_view scenario;
+        const char *allocation, *form;
+    };
+    // Cascades; a spot, the faces of a globe and a hazy sun, each in a layer of its own and side by side.
+    for (const Case& c :
+         {Case{"sun_and_boxes", "allocation=own", "form=slab"}, Case{"soft_shadows", "allocation=own", "form=block"},
+          Case{"soft_shadows", "allocation=need", "form=overlapping"}}) {
+        const auto full = run_of(c.scenario, "shadows/pcf", {"kernel=8x8", c.allocation});
+        const auto early = run_of(c.scenario, std::string(min_max), {"kernel=8x8", c.allocation, c.form, "block=8"});
+        EXPECT_EQ(early.images.at("visibility").texels, full.images.at("visibility").texels) << c.scenario << " " << c.allocation;
+        EXPECT_GT(total(early, "lit"), 1000) << c.scenario << " " << c.allocation;
+    }
+}
+
+TEST(MinMax, CountsLookupsByMapAndInTotalAlike) {
+    const auto run =
+        run_of("sun_and_boxes", std::string(min_max), {"verify=on"}, {"shadows/min_max:classes_by_map", "shadows/min_max:class"});
+    EXPECT_EQ(total(run, "mismatches"), 0);
+    EXPECT_EQ(sum_of_column(run, 0), total(run, "lit"));
+    EXPECT_EQ(sum_of_column(run, 1), total(run, "shadowed"));
+    EXPECT_EQ(sum_of_column(run, 2), total(run, "expensive"));
+    // Every sample is looked up, where cascades blend twice.
+    const double lookups = total(run, "lit") + total(run, "shadowed") + total(run, "expensive") + total(run, "outside");
+    EXPECT_GE(lookups, total(run, "filtered"));
+    EXPECT_LT(lookups, 2 * total(run, "filtered"));
+    EXPECT_LE(red_pixels(run), total(run, "expensive"));
+    EXPECT_GT(red_pixels(run), 0.8 * total(run, "expensive")) << "but where cascades blend, a pixel has one lookup";
+    EXPECT_EQ(run.tables.at("shadows/min_max:classes_by_map").rows.size(), 3u);
 }
 
 }  // namespace
