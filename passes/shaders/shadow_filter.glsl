@@ -1,6 +1,7 @@
 // How much of a light reaches a point, by its shadow maps: percentage-closer filtering (Reeves, Salesin, Cook 1987), and for soft
 // lights percentage-closer soft shadows (Fernando 2005; docs/algorithms/lighting.md 6.1 to 6.3). Whoever includes this declares
-// `sampler2DArray shadow_maps` before and fixes the constants (passes/shadows/filter.h).
+// `sampler2DArray shadow_maps` before, fixes the constants (passes/shadows/filter.h), and after it includes
+// passes/shaders/plain_kernel.glsl or says itself what a fixed kernel gives.
 #ifndef PASSES_SHADERS_SHADOW_FILTER_GLSL
 #define PASSES_SHADERS_SHADOW_FILTER_GLSL
 #include "passes/shaders/light_features.shared.h"
@@ -48,20 +49,41 @@ uint is_lit(MapPoint p, ivec2 texel) {
 
 uint kernel_weight(int tap, uint f) { return tap == 0 ? 256u - f : tap == shadow_kernel - 1 ? f : 256u; }
 
-// N x N texels with the weights of (N-1)^2 bilinear taps, as integers of 1/256, so that all lit is exactly 1 on every device.
-float fixed_kernel(MapPoint p) {
-    const vec2 corner = floor(p.u - 0.5);
-    const uvec2 f = min(uvec2(256.0 * (p.u - 0.5 - corner)), uvec2(255u));
-    const ivec2 first = ivec2(corner) - (shadow_kernel / 2 - 1);
-    uint sum = 0u;
-    for (int y = 0; y < shadow_kernel; ++y) {
-        uint in_row = 0u;
-        for (int x = 0; x < shadow_kernel; ++x) in_row += kernel_weight(x, f.x) * is_lit(p, first + ivec2(x, y));
-        sum += kernel_weight(y, f.y) * in_row;
-    }
-    const uint total = uint((shadow_kernel - 1) * (shadow_kernel - 1)) * 65536u;
-    return sum == total ? 1.0 : float(sum) * (1.0 / float(total));
+// Where the kernel lies: its first texel, and how far u is beyond the center of the one that begins its middle, in 1/256.
+struct KernelPlace {
+    ivec2 first;
+    uvec2 f;
+};
+
+KernelPlace kernel_place(vec2 u) {
+    const vec2 corner = floor(u - 0.5);
+    const uvec2 f = min(uvec2(256.0 * (u - 0.5 - corner)), uvec2(255u));
+    return KernelPlace(ivec2(corner) - (shadow_kernel / 2 - 1), f);
 }
+
+const uint kernel_total = uint((shadow_kernel - 1) * (shadow_kernel - 1)) * 65536u;
+
+float share_of_weight(uint sum) { return sum == kernel_total ? 1.0 : float(sum) * (1.0 / float(kernel_total)); }
+
+// N x N texels with the weights of (N-1)^2 bilinear taps, as integers of 1/256, so that all lit is exactly 1 on every device. The
+// kernel begins with the row `y`.
+float fixed_kernel_from(int y, MapPoint p) {
+    const KernelPlace k = kernel_place(p.u);
+    uint sum = 0u;
+    for (; y < shadow_kernel; ++y) {
+        uint in_row = 0u;
+        for (int x = 0; x < shadow_kernel; ++x) in_row += kernel_weight(x, k.f.x) * is_lit(p, k.first + ivec2(x, y));
+        sum += kernel_weight(y, k.f.y) * in_row;
+    }
+    return share_of_weight(sum);
+}
+
+float fixed_kernel(MapPoint p) { return fixed_kernel_from(0, p); }
+
+// What whoever includes this says of a lookup by the fixed kernel, in a map of shadows: the share that is lit, and the same where
+// the kernel reaches no texel of the map.
+float fixed_share(uint record, MapPoint p);
+float outside_share(uint record);
 
 // Taps of a disc: tap i of n lies sqrt((i + .5) / n) out, each a golden angle (2.39996323) on from the one before (Vogel 1979).
 // Turned by a matrix: sines of large angles are no two devices' the same.
@@ -155,14 +177,14 @@ float one_map(LightRecord light, uint record, vec3 position, vec3 normal, bool s
     float towards = map.bias + radius * map.texel * w * slope;
     if (!sun) towards = min(towards, 0.5 * length(offset));
     const vec4 at = map.view_to_map * vec4(position + towards * to_light, 1.0);
-    if (at.w <= 0.0) return 1.0;
+    if (at.w <= 0.0) return outside_share(record);
     const vec2 u = at.xy / at.w * float(map.size);
     const float reach = soft ? greatest_disc_radius + 1.0 : float(shadow_kernel);
-    if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return 1.0;
+    if (any(lessThan(u, vec2(-reach))) || any(greaterThan(u, vec2(map.size + reach)))) return outside_share(record);
     const bool at_seams = !sun && light.shadow_slots > 1u;
     const ivec3 corner = ivec3(map.offset, map.layer);
     MapPoint point = MapPoint(corner, int(map.size), at_seams, sun, u, at.z / at.w, vec2(0.0), 0.0);
-    if (!soft) return fixed_kernel(point);
+    if (!soft) return fixed_share(record, point);
     point.gradient = plane_gradient(map, at, normal);
     point.penumbra = penumbra_per_depth(map, sun);
     return soft_kernel(point, first_direction(position));

@@ -47,23 +47,29 @@ Image atlas_table(Graph& graph, FrameImages& frame, const Settings&) {
 }  // namespace
 
 void make_shadow_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
-    frame.shadow_filter = settings.as<ShadowFilter>();
+    make_shadow_maps(graph, frame, settings.as<ShadowFilter>());
+}
+
+void make_shadow_maps(Graph& graph, FrameImages& frame, const ShadowFilter& filter) {
+    frame.shadow_filter = filter;
     cast_maps(graph, frame, allocation_of(frame.shadow_filter));
 }
 
 void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& shader) {
-    if (!frame.shadow_maps) return;
+    if (frame.shadow_maps) filter_step(graph, frame, shader, frame.visibility);
+}
+
+ComputePass filter_step(Graph& graph, const FrameImages& frame, const std::string& shader, Image& visibility) {
     const auto shadowed = static_cast<std::uint32_t>(shadowed_lights(frame.facts->shadow_views(Allocation::own)).size());
     const Shape maps = graph.shape(frame.shadow_maps);
     const std::uint64_t texels = std::uint64_t(maps.layers) * maps.extent.width * maps.extent.height;
-    frame.visibility =
-        graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
+    visibility = graph.create("visibility", {.extent = frame.extent, .format = Format::r16f, .layers = shadowed * frame.samples});
     ComputePass pass = graph.compute(shader);
     fix_shadow_filter(pass, frame.shadow_filter);
-    sample_edges(sample_gbuffer(pass, frame), frame)
+    return sample_edges(sample_gbuffer(pass, frame), frame)
         .samples("shadow_maps", frame.shadow_maps)
         .samples("depth_layers", frame.depth_layers)
-        .stores("visibility", frame.visibility)
+        .stores("visibility", visibility)
         .fixes("layer_kilotexels", static_cast<std::uint32_t>((texels + 1023) / 1024))
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }

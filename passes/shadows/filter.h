@@ -11,8 +11,11 @@ namespace strata {
 
 /// At Stage::shadows: draws the maps and remembers in FrameImages::shadow_filter how they are looked up.
 void make_shadow_maps(Graph&, FrameImages&, const Settings&);
+void make_shadow_maps(Graph&, FrameImages&, const ShadowFilter&);
 /// At a stage behind the G-buffer: `shader` writes FrameImages::visibility. It includes passes/shadows/visibility.glsl.
 void filter_shadow_maps(Graph&, FrameImages&, const std::string& shader);
+/// The step of such a shader, and the image that it writes.
+ComputePass filter_step(Graph&, const FrameImages&, const std::string& shader, Image& visibility);
 
 /// Fixes the constants of passes/shaders/shadow_filter.glsl in a step whose shader includes it.
 ComputePass& fix_shadow_filter(ComputePass&, const ShadowFilter&);

@@ -16,6 +16,12 @@ double weight(std::int64_t tap, std::int64_t taps, double fraction) {
     return sum;
 }
 
+// Of the receiver; beyond a face's edge as over its outermost texels.
+double depth_over(const Lookup& at, glm::ivec2 texel) {
+    const glm::ivec2 kept = at.is_face ? glm::clamp(texel, glm::ivec2(0), glm::ivec2(static_cast<int>(at.size) - 1)) : texel;
+    return at.depth + glm::dot(at.gradient, glm::dvec2(kept) + 0.5 - at.u);
+}
+
 }  // namespace
 
 double map_depth(const ReferenceImage& maps, const Lookup& at, glm::ivec2 texel) {
@@ -35,9 +41,10 @@ Filtered filter_map(const ReferenceImage& maps, const Lookup& at, std::int64_t t
     for (std::int64_t y = 0; y < taps; ++y) {
         for (std::int64_t x = 0; x < taps; ++x) {
             const double share = weight(x, taps, fraction.x) * weight(y, taps, fraction.y);
-            const double depth = map_depth(maps, at, first + glm::ivec2(x, y));
-            if (std::max(at.depth, 0.0) >= depth) result.lit += share;
-            if (share > 0 && depth > 0 && std::abs(at.depth - depth) <= at.doubt) result.undecided = true;
+            const glm::ivec2 texel = first + glm::ivec2(x, y);
+            const double depth = map_depth(maps, at, texel), receiver = depth_over(at, texel);
+            if (std::max(receiver, 0.0) >= depth) result.lit += share;
+            if (share > 0 && depth > 0 && std::abs(receiver - depth) <= at.doubt) result.undecided = true;
         }
     }
     result.lit /= double((taps - 1) * (taps - 1));

@@ -17,7 +17,8 @@ struct Lookup {
     double depth = 0;        ///< of the biased receiver: lit where it is at least the map's
     double doubt = 0;        ///< how far float arithmetic may have moved the depth
     glm::uvec2 offset{0};
-    bool is_face = false;  ///< of a cube: beyond its edges its outermost texels go on; else nothing is drawn there
+    bool is_face = false;    ///< of a cube: beyond its edges its outermost texels go on; else nothing is drawn there
+    glm::dvec2 gradient{0};  ///< what the receiver gains in depth per texel: it is compared where it is over a texel's center
 };
 
 struct Filtered {

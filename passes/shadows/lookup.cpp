@@ -26,7 +26,7 @@ double doubt(const ShadowView& view, const Receiver& receiver, const glm::dvec4&
 }
 
 // The face of a cube that serves a receiver; undecided where two are equally near but for rounding and do not agree.
-Filtered look_up_face(const LookupScene& scene, std::size_t first, const Receiver& receiver, LookUp look_up) {
+Filtered look_up_face(const LookupScene& scene, std::size_t first, const Receiver& receiver, const LookUp& look_up) {
     const Light& light = scene.lights[scene.views[first].light];
     const glm::dvec3 direction =
         glm::transpose(scene.frame.view.to_view) * (receiver.position - to_view(scene.frame, light.position));
@@ -43,7 +43,7 @@ Filtered look_up_face(const LookupScene& scene, std::size_t first, const Receive
 }
 
 // The first cascade that reaches the receiver's depth, blended over its last tenth into the next, the last into lit.
-Filtered look_up_cascades(const LookupScene& scene, std::size_t first, const Receiver& receiver, LookUp look_up) {
+Filtered look_up_cascades(const LookupScene& scene, std::size_t first, const Receiver& receiver, const LookUp& look_up) {
     for (std::size_t slot = first; slot < scene.views.size(); ++slot) {
         const ShadowView& view = scene.views[slot];
         if (view.light != scene.views[first].light) break;
@@ -59,7 +59,7 @@ Filtered look_up_cascades(const LookupScene& scene, std::size_t first, const Rec
     return {};
 }
 
-Filtered look_up_light(const LookupScene& scene, std::uint32_t light, const Receiver& receiver, LookUp look_up) {
+Filtered look_up_light(const LookupScene& scene, std::uint32_t light, const Receiver& receiver, const LookUp& look_up) {
     const auto first = std::ranges::find(scene.views, light, &ShadowView::light) - scene.views.begin();
     const auto slot = static_cast<std::size_t>(first);
     if (has_faces(scene.lights[light])) return look_up_face(scene, slot, receiver, look_up);
@@ -97,9 +97,13 @@ std::optional<Lookup> biased_lookup(const LookupScene& scene, const ShadowView& 
                   .is_face = has_faces(scene.lights[view.light])};
 }
 
-Filtered fixed_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
+std::optional<Lookup> fixed_place(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
     const double taps = double(scene.taps());
-    const auto at = biased_lookup(scene, view, receiver, {.radius = std::sqrt(0.5) * taps + 0.5, .reach = taps});
+    return biased_lookup(scene, view, receiver, {.radius = std::sqrt(0.5) * taps + 0.5, .reach = taps});
+}
+
+Filtered fixed_lookup(const LookupScene& scene, const ShadowView& view, const Receiver& receiver) {
+    const auto at = fixed_place(scene, view, receiver);
     return at ? filter_map(scene.maps, *at, scene.taps()) : Filtered{};
 }
 
@@ -119,10 +123,10 @@ bool move_to_center(const Frame& frame, const ReferenceImage& depth, Receiver& r
 
 }  // namespace
 
-ImageSet visibility_model(const StageInput& input, const Settings& settings, LookUp look_up) {
+ImageSet visibility_model(const StageInput& input, const ShadowFilter& filter, const LookUp& look_up) {
     const auto maps = input.before.find("shadow_maps"), depth = input.before.find("depth_layers");
     if (maps == input.before.end() || depth == input.before.end() || !input.before.contains("surface_normal")) return {};
-    const LookupScene scene(input.frame, maps->second, settings.as<ShadowFilter>());
+    const LookupScene scene(input.frame, maps->second, filter);
     const std::vector<std::uint32_t> shadowed = mapped_lights(scene.frame);
     const ReferenceImage& shape = depth->second;
     const auto layers = static_cast<std::uint32_t>(shadowed.size()) * shape.layers;

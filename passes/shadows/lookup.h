@@ -1,6 +1,7 @@
 // Lookups of shadow maps in double: what the models of the stage's techniques go through. The maps are those the device drew.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,11 +31,13 @@ struct KernelSize {
 };
 std::optional<Lookup> biased_lookup(const LookupScene&, const ShadowView&, const Receiver&, KernelSize);
 
-/// The share of one map that a fixed kernel lights.
+/// Where a fixed kernel is looked up; nothing where it does not touch the map.
+std::optional<Lookup> fixed_place(const LookupScene&, const ShadowView&, const Receiver&);
+/// The share of one map that it lights.
 Filtered fixed_lookup(const LookupScene&, const ShadowView&, const Receiver&);
 
 /// "visibility" by a lookup per map: cascades blend, cubes have faces.
-using LookUp = Filtered (*)(const LookupScene&, const ShadowView&, const Receiver&);
-ImageSet visibility_model(const StageInput&, const Settings&, LookUp);
+using LookUp = std::function<Filtered(const LookupScene&, const ShadowView&, const Receiver&)>;
+ImageSet visibility_model(const StageInput&, const ShadowFilter&, const LookUp&);
 
 }  // namespace strata::shadows

@@ -18,6 +18,12 @@ struct ShadowCounters {
     uint penumbra;
     uint kilotexels_drawn;
     uint kilotexels_allocated;
+    // Of lookups that ask bounds of the map first, by what those say.
+    uint lit;
+    uint shadowed;
+    uint expensive;
+    uint outside;
+    uint mismatches;
 };
 
 // Which of the records lie in shadow_maps, for pictures of them.

@@ -16,7 +16,7 @@ std::optional<std::string> unwanted(const Features& features) {
 StageInfo stage() {
     return {.purpose = "draws the shadow maps of all lights",
             .unwanted = unwanted,
-            .outputs = {"visibility", "shadow_maps"},
+            .outputs = {"visibility", "shadow_maps", "shadow_bounds"},
             .truth = shadows_truth,
             .judge = shadows_judge,
             .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows"}};

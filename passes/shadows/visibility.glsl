@@ -1,5 +1,6 @@
 // The visibility image: every shadowed light at every sample of the G-buffer. Included by the compute shaders of techniques, which
-// say before what their variant can do: `const uint shadow_features`.
+// say before what their variant can do: `const uint shadow_features`. After it they say what a fixed kernel gives
+// (passes/shaders/shadow_filter.glsl), and in count_kernels() what a thread has counted of that when it is done.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/shaders/camera.glsl"
@@ -15,6 +16,8 @@ layout(set = 0, binding = 1) uniform sampler2DArray depth_layers;
 layout(set = 0, binding = 5, r16f) writeonly uniform image2DArray visibility;
 layout(set = 0, binding = 6, scalar) buffer Counters { ShadowCounters counters; };
 #include "passes/shaders/shadow_filter.glsl"
+
+void count_kernels();
 
 // Depth is a sample's own, so the ray is too: then position lies on the surface.
 vec2 sample_position(uint i) { return 0.5 + sample_place(view.samples, i); }
@@ -89,4 +92,5 @@ void main() {
         store_share(at, int(lights[i].visibility_layer), share);
     }
     count(filtered_here, penumbra_here);
+    count_kernels();
 }

@@ -25,6 +25,7 @@ layout(set = 0, binding = 9, scalar) readonly buffer Dispatches { ModeDispatch d
 layout(set = 0, binding = 10, scalar) buffer Counters { TiledCounters counters; };
 
 #include "passes/shaders/shadow_filter.glsl"
+#include "passes/shaders/plain_kernel.glsl"
 #include "passes/lighting/tiled/tile_lights.glsl"
 
 // 8 x 8 pixels in a row of threads: a wave of 64 is a block, which depth and shadows suit better than rows

@@ -3,6 +3,8 @@
 
 namespace strata::shadows {
 
-ImageSet pcf_model(const StageInput& input, const Settings& settings) { return visibility_model(input, settings, fixed_lookup); }
+ImageSet pcf_model(const StageInput& input, const Settings& settings) {
+    return visibility_model(input, settings.as<ShadowFilter>(), fixed_lookup);
+}
 
 }  // namespace strata::shadows

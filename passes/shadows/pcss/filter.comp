@@ -5,3 +5,5 @@
 
 const uint shadow_features = feature_shadows | feature_soft_shadows;
 #include "passes/shadows/visibility.glsl"
+#include "passes/shaders/plain_kernel.glsl"
+#include "passes/shadows/uncounted.glsl"

@@ -55,6 +55,8 @@ Filtered soft_lookup(const LookupScene& scene, const ShadowView& view, const Rec
 
 }  // namespace
 
-ImageSet pcss_model(const StageInput& input, const Settings& settings) { return visibility_model(input, settings, soft_lookup); }
+ImageSet pcss_model(const StageInput& input, const Settings& settings) {
+    return visibility_model(input, settings.as<ShadowFilter>(), soft_lookup);
+}
 
 }  // namespace strata::shadows
