@@ -1,0 +1,85 @@
+// Sun shafts by the same march, where bounds of blocks of the shadow map answer most steps.
+#include <algorithm>
+
+#include "passes/scene/scene_facts.h"
+#include "passes/sun_shafts/march.h"
+
+namespace strata::sun_shafts {
+
+ImageSet ray_march_min_max_model(const StageInput&, const Settings&);
+
+namespace {
+
+/// Layers of shadow_maps up to the last that holds a map of the sun.
+std::uint32_t sun_layers(const FrameImages& frame) {
+    std::uint32_t layers = 0;
+    for (const ShadowView& view : frame.facts->shadow_views(static_cast<Allocation>(frame.shadow_filter.allocation)))
+        if (view.light == 0) layers = std::max(layers, view.layer + 1);
+    return layers;
+}
+
+Image bound(Graph& graph, const FrameImages& frame, std::uint32_t taps) {
+    const Extent maps = graph.shape(frame.shadow_maps).extent;
+    const auto blocks = [](std::uint32_t texels) { return (texels + bounds_block - 1) / bounds_block; };
+    const Shape shape{.extent = {blocks(maps.width), blocks(maps.height)}, .format = Format::rg32f, .layers = sun_layers(frame)};
+    Image bounds = graph.create("bounds of sun maps", shape);
+    graph.compute("sun_shafts/ray_march_min_max/bounds.comp")
+        .samples("shadow_maps", frame.shadow_maps)
+        .stores("bounds", bounds)
+        .fixes("reach", taps == taps_1 ? 0 : 1)
+        .over({shape.extent.width, shape.extent.height, shape.layers});
+    return bounds;
+}
+
+void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
+    if (!has_shafts(frame)) return;
+    const Image bounds = has_sun_maps(frame) ? bound(graph, frame, settings.as<MarchParams>().taps) : Image{};
+    march_shafts(graph, frame, settings, "sun_shafts/ray_march_min_max/march.comp", bounds);
+}
+
+Claims claims() {
+    const auto against = [](std::string_view name, std::string_view settings, std::string_view plain) {
+        return TimeRatio{.name = name,
+                         .of = settings,
+                         .against = plain,
+                         .scenario = "beams",
+                         .counters = {"steps", "fetches", "bounds", "skipped"}};
+    };
+    return {.ratios = {against("16 steps, against a lookup at each", "shaft_steps=16", "sun_shafts/ray_march shaft_steps=16"),
+                       against("32 steps, against a lookup at each", "", "sun_shafts/ray_march"),
+                       against("64 steps, against a lookup at each", "shaft_steps=64", "sun_shafts/ray_march shaft_steps=64")}};
+}
+
+}  // namespace
+
+Technique ray_march_min_max() {
+    return {.stage = Stage::sun_shafts,
+            .name = "sun_shafts/ray_march_min_max",
+            .title = "Marched sun shafts over min-max maps",
+            .source =
+                "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009; Chen, Baran, Durand, Jarosz: "
+                "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps, I3D 2011",
+            .summary =
+                "The picture of sun_shafts/ray_march to the bit; steps that the least and greatest depth of a block of the map "
+                "decide read the map no more. Foliage defeats it.",
+            .params = march_params(),
+            .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
+            .counters = {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
+                         counter<&MarchCounters::steps>({.name = "steps", .help = "steps of all rays"}),
+                         counter<&MarchCounters::fetches>({.name = "fetches", .help = "texels of shadow maps read by all steps"}),
+                         counter<&MarchCounters::bounds>({.name = "bounds", .help = "bounds of blocks read by all steps"}),
+                         counter<&MarchCounters::skipped>(
+                             {.name = "skipped", .help = "steps that bounds decide without a fetch of the map"})},
+            .counter_bytes = sizeof(MarchCounters),
+            .views = march_views(),
+            .claims = claims(),
+            .declare = declare,
+            .approximates = truth_of_phase,
+            .model = ray_march_min_max_model,
+            .tolerance = {.rmse = 1e-3,
+                          .worst = 4e-3,
+                          .because = "half floats of undefined rounding in up to two images, 2^-10 each; lookups that rounding "
+                                     "may turn change up to 1e-3 of a ray's lit share, or are undecided"}};
+}
+
+}  // namespace strata::sun_shafts
