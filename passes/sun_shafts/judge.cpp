@@ -29,7 +29,10 @@ std::vector<Figure> sun_shafts_judge(const ImageSet& result, const ImageSet& tru
     return {{"relative rmse", "", error.relative},
             {"rmse", "radiance", error.rmse},
             {"worst", "radiance", error.worst},
-            {"relative bias", "", std::isnan(error.bias) ? HUGE_VAL : whole > 0 ? error.bias / whole : error.bias}};
+            {"relative bias", "",
+             std::isnan(error.bias) ? HUGE_VAL
+             : whole > 0            ? error.bias / whole
+                                    : error.bias}};
 }
 
 }  // namespace strata

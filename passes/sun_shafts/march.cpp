@@ -79,7 +79,7 @@ bool has_shafts(const FrameImages& frame) {
 
 bool has_sun_maps(const FrameImages& frame) { return frame.recorded->sun.shadow.casts && frame.shadow_maps; }
 
-void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, const std::string& shader, const Image& bounds) {
+void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
     const auto params = settings.as<MarchParams>();
     const bool is_half = params.resolution == resolution_half;
     const std::uint32_t divisor = is_half ? 2 : 1;
@@ -87,8 +87,8 @@ void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, co
                       .format = Format::rgba16f,
                       .layers = is_half ? 1 : frame.samples};
     Image marched = graph.create(is_half ? "lit shares" : "shafts", shape);
-    ComputePass march = read_rays(graph.compute(shader), frame, params);
-    if (bounds) march.samples("bounds", bounds);
+    ComputePass march = read_rays(graph.compute(shader.name), frame, params);
+    if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
     march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
         .stores("shafts", marched)
         .fixes("steps", params.steps)

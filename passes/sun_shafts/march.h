@@ -1,10 +1,12 @@
 // What techniques that march rays through the sun's shadow maps have in common: their parameters, steps and views.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "passes/shadows/bounds/build.h"
 #include "passes/sun_shafts/march.shared.h"
 #include "passes/technique.h"
 
@@ -15,8 +17,20 @@ bool has_shafts(const FrameImages&);
 /// Whether the sun's shadows are in FrameImages::shadow_maps. Without, every step is lit.
 bool has_sun_maps(const FrameImages&);
 
-/// Makes FrameImages::shafts. `shader` includes march.glsl; `bounds` is bound as "bounds" if there are any.
-void march_shafts(Graph&, FrameImages&, const Settings&, const std::string& shader, const Image& bounds = {});
+/// Bounds of the sun's maps for a shader that includes passes/shadows/bounds/query.glsl. No image: the sun casts no shadow.
+struct SunBounds {
+    Image image;
+    BoundsSettings settings;
+};
+
+/// A shader that includes march.glsl.
+struct MarchShader {
+    std::string name;
+    std::optional<SunBounds> bounds = {};
+};
+
+/// Makes FrameImages::shafts.
+void march_shafts(Graph&, FrameImages&, const Settings&, const MarchShader&);
 
 std::vector<Param> march_params();
 std::vector<DebugView> march_views();

@@ -58,9 +58,6 @@ struct MarchCounters {
     uint skipped;  // steps that bounds decide
 };
 
-// Texels per edge of a block of bounds: X-Ray's.
-const uint bounds_block = 4u;
-
 #ifdef __cplusplus
 }
 #endif

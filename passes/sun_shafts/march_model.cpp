@@ -1,6 +1,6 @@
 // Marched sun shafts in double, from docs/algorithms/deferred.md 6.2 to 6.4. Which texel a step reads hangs on rounding where it
-// lies on a border between two, and whether it is lit where it lies on the caster: what a step may gain or lose by that is followed
-// through the sum and the upsampling, and pixels that it changes visibly are undecided.
+// lies on a border between two, and whether it is lit where it lies on the caster: what a step may gain or lose by that is
+// followed through the sum and the upsampling, and pixels that it changes visibly are undecided.
 #include "passes/sun_shafts/march_model.h"
 
 #include <algorithm>
@@ -129,11 +129,8 @@ double March::looked_up(const shadows::Lookup& at) const {
 
 March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double close_metres) const {
     const glm::dvec4 map = view.view_to_map * glm::dvec4(place + view.bias * to_sun_, 1);
-    const shadows::Lookup at{.layer = view.layer,
-                             .size = view.size,
-                             .u = glm::dvec2(map) * double(view.size),
-                             .depth = map.z,
-                             .offset = view.offset};
+    const shadows::Lookup at{
+        .layer = view.layer, .size = view.size, .u = glm::dvec2(map) * double(view.size), .depth = map.z, .offset = view.offset};
     const double lit = looked_up(at), metres = close_metres + close_share * (1 + glm::length(place));
     const double texels = close_texels + metres / view.texel;
     const double depth = close_depth + metres * glm::length(glm::dvec3(glm::transpose(view.view_to_map)[2]));

@@ -112,8 +112,8 @@ std::vector<Interval> ShadowVolumes::shadows(const glm::dvec3& direction, double
     const Ray ray{per_metre, glm::min(end, glm::dvec2(0)), glm::max(end, glm::dvec2(0)), length};
     std::vector<Interval> parts;
     for (const Caster& caster : casters_) {
-        const bool is_apart = caster.low.x > ray.high.x || caster.high.x < ray.low.x || caster.low.y > ray.high.y ||
-                              caster.high.y < ray.low.y;
+        const bool is_apart =
+            caster.low.x > ray.high.x || caster.high.x < ray.low.x || caster.low.y > ray.high.y || caster.high.y < ray.low.y;
         Interval part;
         if (is_apart || !shadowed(caster, ray, part)) continue;
         if (caster.masked) add_masked(caster, ray, part, parts);

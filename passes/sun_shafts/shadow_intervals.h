@@ -5,6 +5,8 @@
 // crosses the triangle's plane at most once, from before it to behind.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -2,9 +2,10 @@
 //
 //     L = E phase(angle) * integral from 0 to D of V(t) sigma exp(-sigma t) dt
 //
-// E: the sun's irradiance; sigma: the fog's density, all of which scatters; D: metres along the ray to the surface, or to the view
-// depth sun.shadow_distance if nothing is nearer; V(t): 0 where a caster stands between the place at t and the sun, else 1. The sun
-// is a point: its angular radius is left out. Between the ends of V's intervals, found exactly, the integral has a closed form.
+// E: the sun's irradiance; sigma: the fog's density, all of which scatters; D: metres along the ray to the surface, or to the
+// view depth sun.shadow_distance if nothing is nearer; V(t): 0 where a caster stands between the place at t and the sun, else 1.
+// The sun is a point: its angular radius is left out. Between the ends of V's intervals, found exactly, the integral has a closed
+// form.
 #pragma once
 
 #include <vector>

@@ -1,26 +1,18 @@
 // A step asks the bounds of the map's block first, and the map only where they do not decide: as X-Ray's shafts do
-// (docs/algorithms/deferred.md 5.5, 6.3; reversed depth).
+// (docs/algorithms/deferred.md 5.5, 6.3).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/shadows/bounds/query.glsl"
 #include "passes/sun_shafts/march.glsl"
 
-layout(set = 0, binding = 4) uniform sampler2DArray bounds;
-
-// Texels that a lookup touches must all be the map's: beyond it is nothing, whatever its neighbors in the layer hold.
-bool is_within(MapRay map, vec2 place) {
-    const ivec2 first = ivec2(floor(taps == taps_1 ? place : place - 0.5)), last = taps == taps_1 ? first : first + 1;
-    return !any(lessThan(first, ivec2(0))) && !any(greaterThanEqual(last, ivec2(map.size)));
-}
-
+// Outside the map a lookup is lit without reading it.
 bool is_decided(MapRay map, vec3 at, inout Tally tally, out float lit) {
     lit = 1.0;
-    if (!is_within(map, at.xy)) return false;
-    const ivec2 block = (map.corner.xy + ivec2(floor(at.xy))) / int(bounds_block);
-    const vec2 range = texelFetch(bounds, ivec3(block, map.corner.z), 0).rg;
-    const float depth = max(at.z, 0.0);
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThanEqual(at.xy, vec2(map.size)))) return false;
     ++tally.bounds;
-    if (depth < range.x) lit = 0.0;
-    else if (!(depth >= range.y)) return false;
+    const uint found = bounds_class(extremes_at(map.corner, map.size, at.xy), max(at.z, 0.0));
+    if (found == class_expensive) return false;
+    if (found == class_shadowed) lit = 0.0;
     ++tally.skipped;
     return true;
 }

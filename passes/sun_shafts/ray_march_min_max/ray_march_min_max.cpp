@@ -1,5 +1,6 @@
 // Sun shafts by the same march, where bounds of blocks of the shadow map answer most steps.
 #include <algorithm>
+#include <span>
 
 #include "passes/scene/scene_facts.h"
 #include "passes/sun_shafts/march.h"
@@ -10,31 +11,22 @@ ImageSet ray_march_min_max_model(const StageInput&, const Settings&);
 
 namespace {
 
-/// Layers of shadow_maps up to the last that holds a map of the sun.
-std::uint32_t sun_layers(const FrameImages& frame) {
-    std::uint32_t layers = 0;
-    for (const ShadowView& view : frame.facts->shadow_views(static_cast<Allocation>(frame.shadow_filter.allocation)))
-        if (view.light == 0) layers = std::max(layers, view.layer + 1);
-    return layers;
-}
-
-Image bound(Graph& graph, const FrameImages& frame, std::uint32_t taps) {
-    const Extent maps = graph.shape(frame.shadow_maps).extent;
-    const auto blocks = [](std::uint32_t texels) { return (texels + bounds_block - 1) / bounds_block; };
-    const Shape shape{.extent = {blocks(maps.width), blocks(maps.height)}, .format = Format::rg32f, .layers = sun_layers(frame)};
-    Image bounds = graph.create("bounds of sun maps", shape);
-    graph.compute("sun_shafts/ray_march_min_max/bounds.comp")
-        .samples("shadow_maps", frame.shadow_maps)
-        .stores("bounds", bounds)
-        .fixes("reach", taps == taps_1 ? 0 : 1)
-        .over({shape.extent.width, shape.extent.height, shape.layers});
+/// One texel of the bounds answers a step that reads no texel farther than `reach` from its own.
+SunBounds bounds_of_sun(Graph& graph, const FrameImages& frame, std::uint32_t taps) {
+    SunBounds bounds{.settings = {.form = BoundsForm::extremes, .block = 4, .reach = taps == taps_1 ? 0u : 1u}};
+    if (!has_sun_maps(frame)) return bounds;
+    const auto allocation = static_cast<Allocation>(frame.shadow_filter.allocation);
+    const std::span<const ShadowView> views = frame.facts->shadow_views(allocation);
+    const auto end = std::ranges::find_if(views, [](const ShadowView& view) { return view.light != 0; });
+    const auto cascades = static_cast<std::size_t>(end - views.begin());
+    bounds.image = add_shadow_bounds(graph, frame.shadow_maps, views.first(cascades), bounds.settings);
     return bounds;
 }
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!has_shafts(frame)) return;
-    const Image bounds = has_sun_maps(frame) ? bound(graph, frame, settings.as<MarchParams>().taps) : Image{};
-    march_shafts(graph, frame, settings, "sun_shafts/ray_march_min_max/march.comp", bounds);
+    const SunBounds bounds = bounds_of_sun(graph, frame, settings.as<MarchParams>().taps);
+    march_shafts(graph, frame, settings, {.name = "sun_shafts/ray_march_min_max/march.comp", .bounds = bounds});
 }
 
 Claims claims() {
