@@ -85,7 +85,7 @@ TEST(ShadowIntervals, OfASwarmOfTrianglesAreWhereRaysToTheSunAreBlocked) {
     std::mt19937 random(7);
     const auto unit = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };
     std::vector<glm::vec3> corners;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 150; ++i) {
         const glm::vec3 center(4 * unit(), 4 * unit(), 6 + 5 * unit());
         for (int corner = 0; corner < 3; ++corner) corners.push_back(center + glm::vec3(unit(), unit(), unit()));
     }
@@ -97,7 +97,7 @@ TEST(ShadowIntervals, OfASwarmOfTrianglesAreWhereRaysToTheSunAreBlocked) {
     for (int ray = 0; ray < 60; ++ray) {
         const glm::dvec3 direction = glm::normalize(glm::dvec3(.5 * unit(), .5 * unit(), 1));
         const auto parts = volumes.shadows(direction, 12);
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < 150; ++i) {
             const double t = 6 + 6 * double(unit());
             if (distance_to_end(parts, t) < 1e-6) continue;
             const bool is_blocked = !scene.clear(t * direction, to_sun, 0, 1e9);

@@ -37,9 +37,9 @@ Claims claims() {
                          .scenario = "beams",
                          .counters = {"steps", "fetches", "bounds", "skipped"}};
     };
-    return {.ratios = {against("16 steps, against a lookup at each", "shaft_steps=16", "sun_shafts/ray_march shaft_steps=16"),
-                       against("32 steps, against a lookup at each", "", "sun_shafts/ray_march"),
-                       against("64 steps, against a lookup at each", "shaft_steps=64", "sun_shafts/ray_march shaft_steps=64")}};
+    return {.ratios = {against("16 steps, against a lookup at each", "shaft_steps=16", "ray_march shaft_steps=16"),
+                       against("32 steps, against a lookup at each", "", "ray_march"),
+                       against("64 steps, against a lookup at each", "shaft_steps=64", "ray_march shaft_steps=64")}};
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Technique ray_march_min_max() {
                 "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009; Chen, Baran, Durand, Jarosz: "
                 "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps, I3D 2011",
             .summary =
-                "The picture of sun_shafts/ray_march to the bit; steps that the least and greatest depth of a block of the map "
+                "The picture of a march without them to the bit; steps that the least and greatest depth of a block of the map "
                 "decide read the map no more. Foliage defeats it.",
             .params = march_params(),
             .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
