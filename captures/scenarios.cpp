@@ -83,7 +83,7 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::crossing_planes},
     {"corners", "How much ambient light reaches a corner, the foot of a pillar and the floor under a ball?", 64, 36,
      scenario::corners},
-    {"beams", "Do beams of sunlight in foggy air begin and end where the shadows of a grate do?", 64, 36, scenario::beams},
+    {"beams", "Do beams of sunlight in foggy air begin and end where a roof with holes lets them?", 64, 36, scenario::beams},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,
