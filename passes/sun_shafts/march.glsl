@@ -124,10 +124,12 @@ float lit_share_of(ShaftRay ray, uvec2 texel, inout Tally tally) {
         precise const float place = place_of(k, ray.metres, drawn);
         float lit = 1.0;
         if (has_maps != 0u) {
-            const uint wanted = record_at(place * ray.direction.z);
+            // Maps begin at the near plane: what lies before it is lit as the place on it.
+            precise const float covered = max(place, view.near / ray.direction.z);
+            const uint wanted = record_at(covered * ray.direction.z);
             if (wanted != record) map = map_ray(wanted, ray.direction);
             record = wanted;
-            precise const vec3 at = map.eye + map.per_metre * place;
+            precise const vec3 at = map.eye + map.per_metre * covered;
             if (!is_decided(map, at, tally, lit)) lit = lit_share(map, at, tally);
         }
         sum += remains(k, ray.metres, place) * lit;

@@ -148,7 +148,8 @@ March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double
 
 March::Lit March::lit_at(const MarchedRay& ray, double place) const {
     if (cascades_.empty()) return {};
-    const glm::dvec3 position = place * ray.direction;
+    // Maps begin at the near plane: what lies before it is lit as the place on it.
+    const glm::dvec3 position = std::max(place, near_ / ray.direction.z) * ray.direction;
     const double close_metres = params.jitter == jitter_interleaved_gradient ? close_gradient * ray.metres / params.steps : 0;
     std::size_t slot = cascades_.size() - 1;
     if (params.cascade == cascade_of_step)
