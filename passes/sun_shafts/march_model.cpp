@@ -4,10 +4,10 @@
 #include "passes/sun_shafts/march_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -23,8 +23,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Of a ray's lit share: how much of it may hang on rounding before the pixel is left out.
-constexpr double most_spread = 1e-3;
+// How much of a pixel, or of the picture's root mean square where that is more, may hang on rounding before it is left out.
+constexpr double most_spread = 2e-3;
 // Float positions are good to this share of their size, map coordinates to this part of a texel, depths to this step.
 constexpr double close_share = 2e-6, close_texels = 1e-3, close_depth = 1e-6;
 // Of a step: fixed-point numbers stand for the gradient's factors.
@@ -223,6 +223,15 @@ private:
     std::vector<Amount> shares_;
 };
 
+/// Marks texels whose colors rounding may move by too much.
+void leave_out(ReferenceImage& image, std::span<const double> spreads) {
+    double squares = 0;
+    for (const glm::dvec4& texel : image.texels) squares += glm::dot(glm::dvec3(texel), glm::dvec3(texel));
+    const double typical = std::sqrt(squares / double(image.texels.size()));
+    for (std::size_t i = 0; i < spreads.size(); ++i)
+        image.undecided.push_back(spreads[i] > most_spread * std::max(typical, glm::length(glm::dvec3(image.texels[i]))));
+}
+
 }  // namespace
 
 ImageSet march_model(const StageInput& input, const Settings& settings) {
@@ -232,19 +241,20 @@ ImageSet march_model(const StageInput& input, const Settings& settings) {
     if (march.params.resolution == resolution_half) half.emplace(march);
     const ReferenceImage& shape = march.depths;
     ReferenceImage shafts(shape.width, shape.height, shape.layers, {0, 0, 0, 1});
-    std::vector<char> undecided(shafts.texels.size(), 0);  // rows run in parallel: no packed bits
+    std::vector<double> spreads(shafts.texels.size());
     tbb::parallel_for(0u, shape.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < shape.width; ++x)
             for (std::uint32_t sample = 0; sample < shape.layers; ++sample) {
                 const bool repeats = sample > 0 && is_plain_pixel(input, x, y);
                 const MarchedRay ray = march.ray_to(x, y, repeats ? 0 : sample);
                 const Amount found = half ? half->at(x, y, ray) : march.marched(ray, {x, y});
+                const glm::dvec3 whole = march.whole(ray) * march.radiance();
                 const std::size_t texel = shafts.index(x, y, sample);
-                shafts.texels[texel] = glm::dvec4(found.share * march.whole(ray) * march.radiance(), 1);
-                undecided[texel] = found.spread > most_spread;
+                shafts.texels[texel] = glm::dvec4(found.share * whole, 1);
+                spreads[texel] = found.spread * glm::length(whole);
             }
     });
-    shafts.undecided.assign(undecided.begin(), undecided.end());
+    leave_out(shafts, spreads);
     return {{"shafts", shafts}};
 }
 

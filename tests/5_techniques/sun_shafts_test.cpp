@@ -31,7 +31,7 @@ std::uint64_t counted_by_shafts(const Run& run, std::string_view name) {
 /// one. The sun's irradiance is 1.
 Frame under_a_roof(ShadowUse shadow) {
     Frame frame;
-    frame.view = look_at({.eye = {0, 0, 0}, .target = {.3, -.4, -5}, .vertical_fov = 1, .width = 32, .height = 18});
+    frame.view = look_at({.eye = {0, 0, 0}, .target = {.3, -2, -3}, .vertical_fov = 1, .width = 32, .height = 18});
     Mesh mesh;
     for (const float y : {-1.5f, 3.f})
         for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})

@@ -45,8 +45,8 @@ Technique ray_march() {
         .model = ray_march_model,
         .tolerance = {.rmse = 1e-3,
                       .worst = 4e-3,
-                      .because = "half floats of undefined rounding in up to two images, 2^-10 each; lookups that rounding "
-                                 "may turn change up to 1e-3 of a ray's lit share, or are undecided"}};
+                      .because = "half floats of undefined rounding in up to two images, 2^-10 each; lookups that rounding may "
+                                 "turn change up to 2e-3, or are undecided"}};
 }
 
 }  // namespace strata::sun_shafts

@@ -45,33 +45,34 @@ Claims claims() {
 }  // namespace
 
 Technique ray_march_min_max() {
-    return {.stage = Stage::sun_shafts,
-            .name = "sun_shafts/ray_march_min_max",
-            .title = "Marched sun shafts over min-max maps",
-            .source =
-                "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009; Chen, Baran, Durand, Jarosz: "
-                "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps, I3D 2011",
-            .summary =
-                "The picture of a march without them to the bit; steps that the least and greatest depth of a block of the map "
-                "decide read the map no more. Foliage defeats it.",
-            .params = march_params(),
-            .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
-            .counters = {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
-                         counter<&MarchCounters::steps>({.name = "steps", .help = "steps of all rays"}),
-                         counter<&MarchCounters::fetches>({.name = "fetches", .help = "texels of shadow maps read by all steps"}),
-                         counter<&MarchCounters::bounds>({.name = "bounds", .help = "bounds of blocks read by all steps"}),
-                         counter<&MarchCounters::skipped>(
-                             {.name = "skipped", .help = "steps that bounds decide without a fetch of the map"})},
-            .counter_bytes = sizeof(MarchCounters),
-            .views = march_views(),
-            .claims = claims(),
-            .declare = declare,
-            .approximates = truth_of_phase,
-            .model = ray_march_min_max_model,
-            .tolerance = {.rmse = 1e-3,
-                          .worst = 4e-3,
-                          .because = "half floats of undefined rounding in up to two images, 2^-10 each; lookups that rounding "
-                                     "may turn change up to 1e-3 of a ray's lit share, or are undecided"}};
+    return {
+        .stage = Stage::sun_shafts,
+        .name = "sun_shafts/ray_march_min_max",
+        .title = "Marched sun shafts over min-max maps",
+        .source =
+            "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009; Chen, Baran, Durand, Jarosz: "
+            "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps, I3D 2011",
+        .summary =
+            "The picture of a march without them to the bit; steps that the least and greatest depth of a block of the map "
+            "decide read the map no more. Foliage defeats it.",
+        .params = march_params(),
+        .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
+        .counters = {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
+                     counter<&MarchCounters::steps>({.name = "steps", .help = "steps of all rays"}),
+                     counter<&MarchCounters::fetches>({.name = "fetches", .help = "texels of shadow maps read by all steps"}),
+                     counter<&MarchCounters::bounds>({.name = "bounds", .help = "bounds of blocks read by all steps"}),
+                     counter<&MarchCounters::skipped>(
+                         {.name = "skipped", .help = "steps that bounds decide without a fetch of the map"})},
+        .counter_bytes = sizeof(MarchCounters),
+        .views = march_views(),
+        .claims = claims(),
+        .declare = declare,
+        .approximates = truth_of_phase,
+        .model = ray_march_min_max_model,
+        .tolerance = {.rmse = 1e-3,
+                      .worst = 4e-3,
+                      .because = "half floats of undefined rounding in up to two images, 2^-10 each; lookups that rounding may "
+                                 "turn change up to 2e-3, or are undecided"}};
 }
 
 }  // namespace strata::sun_shafts
