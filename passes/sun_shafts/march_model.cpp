@@ -25,10 +25,10 @@ using std::numbers::pi;
 
 // How much of a pixel, or of the picture's root mean square where that is more, may hang on rounding before it is left out.
 constexpr double most_spread = 2e-3;
-// Float positions are good to this share of their size, map coordinates to this part of a texel, depths to this step.
-constexpr double close_share = 2e-6, close_texels = 1e-3, close_depth = 1e-6;
-// Of a step: fixed-point numbers stand for the gradient's factors.
-constexpr double close_gradient = 3e-5;
+// Float positions are good to this share of their size, map coordinates to this share of the map's edge, depths to this step.
+constexpr double close_share = 5e-7, close_edge = 2.5e-7, close_depth = 1e-6;
+// Of a step: the gradient's factors are fixed-point numbers, their product is cut to 16 bits; per pixel of x + y and at all.
+constexpr double close_gradient_pixel = 7e-9, close_gradient = 1.6e-5;
 
 /// A part of what a ray scatters if it is lit throughout, and what it may differ by if rounding decides otherwise.
 struct Amount {
@@ -92,7 +92,8 @@ private:
     bool scatters_by_step() const { return params.normalization == normalization_steps; }
     double drawn(glm::uvec2 texel) const;
     double weight(std::uint32_t step, const MarchedRay&, double place) const;
-    Lit lit_at(const MarchedRay&, double place) const;
+    double close_metres(const MarchedRay&, glm::uvec2 texel) const;
+    Lit lit_at(const MarchedRay&, double place, double close_metres) const;
     Lit lit_in(const ShadowView&, const glm::dvec3& place, double close_metres) const;
     double looked_up(const shadows::Lookup&) const;
 
@@ -132,7 +133,7 @@ March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double
     const shadows::Lookup at{
         .layer = view.layer, .size = view.size, .u = glm::dvec2(map) * double(view.size), .depth = map.z, .offset = view.offset};
     const double lit = looked_up(at), metres = close_metres + close_share * (1 + glm::length(place));
-    const double texels = close_texels + metres / view.texel;
+    const double texels = close_edge * double(view.size) + metres / view.texel;
     const double depth = close_depth + metres * glm::length(glm::dvec3(glm::transpose(view.view_to_map)[2]));
     Lit found{lit, lit, lit};
     for (int corner = 0; corner < 8; ++corner) {
@@ -146,11 +147,16 @@ March::Lit March::lit_in(const ShadowView& view, const glm::dvec3& place, double
     return found;
 }
 
-March::Lit March::lit_at(const MarchedRay& ray, double place) const {
+/// How far a step's place may be from its like on the device, for the numbers that are drawn.
+double March::close_metres(const MarchedRay& ray, glm::uvec2 texel) const {
+    if (params.jitter != jitter_interleaved_gradient) return 0;
+    return (close_gradient + close_gradient_pixel * (texel.x + texel.y)) * ray.metres / params.steps;
+}
+
+March::Lit March::lit_at(const MarchedRay& ray, double place, double close_metres) const {
     if (cascades_.empty()) return {};
     // Maps begin at the near plane: what lies before it is lit as the place on it.
     const glm::dvec3 position = std::max(place, near_ / ray.direction.z) * ray.direction;
-    const double close_metres = params.jitter == jitter_interleaved_gradient ? close_gradient * ray.metres / params.steps : 0;
     std::size_t slot = cascades_.size() - 1;
     if (params.cascade == cascade_of_step)
         while (slot > 0 && position.z < cascades_[slot - 1].range_end) --slot;
@@ -168,12 +174,12 @@ March::Lit March::lit_at(const MarchedRay& ray, double place) const {
 }
 
 Amount March::marched(const MarchedRay& ray, glm::uvec2 texel) const {
-    const double n = params.steps, offset = drawn(texel);
+    const double n = params.steps, offset = drawn(texel), close = close_metres(ray, texel);
     Amount sum;
     for (std::uint32_t k = 0; k < params.steps; ++k) {
         const double share = params.stepping == stepping_xray ? 1 - k * (n - offset) / (n * n) : (k + offset) / n;
         const double place = share * ray.metres, part = weight(k, ray, place) / whole(ray);
-        const Lit found = lit_at(ray, place);
+        const Lit found = lit_at(ray, place, close);
         sum.share += part * found.lit;
         sum.spread += part * std::max(found.high - found.lit, found.lit - found.low);
     }
