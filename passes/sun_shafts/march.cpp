@@ -70,6 +70,43 @@ Image show_lit_share(Graph& graph, FrameImages& frame, const Settings& settings)
     return picture;
 }
 
+/// What the march of a frame is declared with.
+struct March {
+    const FrameImages& frame;
+    const MarchParams params;
+    const MarchShader& shader;
+};
+
+/// An image that the march stores.
+struct Stored {
+    const char* name;
+    std::uint32_t divisor = 1, layers = 1;
+    std::uint32_t shows_decided = 0;  ///< 1: the share of decided steps in place of shafts
+};
+
+Image stored(Graph& graph, const March& work, const Stored& what) {
+    const auto& [frame, params, shader] = work;
+    const auto cells = [&](std::uint32_t pixels) { return (pixels + what.divisor - 1) / what.divisor; };
+    const Extent extent{cells(frame.extent.width), cells(frame.extent.height)};
+    Image image = graph.create(what.name, {.extent = extent, .format = Format::rgba16f, .layers = what.layers});
+    ComputePass march = read_rays(graph.compute(shader.name), frame, params);
+    if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
+    march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
+        .stores("shafts", image)
+        .fixes("steps", params.steps)
+        .fixes("taps", params.taps)
+        .fixes("stepping", params.stepping)
+        .fixes("jitter", params.jitter)
+        .fixes("extinction", params.extinction)
+        .fixes("cascade", params.cascade)
+        .fixes("divisor", what.divisor)
+        .fixes("has_maps", has_sun_maps(frame) ? 1u : 0u)
+        .fixes("allocation", frame.shadow_filter.allocation)
+        .fixes("shows_decided", what.shows_decided)
+        .over({extent.width, extent.height, what.layers});
+    return image;
+}
+
 }  // namespace
 
 bool has_shafts(const FrameImages& frame) {
@@ -80,28 +117,16 @@ bool has_shafts(const FrameImages& frame) {
 bool has_sun_maps(const FrameImages& frame) { return frame.recorded->sun.shadow.casts && frame.shadow_maps; }
 
 void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
-    const auto params = settings.as<MarchParams>();
-    const bool is_half = params.resolution == resolution_half;
-    const std::uint32_t divisor = is_half ? 2 : 1;
-    const Shape shape{.extent = {(frame.extent.width + divisor - 1) / divisor, (frame.extent.height + divisor - 1) / divisor},
-                      .format = Format::rgba16f,
-                      .layers = is_half ? 1 : frame.samples};
-    Image marched = graph.create(is_half ? "lit shares" : "shafts", shape);
-    ComputePass march = read_rays(graph.compute(shader.name), frame, params);
-    if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
-    march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
-        .stores("shafts", marched)
-        .fixes("steps", params.steps)
-        .fixes("taps", params.taps)
-        .fixes("stepping", params.stepping)
-        .fixes("jitter", params.jitter)
-        .fixes("extinction", params.extinction)
-        .fixes("cascade", params.cascade)
-        .fixes("divisor", divisor)
-        .fixes("has_maps", has_sun_maps(frame) ? 1u : 0u)
-        .fixes("allocation", frame.shadow_filter.allocation)
-        .over({shape.extent.width, shape.extent.height, shape.layers});
-    frame.shafts = is_half ? upsample(graph, frame, params, marched) : marched;
+    const March march{frame, settings.as<MarchParams>(), shader};
+    const bool is_half = march.params.resolution == resolution_half;
+    const Image marched = is_half ? stored(graph, march, {.name = "lit shares", .divisor = 2})
+                                  : stored(graph, march, {.name = "shafts", .layers = frame.samples});
+    frame.shafts = is_half ? upsample(graph, frame, march.params, marched) : marched;
+}
+
+Image show_decided(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
+    const March march{frame, settings.as<MarchParams>(), shader};
+    return stored(graph, march, {.name = "decided steps", .shows_decided = 1});
 }
 
 std::vector<Param> march_params() {

@@ -17,6 +17,7 @@ layout(constant_id = 7) const uint cascade = cascade_of_step;
 layout(constant_id = 8) const uint divisor = 1u;   // pixels a side for which one ray is marched
 layout(constant_id = 9) const uint has_maps = 0u;  // 0: the sun casts no shadow
 layout(constant_id = 10) const uint allocation = 0u;  // Allocation of passes/scene/shadow_views.h
+layout(constant_id = 11) const uint shows_decided = 0u;  // 1: the share of steps that is_decided() answers is stored instead
 
 layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2DArray shafts;
@@ -153,10 +154,11 @@ void main() {
     Tally tally = Tally(0u, 0u, 0u);
     const float share = lit_share_of(ray, uvec2(texel.xy), tally);
     count(tally);
-    const vec4 result = vec4(divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance, 1.0);
-    imageStore(shafts, texel, result);
+    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance;
+    if (shows_decided != 0u) result = vec3(float(tally.skipped) / float(steps));
+    imageStore(shafts, texel, vec4(result, 1.0));
     if (!is_plain(at.xy)) return;
-    for (int i = 1; i < imageSize(shafts).z; ++i) imageStore(shafts, ivec3(texel.xy, i), result);
+    for (int i = 1; i < imageSize(shafts).z; ++i) imageStore(shafts, ivec3(texel.xy, i), vec4(result, 1.0));
 }
 
 #endif

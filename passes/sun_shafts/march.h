@@ -31,6 +31,8 @@ struct MarchShader {
 
 /// Makes FrameImages::shafts.
 void march_shafts(Graph&, FrameImages&, const Settings&, const MarchShader&);
+/// An rgba16f image: the share of the steps of each pixel's first ray that bounds decide.
+Image show_decided(Graph&, FrameImages&, const Settings&, const MarchShader&);
 
 std::vector<Param> march_params();
 std::vector<DebugView> march_views();

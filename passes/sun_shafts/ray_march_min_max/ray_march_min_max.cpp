@@ -23,10 +23,35 @@ SunBounds bounds_of_sun(Graph& graph, const FrameImages& frame, std::uint32_t ta
     return bounds;
 }
 
+MarchShader shader_of(Graph& graph, const FrameImages& frame, const Settings& settings) {
+    return {.name = "sun_shafts/ray_march_min_max/march.comp",
+            .bounds = bounds_of_sun(graph, frame, settings.as<MarchParams>().taps)};
+}
+
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
-    if (!has_shafts(frame)) return;
-    const SunBounds bounds = bounds_of_sun(graph, frame, settings.as<MarchParams>().taps);
-    march_shafts(graph, frame, settings, {.name = "sun_shafts/ray_march_min_max/march.comp", .bounds = bounds});
+    if (has_shafts(frame)) march_shafts(graph, frame, settings, shader_of(graph, frame, settings));
+}
+
+Image show_decided_steps(Graph& graph, FrameImages& frame, const Settings& settings) {
+    Image picture = graph.create("shown decided steps", {.extent = frame.extent, .format = Format::rgba32f});
+    if (!has_shafts(frame)) {
+        graph.clear(picture, {});
+        return picture;
+    }
+    const Image decided = show_decided(graph, frame, settings, shader_of(graph, frame, settings));
+    graph.compute("sun_shafts/ray_march_min_max/show.comp")
+        .samples("decided", decided)
+        .stores("shown", picture)
+        .over(frame.extent);
+    return picture;
+}
+
+std::vector<DebugView> views() {
+    std::vector<DebugView> views = march_views();
+    views.push_back({.name = "decided steps",
+                     .help = "share of each ray's steps that bounds decide, so that the shadow map is not read",
+                     .declare = show_decided_steps});
+    return views;
 }
 
 Claims claims() {
@@ -64,7 +89,7 @@ Technique ray_march_min_max() {
                      counter<&MarchCounters::skipped>(
                          {.name = "skipped", .help = "steps that bounds decide without a fetch of the map"})},
         .counter_bytes = sizeof(MarchCounters),
-        .views = march_views(),
+        .views = views(),
         .claims = claims(),
         .declare = declare,
         .approximates = truth_of_phase,
