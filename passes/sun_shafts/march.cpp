@@ -71,7 +71,7 @@ Image show_lit_share(Graph& graph, FrameImages& frame, const Settings& settings)
 }
 
 /// What the march of a frame is declared with.
-struct March {
+struct MarchWork {
     const FrameImages& frame;
     const MarchParams params;
     const MarchShader& shader;
@@ -84,7 +84,7 @@ struct Stored {
     std::uint32_t shows_decided = 0;  ///< 1: the share of decided steps in place of shafts
 };
 
-Image stored(Graph& graph, const March& work, const Stored& what) {
+Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
     const auto& [frame, params, shader] = work;
     const auto cells = [&](std::uint32_t pixels) { return (pixels + what.divisor - 1) / what.divisor; };
     const Extent extent{cells(frame.extent.width), cells(frame.extent.height)};
@@ -117,7 +117,7 @@ bool has_shafts(const FrameImages& frame) {
 bool has_sun_maps(const FrameImages& frame) { return frame.recorded->sun.shadow.casts && frame.shadow_maps; }
 
 void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
-    const March march{frame, settings.as<MarchParams>(), shader};
+    const MarchWork march{frame, settings.as<MarchParams>(), shader};
     const bool is_half = march.params.resolution == resolution_half;
     const Image marched = is_half ? stored(graph, march, {.name = "lit shares", .divisor = 2})
                                   : stored(graph, march, {.name = "shafts", .layers = frame.samples});
@@ -125,7 +125,7 @@ void march_shafts(Graph& graph, FrameImages& frame, const Settings& settings, co
 }
 
 Image show_decided(Graph& graph, FrameImages& frame, const Settings& settings, const MarchShader& shader) {
-    const March march{frame, settings.as<MarchParams>(), shader};
+    const MarchWork march{frame, settings.as<MarchParams>(), shader};
     return stored(graph, march, {.name = "decided steps", .shows_decided = 1});
 }
 
