@@ -78,6 +78,8 @@ Frame hall_with_shafts(std::uint32_t frame, const ScenarioOptions&);
 Frame zone_at_dusk(std::uint32_t frame, const ScenarioOptions&);
 // night_market.cpp
 Frame night_market(std::uint32_t frame, const ScenarioOptions&);
+// beams.cpp
+Frame beams(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

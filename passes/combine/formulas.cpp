@@ -32,11 +32,12 @@ glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const Surf
 
 glm::dvec3 composed(const StageInput& input, const ComposedSample& at) {
     const glm::dvec4 emission = texel(input, "emission", at, glm::dvec4(0));
-    if (emission.w == 0) return input.frame.background;
+    const glm::dvec3 shafts(texel(input, "shafts", at, glm::dvec4(0)));
+    if (emission.w == 0) return glm::dvec3(input.frame.background) + shafts;
     const SurfacePoint p = surface(input, at);
     const glm::dvec3 light(texel(input, "light", at, glm::dvec4(0)));
     const FogAt fog = fog_at(input.frame, p.position.z);
-    return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added;
+    return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added + shafts;
 }
 
 double tone_mapped(double exposed, double white) {

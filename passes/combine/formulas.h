@@ -6,8 +6,8 @@
 
 namespace strata::combine {
 
-/// Radiance of one sample towards the eye: emission, reflected light, light from all around, fog. Images that are not there
-/// count as no light, no occlusion, no surface.
+/// Radiance of one sample towards the eye: emission, reflected light, light from all around, fog, sun shafts. Images that are not
+/// there count as no light, no occlusion, no surface.
 struct ComposedSample {
     std::uint32_t x = 0, y = 0, sample = 0;
 };

@@ -16,7 +16,7 @@ StageInfo stage() {
             .outputs = {"color", "display"},
             .truth = combine_truth,
             .judge = combine_judge,
-            .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "sun_and_boxes", "foggy_panes"}};
+            .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "sun_and_boxes", "foggy_panes", "beams"}};
 }
 
 }  // namespace strata::combine

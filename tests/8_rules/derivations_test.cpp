@@ -42,6 +42,7 @@ constexpr std::array parts_of_references = {
     Exception{"passes/shadows/kernel", "filter kernels in double"},
     Exception{"passes/shadows/lookup", "lookups of shadow maps in double"},
     Exception{"passes/shadows/receivers", "the points that visibility is asked for, in double"},
+    Exception{"passes/sun_shafts/shadow_intervals", "shadow along rays, in double"},
     Exception{"passes/transparency/sample_blend", "blending in double"},
 };
 

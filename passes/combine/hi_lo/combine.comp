@@ -1,5 +1,6 @@
-// Combine (docs/algorithms/deferred.md 8.2, 8.3): emission, reflected light and light from all around, seen through the fog;
-// linear, per sample. In a plain pixel the first sample stands for all (docs/algorithms/deferred.md 3.1).
+// Combine (docs/algorithms/deferred.md 8.2, 8.3): emission, reflected light and light from all around, seen through the fog, and
+// the sunlight that the air before it scatters; linear, per sample. In a plain pixel the first sample stands for all
+// (docs/algorithms/deferred.md 3.1).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/edges/plain_pixels.glsl"
@@ -11,11 +12,13 @@ layout(constant_id = 1) const uint has_surfaces = 0u;
 layout(constant_id = 2) const uint has_light = 0u;
 layout(constant_id = 3) const uint has_occlusion = 0u;
 layout(constant_id = 4) const uint has_indirect = 0u;
+layout(constant_id = 5) const uint has_shafts = 0u;
 
 layout(set = 0, binding = 3) uniform sampler2DArray emission;
 layout(set = 0, binding = 4) uniform sampler2DArray light;
 layout(set = 0, binding = 5) uniform sampler2DArray occlusion;
 layout(set = 0, binding = 6) uniform sampler2DArray indirect;
+layout(set = 0, binding = 7) uniform sampler2DArray shafts;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray color;
 
 vec3 light_at(ivec3 at) { return has_light != 0u ? texelFetch(light, at, 0).rgb : vec3(0.0); }
@@ -39,7 +42,8 @@ vec3 composed(ivec3 at) {
 void main() {
     const ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at, imageSize(color))) || at.z > 0 && is_plain(at.xy)) return;
-    const vec4 sum = vec4(composed(at), 1.0);
+    vec4 sum = vec4(composed(at), 1.0);
+    if (has_shafts != 0u) sum.rgb += texelFetch(shafts, at, 0).rgb;
     imageStore(color, at, sum);
     if (!is_plain(at.xy)) return;
     for (int i = 1; i < imageSize(color).z; ++i) imageStore(color, ivec3(at.xy, i), sum);

@@ -24,11 +24,13 @@ void add_color(Graph& graph, FrameImages& frame, const Settings&) {
         .samples("light", read.light)
         .samples("occlusion", read.occlusion)
         .samples("indirect", read.indirect)
+        .samples("shafts", read.shafts)
         .stores("color", frame.color)
         .fixes("has_surfaces", has_surfaces ? 1u : 0u)
         .fixes("has_light", read.light ? 1u : 0u)
         .fixes("has_occlusion", read.occlusion ? 1u : 0u)
         .fixes("has_indirect", read.indirect ? 1u : 0u)
+        .fixes("has_shafts", read.shafts ? 1u : 0u)
         .over({frame.extent.width, frame.extent.height, frame.samples});
 }
 

@@ -151,6 +151,18 @@ TEST(HiLoCombine, FogHidesWhatItCoversAndAddsItsOwnColor) {
     EXPECT_NEAR(color_of(frame, before).x, .5 * 1 + .5 * .3, 1e-6) << "half is left after one half-length";
 }
 
+TEST(HiLoCombine, SunShaftsAreAddedToSurfacesAndToTheBackgroundWithoutFog) {
+    Frame frame = one_pixel(1);
+    frame.background = {.1f, .2f, .3f};
+    frame.fog.density = float(std::log(2) / depth);
+    ImageSet before = white_surface({0, 1, 0});
+    before["emission"].at(0, 0) = {1, 1, 1, 1};
+    before["shafts"] = ReferenceImage(1, 1, 1, {.25, .5, 0, 1});
+    EXPECT_NEAR(color_of(frame, before).x, .5 * 1 + .25, 1e-6);
+    before["emission"].at(0, 0) = glm::dvec4(0);
+    EXPECT_NEAR(color_of(frame, before).y, .2 + .5, 1e-6);
+}
+
 TEST(HiLoCombine, TheBackgroundIsNotFogged) {
     Frame frame = one_pixel(1);
     frame.background = {.1f, .2f, .3f};

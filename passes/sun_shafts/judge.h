@@ -1,0 +1,14 @@
+// How far marched shafts are from the scattering integral.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// Relative root mean square error of radiance, the same absolute, the largest error, and the mean of result - truth relative to
+/// the mean of the truth: below 0, the shafts are too dark.
+std::vector<Figure> sun_shafts_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

@@ -1,0 +1,42 @@
+// What techniques that march rays through the sun's shadow maps have in common: their parameters, steps and views.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passes/shadows/bounds/build.h"
+#include "passes/sun_shafts/march.shared.h"
+#include "passes/technique.h"
+
+namespace strata::sun_shafts {
+
+/// Whether the frame's air scatters sunlight towards the eye.
+bool has_shafts(const FrameImages&);
+/// Whether the sun's shadows are in FrameImages::shadow_maps. Without, every step is lit.
+bool has_sun_maps(const FrameImages&);
+
+/// Bounds of the sun's maps for a shader that includes passes/shadows/bounds/query.glsl. No image: the sun casts no shadow.
+struct SunBounds {
+    Image image;
+    BoundsSettings settings;
+};
+
+/// A shader that includes march.glsl.
+struct MarchShader {
+    std::string name;
+    std::optional<SunBounds> bounds = {};
+};
+
+/// Makes FrameImages::shafts.
+void march_shafts(Graph&, FrameImages&, const Settings&, const MarchShader&);
+/// An rgba16f image: the share of the steps of each pixel's first ray that bounds decide.
+Image show_decided(Graph&, FrameImages&, const Settings&, const MarchShader&);
+
+std::vector<Param> march_params();
+std::vector<DebugView> march_views();
+/// Technique::approximates: the truth of the phase function.
+std::string_view truth_of_phase(const Settings&);
+
+}  // namespace strata::sun_shafts

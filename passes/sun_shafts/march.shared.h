@@ -1,0 +1,64 @@
+// What the C++ and the shaders of marched sun shafts share.
+#ifndef PASSES_SUN_SHAFTS_MARCH_SHARED_H
+#define PASSES_SUN_SHAFTS_MARCH_SHARED_H
+#include "passes/shader_interop.h"
+#ifdef __cplusplus
+namespace strata::sun_shafts {
+#endif
+
+// shaft_taps: texels compared per step
+const uint taps_1 = 0u;
+const uint taps_4 = 1u;
+// shaft_stepping (docs/algorithms/deferred.md 6.2)
+const uint stepping_stratified = 0u;
+const uint stepping_xray = 1u;
+// shaft_jitter
+const uint jitter_none = 0u;
+const uint jitter_interleaved_gradient = 1u;
+const uint jitter_hash = 2u;
+// shaft_resolution
+const uint resolution_full = 0u;
+const uint resolution_half = 1u;
+// shaft_extinction
+const uint extinction_integrated = 0u;
+const uint extinction_sampled = 1u;
+// shaft_normalization
+const uint normalization_physical = 0u;
+const uint normalization_steps = 1u;
+// shaft_phase
+const uint phase_isotropic = 0u;
+const uint phase_xray = 1u;
+// shaft_cascade
+const uint cascade_of_step = 0u;
+const uint cascade_last = 1u;
+
+struct MarchParams {
+    uint steps;
+    uint taps;
+    uint stepping;
+    uint jitter;
+    uint resolution;
+    uint extinction;
+    uint normalization;
+    uint phase;
+    uint cascade;
+    float intensity;
+};
+
+struct MarchPush {
+    vec3 radiance;  // of a ray that scatters all of the sun's light and is lit throughout
+    float far;      // view depth in metres where rays end, if no surface ends them
+};
+
+struct MarchCounters {
+    uint rays;
+    uint steps;
+    uint fetches;  // texels of shadow maps
+    uint bounds;   // texels of bounds
+    uint skipped;  // steps that bounds decide
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,8 @@
+// The march in double.
+#include "passes/sun_shafts/march_model.h"
+
+namespace strata::sun_shafts {
+
+ImageSet ray_march_model(const StageInput& input, const Settings& settings) { return march_model(input, settings); }
+
+}  // namespace strata::sun_shafts
