@@ -12,10 +12,6 @@ layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
 
-vec4 sent_from(uint cell, uint channel, uint axis, float direction) {
-    return sent(before_channel(cell, channel), share_before(cell, channel), axis, direction);
-}
-
 void store(uint cell, uint channel, vec4 gathered) {
     store_step(cell, channel, gathered);
     add_to_channel(cell, channel, step_unit() * gathered);
@@ -32,10 +28,10 @@ void main() {
         from[axis] -= direction;
         if (!in_grid(grid, from)) continue;
         const float through = transmitted(grid, direction > 0 ? from : cell, axis);
-        const uint s = cell_index(grid, from);
-        gathered.red += through * sent_from(s, 0u, axis, float(direction));
-        gathered.green += through * sent_from(s, 1u, axis, float(direction));
-        gathered.blue += through * sent_from(s, 2u, axis, float(direction));
+        const StepCell s = step_before(cell_index(grid, from));
+        gathered.red += through * sent(s.light.red, s.share[0], axis, float(direction));
+        gathered.green += through * sent(s.light.green, s.share[1], axis, float(direction));
+        gathered.blue += through * sent(s.light.blue, s.share[2], axis, float(direction));
     }
     const uint index = cell_index(grid, cell);
     store(index, 0u, gathered.red);
