@@ -2,6 +2,7 @@
 #ifndef PASSES_GBUFFER_CODES_GLSL
 #define PASSES_GBUFFER_CODES_GLSL
 #include "passes/shaders/material_point.glsl"
+#include "passes/shaders/nearest_half.glsl"
 #include "passes/shaders/srgb.glsl"
 
 // Codes 0..61439 are the bit patterns of the normal half floats: 0400..7bff, then 8400..fbff. Subnormals may be flushed and NaN
@@ -19,20 +20,6 @@ uint code_of_half(float value) {
     const uint bits = floatBitsToUint(value);
     return ((bits & 0x7fffffffu) >> 13) - 0x1c000u - 0x0400u + (bits >> 31) * codes_per_sign;
 }
-
-// The nearest half float, ties to even, as a float: what a store of undefined rounding (docs/algorithms/deferred.md 0.3) then
-// keeps as it is. Below the normal half floats only 0 and 2^-14 are used, because subnormals may be flushed.
-float nearest_half(float value) {
-    const uint bits = floatBitsToUint(value);
-    const float size = uintBitsToFloat(bits & 0x7fffffffu);
-    if (size < 6.103515625e-05) return size < 3.0517578125e-05 ? 0.0 : (value < 0.0 ? -6.103515625e-05 : 6.103515625e-05);
-    if (size >= 65504.0) return value < 0.0 ? -65504.0 : 65504.0;
-    return uintBitsToFloat((bits + 0x0fffu + ((bits >> 13) & 1u)) & 0xffffe000u);
-}
-
-vec2 nearest_half(vec2 v) { return vec2(nearest_half(v.x), nearest_half(v.y)); }
-
-vec3 nearest_half(vec3 v) { return vec3(nearest_half(v.xy), nearest_half(v.z)); }
 
 // 8 bits of occlusion under 237 material numbers: 58 steps of metallic for each model that has metals, in their order, then one
 // number for each that has none.

@@ -28,7 +28,8 @@ TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
                                                          {"propagation=energy_true", "iterations=16"},
                                                          {"propagation=energy_true", "iterations=64"},
                                                          {"bounces=2"},
-                                                         {"bounces=2", "irradiance=face", "occlusion=both"}};
+                                                         {"bounces=2", "irradiance=face", "occlusion=both"},
+                                                         {"bounces=2", "occlusion=both", "cell_storage=half"}};
     for (const std::vector<std::string>& sets : settings) {
         const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0, sets))));
         ASSERT_GT(closed.dark.size(), 500u);
@@ -152,18 +153,20 @@ TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
     std::vector<Frame> frames{two_rooms()[1], two_rooms()[1]};
     for (Light& light : frames[1].lights) light.intensity *= 8;  // exact
     const auto session = must(Session::open(frames, {.validation = true}));
-    const std::vector<std::string> sets{"bounces=2", "occlusion=both"};  // in whatever fixed point
-    const auto dim = must(session->run(indirect_of(0, sets))), bright = must(session->run(indirect_of(1, sets)));
-    std::size_t compared = 0;
-    for (std::uint32_t y = 0; y < dim.height; ++y)
-        for (std::uint32_t x = 0; x < dim.width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                const double a = texel(dim.images.at("indirect"), x, y)[c], b = texel(bright.images.at("indirect"), x, y)[c];
-                if (a < 0x1p-14) continue;  // half floats below this have fewer bits
-                ASSERT_EQ(8 * a, b) << x << ", " << y;
-                ++compared;
-            }
-    EXPECT_GT(compared, 3000u);
+    for (const char* storage : {"cell_storage=float", "cell_storage=half"}) {
+        const std::vector<std::string> sets{"bounces=2", "occlusion=both", storage};  // in whatever fixed point
+        const auto dim = must(session->run(indirect_of(0, sets))), bright = must(session->run(indirect_of(1, sets)));
+        std::size_t compared = 0;
+        for (std::uint32_t y = 0; y < dim.height; ++y)
+            for (std::uint32_t x = 0; x < dim.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const double a = texel(dim.images.at("indirect"), x, y)[c], b = texel(bright.images.at("indirect"), x, y)[c];
+                    if (a < 0x1p-14) continue;  // half floats below this have fewer bits
+                    ASSERT_EQ(8 * a, b) << x << ", " << y << ", " << storage;
+                    ++compared;
+                }
+        EXPECT_GT(compared, 3000u);
+    }
 }
 
 TEST(LightVolumes, AreTheSameInEveryRun) {

@@ -141,6 +141,7 @@ TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
     expect_alike(*session, 0, 1, "irradiance=cell", 1);
     expect_alike(*session, 0, 1, "irradiance=face", 1);
     expect_alike(*session, 2, 3, "irradiance=cell", 3);
+    expect_alike(*session, 2, 3, "cell_storage=half", 3);
 }
 
 /// Panes all over the rooms, in three volumes, among so many blockers.

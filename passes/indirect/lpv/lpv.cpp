@@ -37,6 +37,7 @@ constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolutio
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr auto relights = choice_names({{relight_always, "always"}, {relight_changed, "changed"}});
 constexpr auto cell_scales = choice_names({{cells_half, "1/2"}, {cells_recorded, "1"}, {cells_double, "2"}});
+constexpr auto storages = choice_names({{storage_float, "float"}, {storage_half, "half"}});
 constexpr auto tap_rules = choice_names({{taps_all, "all"}, {taps_visible, "visible"}});
 
 /// Turns of loops of a fragment that all blockers of the frame are near (passes/indirect/near_blockers.glsl); the last turn of
@@ -191,7 +192,13 @@ Technique lpv() {
                                             .help =
                                                 "cell width as a multiple of the recorded one; the volume's extent stays, so 1/2 "
                                                 "means 8 times the cells",
-                                            .choices = cell_scales})},
+                                            .choices = cell_scales}),
+             param<&LpvParams::cell_storage>({.name = "cell_storage",
+                                              .high = 1,
+                                              .fallback = storage_float,
+                                              .help = "format of light in cells; float: 32 bits; half: 16 bits, scaled by the "
+                                                      "brightest cell: less than half the memory",
+                                              .choices = storages})},
         .points = {"iterations=8",
                    "iterations=32",
                    "iterations=64",
@@ -213,7 +220,8 @@ Technique lpv() {
                    "apply_resolution=half",
                    "damping=2",
                    "bounces=2",
-                   "relight=changed"},
+                   "relight=changed",
+                   "cell_storage=half"},
         .counters =
             {counter<&LpvCounters::injected>(
                  {.name = "injected", .help = "virtual point lights (VPLs) injected, summed over all grids"}),
@@ -240,7 +248,7 @@ Technique lpv() {
                  {.name = "faces rebuilt",
                   .help = "cell faces whose transmission was computed in this frame; 0: all were kept from earlier frames"}),
              counter<&LpvCounters::overflowed>(
-                 {.name = "overflowed", .help = "fixed-point sums of light in a cell that overflowed", .is_fatal = true}),
+                 {.name = "overflowed", .help = "sums of light in a cell that overflowed their storage", .is_fatal = true}),
              counter<&LpvCounters::reflected>(
                  {.name = "reflected", .help = "surfels injected for the second bounce, summed over all grids"}),
              counter<&LpvCounters::tiles>(

@@ -30,6 +30,9 @@ const uint cells_half = 0u;  // as wide as recorded, times a power of two
 const uint cells_recorded = 1u;
 const uint cells_double = 2u;
 
+const uint storage_float = 0u;  // cells hold 32-bit floats, W
+const uint storage_half = 1u;   // half floats in units of a power of two W (stored_cells.glsl)
+
 struct LpvParams {
     uint iterations;  // 0: as the capture's volume says
     uint propagation;
@@ -46,7 +49,8 @@ struct LpvParams {
     float damping;   // exponent; 0: off
     uint tap_tiles;  // whether tiles near no blocker have a shader that asks none
     uint bounces;
-    uint cell_scale;  // cells_...
+    uint cell_scale;    // cells_...
+    uint cell_storage;  // storage_...
 };
 
 // Vertices of a reflective shadow map.
@@ -118,6 +122,13 @@ struct StepCell {
     LightCell light;
     vec3 share;
 };
+
+// With storage_half a unit is the power of two at which the brightest l0 that is injected into a grid lies between 2^7 and 2^8 in
+// what is summed over steps, and between 2^12 and 2^13 in what one step holds: sums grow with the steps, steps do not. The sums'
+// unit stands in the first words of their buffer.
+const int total_exponent = 7;
+const int step_exponent = 12;
+const uint unit_words = 4u;
 
 // What the image volume_light is given of a grid.
 struct HandOnPush {

@@ -1,5 +1,6 @@
 // Light propagation volumes in double, from docs/algorithms/lighting.md 5 and not from the shaders: virtual lights of reflective
-// shadow maps, injected, propagated and gathered. The device stores fixed-point sums and half floats; here all is double.
+// shadow maps, injected, propagated and gathered. The device stores fixed-point sums and a half-float image; here all is
+// double, but for cells that are to hold half floats.
 #include "passes/indirect/lpv/model.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "passes/indirect/lpv/injection/reflective_map_model.h"
 #include "passes/indirect/lpv/occlusion/fuzzy_model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
+#include "passes/indirect/lpv/propagation/half_cells_model.h"
 #include "passes/indirect/lpv/surfels/surfels_model.h"
 #include "passes/reference/decoded.h"
 #include "passes/reference/light_sets.h"
@@ -67,25 +69,35 @@ private:
     std::vector<VirtualLight> local_;
 };
 
-/// A grid and what its light travels by.
+/// What the light of a grid travels by.
 struct Way {
-    Grid grid;
     Links first, later;  ///< of the first step and of those after it
     InjectionRule injection;
     PropagationRule propagation;
     std::uint32_t iterations = 0;
+    std::uint32_t storage = storage_float;
 };
 
-/// All that cells ever hold of virtual lights.
-Field brought(const Way& way, std::span<const VirtualLight> lights) {
-    Field light = injected(way.grid, lights, way.injection);
+/// All that cells ever hold of the light that is injected.
+Field brought(const Way& way, Field light) {
+    const HalfCells halves(light);
     for (Channel& channel : light) {
+        if (way.storage == storage_half) {
+            channel = propagated_in_halves({way.first, way.later}, halves, channel, way.propagation, way.iterations);
+            continue;
+        }
         if (way.iterations == 0) break;
         // The sum over all steps is what is there at first and what goes on from the first step.
         const Channel next =
             propagated(way.later, next_step(way.first, channel, way.propagation), way.propagation, way.iterations - 1);
         std::ranges::transform(channel, next, channel.begin(), std::plus{});
     }
+    return light;
+}
+
+Field sum_of(Field light, const Field& more) {
+    for (std::size_t channel = 0; channel < more.size(); ++channel)
+        std::ranges::transform(light[channel], more[channel], light[channel].begin(), std::plus{});
     return light;
 }
 
@@ -99,18 +111,18 @@ LitGrid lit(const Frame& frame, const Grid& grid, const Sources& sources, std::s
     const bool asks_surfels = is_fuzzy(grid, params) || params.bounces > 1;
     const std::vector<Surfel> pieces = asks_surfels ? surfels(frame, grid) : std::vector<Surfel>();
     const Links by_blockers = links(grid, in_the_way);
-    const Way way{.grid = grid,
-                  .first = by_blockers,
+    const Way way{.first = by_blockers,
                   .later = is_fuzzy(grid, params) ? with_surfels(grid, by_blockers, pieces) : by_blockers,
                   .injection = {.bias = double(params.injection), .barriers = in_the_way},
                   .propagation = {.propagation = params.propagation, .faces = params.faces},
-                  .iterations = params.iterations == 0 ? grid.iterations : params.iterations};
-    result.light = brought(way, sources.around(grid));
-    if (params.bounces > 1) {
-        const Field again = brought(way, reflected(pieces, result));
-        for (std::size_t channel = 0; channel < again.size(); ++channel)
-            std::ranges::transform(result.light[channel], again[channel], result.light[channel].begin(), std::plus{});
-    }
+                  .iterations = params.iterations == 0 ? grid.iterations : params.iterations,
+                  .storage = params.cell_storage};
+    const Field direct = injected(grid, sources.around(grid), way.injection);
+    result.light = brought(way, direct);
+    if (params.bounces < 2) return result;
+    result.light = sum_of(result.light, brought(way, injected(grid, reflected(pieces, result), way.injection)));
+    if (way.storage == storage_half)
+        for (Channel& channel : result.light) channel = HalfCells(direct).summed(channel);
     return result;
 }
 

@@ -60,6 +60,8 @@ std::vector<TimeRatio> lpv_ratios() {
         {"propagation steps: energy_true / clamped", "propagation=energy_true", "propagation=clamped", "cornell_box", propagation,
          none},
         {"propagation steps: face integrals / face centers", "faces=exact", "faces=centre", "cornell_box", propagation, none},
+        {"propagation steps: half-float cells / float cells", "cell_storage=half", "cell_storage=float", "cornell_box",
+         propagation, none},
         {"propagation steps: 64 iterations / 16 iterations",
          "iterations=64",
          "iterations=16",

@@ -33,6 +33,7 @@ void bounce_again(Graph& graph, const FrameImages& frame, const LpvParams& param
     graph.compute("indirect/lpv/propagation/add.comp")
         .loads("More", again.total)
         .updates("Total", grid.total)
+        .fixes("cell_storage", grid.storage)
         .push(grid.place)
         .over(grid.threads());
 }
@@ -69,7 +70,8 @@ std::vector<DeviceGrid> make_grids(Graph& graph, const FrameImages& frame, const
                      .has_links = is_axial(grid, params.occlusion) && !frame.recorded->blockers.empty(),
                      .is_fuzzy = occlusion == occlusion_fuzzy || occlusion == occlusion_both,
                      .fixed_one = fixed_one(*frame.facts, grid),
-                     .number = made.size()};
+                     .number = made.size(),
+                     .storage = params.cell_storage};
         g.sums = graph.create(g.name("injected light of grid"), std::uint64_t{g.cells()} * sizeof(LightCell));
         made.push_back(g);
     }

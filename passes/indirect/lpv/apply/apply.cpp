@@ -200,6 +200,7 @@ void hand_on(Graph& graph, FrameImages& frame, const LpvParams& params, std::spa
         graph.compute("indirect/lpv/apply/hand_on.comp")
             .loads("Total", grid.total)
             .updates("volume_light", frame.volume_light)
+            .fixes("cell_storage", grid.storage)
             .push(HandOnPush{.grid = grid.place,
                              .border = border(grid.grid),
                              .asks_taps = asks_taps(params, grid),

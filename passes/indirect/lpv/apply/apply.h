@@ -22,6 +22,7 @@ Pass& bind_taps(Pass&& pass, const FrameImages& frame, const LpvParams& params, 
         .loads("Total", grid.total)
         .loads("MacroCells", grid.macro_cells ? grid.macro_cells : grid.total)
         .fixes("has_macro_cells", grid.macro_cells ? 1u : 0u)
+        .fixes("cell_storage", grid.storage)
         .fixes("asks_taps", asks_taps(params, grid));
 }
 

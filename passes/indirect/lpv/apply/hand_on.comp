@@ -2,13 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/grid.glsl"
-#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/lpv/read_total.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
 layout(push_constant, scalar) uniform Push { HandOnPush push; };
 
-layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; };
 layout(set = 0, binding = 1, rgba32f) writeonly uniform image2D volume_light;
 
 void store(uint record, vec4 a, vec4 b, vec4 c) {
@@ -23,7 +22,8 @@ void main() {
     const ivec3 cell = ivec3(gl_GlobalInvocationID);
     if (!in_grid(push.grid, cell)) return;
     const uint index = cell_index(push.grid, cell);
-    store(push.first_cell + index, total[index].red, total[index].green, total[index].blue);
+    const LightCell light = total_light(index);
+    store(push.first_cell + index, light.red, light.green, light.blue);
     if (index > 0u) return;
     store(push.number, vec4(push.grid.origin, push.grid.cell), vec4(push.grid.cells, push.border),
           vec4(push.asks_taps, push.irradiance, push.count, push.macro_row));

@@ -3,13 +3,12 @@
 #ifndef PASSES_INDIRECT_LPV_TAPS_GLSL
 #define PASSES_INDIRECT_LPV_TAPS_GLSL
 #include "passes/indirect/lpv/apply/tap_places.glsl"
+#include "passes/indirect/lpv/read_total.glsl"
 #include "passes/indirect/read_grid.glsl"
 
 layout(constant_id = 3) const uint asks_taps = 0u;  // 1: not of cells that a blocker hides
 
-layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; };
-
-LightCell light_of(uint number) { return total[number]; }
+LightCell light_of(uint number) { return total_light(number); }
 
 SeenLight seen_light_before(GridPlace grid, LitPlace lit, float cells) {
     const uint list = list_before(grid, lit, cells);

@@ -13,6 +13,7 @@ DeviceGrid reflected(Graph& graph, const FrameImages& frame, const LpvParams& pa
     graph.compute("indirect/lpv/injection/brightest.comp")
         .loads("Total", lit.total)
         .stores("Scale", next.scale)
+        .fixes("cell_storage", lit.storage)
         .push(lit.place)
         .groups({1, 1, 1});
     next.sums = graph.create(next.name("injected light of grid"), std::uint64_t{lit.cells()} * sizeof(LightCell));

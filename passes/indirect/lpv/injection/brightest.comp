@@ -3,13 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/grid.glsl"
-#include "passes/indirect/lpv/lpv.shared.h"
+#include "passes/indirect/lpv/read_total.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
-layout(set = 0, binding = 0, scalar) readonly buffer Total { LightCell total[]; };
 layout(set = 0, binding = 1, scalar) writeonly buffer Scale { float fixed_one; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
@@ -22,8 +21,10 @@ shared float most[256];
 void main() {
     const uint thread = gl_LocalInvocationIndex;
     float found = 0.0;
-    for (uint i = thread; i < grid.cells.x * grid.cells.y * grid.cells.z; i += 256u)
-        found = max(found, max(brightness(total[i].red), max(brightness(total[i].green), brightness(total[i].blue))));
+    for (uint i = thread; i < grid.cells.x * grid.cells.y * grid.cells.z; i += 256u) {
+        const LightCell light = total_light(i);
+        found = max(found, max(brightness(light.red), max(brightness(light.green), brightness(light.blue))));
+    }
     most[thread] = found;
     for (uint reach = 128u; reach > 0u; reach /= 2u) {
         barrier();

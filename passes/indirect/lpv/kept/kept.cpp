@@ -87,16 +87,15 @@ void find_faces(Graph& graph, const FrameImages& frame, const KeptGrid& kept, co
 }
 
 void recall_light(Graph& graph, const LpvParams& params, KeptGrid& kept, DeviceGrid& grid) {
-    const std::uint64_t cells = grid.cells();
-    const Buffer shown = graph.remember(grid.name("light of kept grid"), cells * sizeof(LightCell));
+    const Buffer shown = graph.remember(grid.name("light of kept grid"), grid.total_bytes());
     if (params.slice == 0) {
         grid.total = shown;
         return;
     }
     kept.shown = shown;
-    grid.total = graph.remember(grid.name("coming light of kept grid"), cells * sizeof(LightCell));
-    grid.even = graph.remember(grid.name("light of even steps of kept grid"), cells * sizeof(StepCell));
-    grid.odd = graph.remember(grid.name("light of odd steps of kept grid"), cells * sizeof(StepCell));
+    grid.total = graph.remember(grid.name("coming light of kept grid"), grid.total_bytes());
+    grid.even = graph.remember(grid.name("light of even steps of kept grid"), grid.step_bytes());
+    grid.odd = graph.remember(grid.name("light of odd steps of kept grid"), grid.step_bytes());
 }
 
 }  // namespace
@@ -123,6 +122,7 @@ void keep(Graph& graph, std::vector<DeviceGrid>& grids, KeptGrids& kept) {
             gated(graph.compute("indirect/lpv/kept/show.comp")
                       .loads("Coming", grid.total)
                       .stores("Shown", kept[i].shown)
+                      .fixes("cell_storage", grid.storage)
                       .push(grid.place),
                   grid, gate_show, grid.threads());
             grid.total = kept[i].shown;

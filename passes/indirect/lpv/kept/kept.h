@@ -13,7 +13,7 @@ namespace strata::indirect {
 struct KeptGrid {
     Buffer state, work;
     uvec2 lattice{0};  ///< GridKeys::lattice
-    Buffer shown;      ///< LightCell: what surfaces read, where another is lit in slices
+    Buffer shown;      ///< as DeviceGrid::total: what surfaces read, where another is lit in slices
 };
 using KeptGrids = std::vector<KeptGrid>;
 

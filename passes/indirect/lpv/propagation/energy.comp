@@ -3,14 +3,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/occlusion/links.glsl"
+#include "passes/indirect/lpv/propagation/read_step.glsl"
 #include "passes/shaders/finished.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(push_constant, scalar) uniform Push { EnergyPush push; };
-layout(set = 0, binding = 0, scalar) readonly buffer Before { StepCell before[]; };
 layout(set = 0, binding = 2, rgba32f) writeonly uniform image2D numbers;
 layout(set = 0, binding = 3, scalar) buffer Lost { EnergySum lost; };
+layout(set = 0, binding = 4, scalar) readonly buffer Total { uint total[]; };
 layout(set = 0, binding = 6, scalar) buffer Counters { LpvCounters counters; };
 
 shared EnergySum sums[256];
@@ -23,26 +24,36 @@ EnergySum plus(EnergySum a, EnergySum b) {
     return EnergySum(sum, rest);
 }
 
-// W of all channels that a cell sends along an axis.
-float sent_all(StepCell cell, uint axis, float direction) {
-    return (sent(cell.light.red, cell.share.r, axis, direction).x + sent(cell.light.green, cell.share.g, axis, direction).x +
-            sent(cell.light.blue, cell.share.b, axis, direction).x) / watt0;
+// W of a channel that a cell sends along an axis, but for the unit of halves.
+float sent_along(uint cell, uint channel, uint axis, float direction) {
+    return sent(before_channel(cell, channel), share_before(cell, channel), axis, direction).x / watt0;
 }
+
+float sent_all(uint cell, uint axis, float direction) {
+    return sent_along(cell, 0u, axis, direction) + sent_along(cell, 1u, axis, direction) + sent_along(cell, 2u, axis, direction);
+}
+
+float held(uint cell) { return (before_channel(cell, 0u).x + before_channel(cell, 1u).x + before_channel(cell, 2u).x) / watt0; }
 
 // Held, absorbed by the step to come, escaping in it.
 vec3 energy(ivec3 at) {
-    const StepCell cell = before[cell_index(push.grid, at)];
-    vec3 sum = vec3((cell.light.red.x + cell.light.green.x + cell.light.blue.x) / watt0, 0.0, 0.0);
+    const uint cell = cell_index(push.grid, at);
+    vec3 sum = vec3(held(cell), 0.0, 0.0);
+    float all = 0.0;
     for (uint i = 0u; i < 6u; ++i) {
         const uint axis = i / 2u;
         const int direction = i % 2u == 0u ? 1 : -1;
         ivec3 next = at;
         next[axis] += direction;
         const float flux = sent_all(cell, axis, float(direction));
+        all += flux;
         if (in_grid(push.grid, next)) sum.y += (1.0 - transmitted(push.grid, direction > 0 ? at : next, axis)) * flux;
         else sum.z += flux;
     }
-    return sum;
+    if (!has_halves()) return sum;
+    // What halves hold sends all that the cell does: their l0 is not that of the cell.
+    if (propagation == propagation_energy_true) sum.x = all;
+    return sum * (uintBitsToFloat(total[0]) * step_unit());
 }
 
 void main() {

@@ -67,6 +67,4 @@ vec4 sent(vec4 light, float share, uint axis, float direction) {
     return vec4(watt0, vec3(watt1)) * through_faces(light, axis, direction) * share;
 }
 
-StepCell with_share(LightCell light) { return StepCell(light, vec3(share_sent(light.red), share_sent(light.green), share_sent(light.blue))); }
-
 #endif

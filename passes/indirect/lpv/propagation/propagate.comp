@@ -4,13 +4,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/lpv/occlusion/links.glsl"
+#include "passes/indirect/lpv/propagation/add_to_total.glsl"
+#include "passes/indirect/lpv/propagation/read_step.glsl"
+#include "passes/indirect/lpv/propagation/write_step.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 
 layout(push_constant, scalar) uniform Push { GridPlace grid; };
-layout(set = 0, binding = 0, scalar) readonly buffer Before { StepCell before[]; };
-layout(set = 0, binding = 2, scalar) writeonly buffer After { StepCell after[]; };
-layout(set = 0, binding = 3, scalar) buffer Total { LightCell total[]; };
+
+void store(uint cell, uint channel, vec4 gathered) {
+    store_step(cell, channel, gathered);
+    add_to_channel(cell, channel, step_unit() * gathered);
+}
 
 void main() {
     const ivec3 cell = ivec3(gl_GlobalInvocationID);
@@ -23,14 +28,13 @@ void main() {
         from[axis] -= direction;
         if (!in_grid(grid, from)) continue;
         const float through = transmitted(grid, direction > 0 ? from : cell, axis);
-        const StepCell s = before[cell_index(grid, from)];
+        const StepCell s = step_before(cell_index(grid, from));
         gathered.red += through * sent(s.light.red, s.share[0], axis, float(direction));
         gathered.green += through * sent(s.light.green, s.share[1], axis, float(direction));
         gathered.blue += through * sent(s.light.blue, s.share[2], axis, float(direction));
     }
     const uint index = cell_index(grid, cell);
-    after[index] = with_share(gathered);
-    total[index].red += gathered.red;
-    total[index].green += gathered.green;
-    total[index].blue += gathered.blue;
+    store(index, 0u, gathered.red);
+    store(index, 1u, gathered.green);
+    store(index, 2u, gathered.blue);
 }

@@ -16,6 +16,33 @@ void find_links(Graph& graph, const FrameImages& frame, DeviceGrid& grid) {
         .over({grid.grid.cells.x, grid.grid.cells.y, 3 * grid.grid.cells.z});
 }
 
+/// The brightest l0 that is injected, in fixed point: what half floats are scaled by.
+Buffer brightest_sum(Graph& graph, const DeviceGrid& grid) {
+    Buffer brightest = graph.create(grid.name("brightest injected light of grid"), sizeof(std::uint32_t));
+    graph.clear(brightest, 0);
+    gated(graph.compute("indirect/lpv/injection/brightest_sum.comp")
+              .loads("Sums", grid.sums)
+              .updates("Brightest", brightest)
+              .push(grid.place),
+          grid, gate_cells, grid.threads());
+    return brightest;
+}
+
+/// Of the light that is injected the first step, and what is summed so far.
+void resolve(Graph& graph, const LpvParams& params, DeviceGrid& grid, Buffer& step) {
+    const Buffer brightest = grid.storage == storage_half ? brightest_sum(graph, grid) : grid.sums;
+    gated(fix_faces(graph.compute("indirect/lpv/injection/resolve.comp"), params)
+              .loads("Sums", grid.sums)
+              .stores("After", step)
+              .stores("Total", grid.total)
+              .loads("Scale", grid.scale ? grid.scale : grid.sums)
+              .loads("Brightest", brightest)
+              .fixes("has_scale", grid.scale ? 1u : 0u)
+              .fixes("cell_storage", grid.storage)
+              .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)}),
+          grid, gate_cells, grid.threads());
+}
+
 }  // namespace
 
 ComputePass fix_faces(ComputePass pass, const LpvParams& params) {
@@ -36,24 +63,17 @@ void propagate(Graph& graph, const FrameImages& frame, const LpvParams& params, 
                const std::function<void(std::uint32_t step, const Buffer& light)>& look) {
     find_links(graph, frame, grid);
     if (grid.is_fuzzy && !grid.later_links) find_fuzzy_links(graph, frame, grid);
-    const std::uint64_t bytes = std::uint64_t{grid.cells()} * sizeof(StepCell);
-    Buffer now = grid.even ? grid.even : graph.create(grid.name("light of even steps of grid"), bytes);
-    Buffer next = grid.odd ? grid.odd : graph.create(grid.name("light of odd steps of grid"), bytes);
-    if (!grid.total) grid.total = graph.create(grid.name("light of grid"), std::uint64_t{grid.cells()} * sizeof(LightCell));
-    gated(fix_faces(graph.compute("indirect/lpv/injection/resolve.comp"), params)
-              .loads("Sums", grid.sums)
-              .stores("Step", now)
-              .stores("Total", grid.total)
-              .loads("Scale", grid.scale ? grid.scale : grid.sums)
-              .fixes("has_scale", grid.scale ? 1u : 0u)
-              .push(ResolvePush{.grid = grid.place, .fixed_one = float(grid.fixed_one)}),
-          grid, gate_cells, grid.threads());
+    Buffer now = grid.even ? grid.even : graph.create(grid.name("light of even steps of grid"), grid.step_bytes());
+    Buffer next = grid.odd ? grid.odd : graph.create(grid.name("light of odd steps of grid"), grid.step_bytes());
+    if (!grid.total) grid.total = graph.create(grid.name("light of grid"), grid.total_bytes());
+    resolve(graph, params, grid, now);
     look(0, now);
     for (std::uint32_t step = 0; step < iterations(params, grid); ++step) {
         gated(fix_links(fix_faces(graph.compute("indirect/lpv/propagation/propagate.comp"), params), grid, step)
                   .loads("Before", now)
                   .stores("After", next)
                   .updates("Total", grid.total)
+                  .fixes("cell_storage", grid.storage)
                   .push(grid.place),
               grid, gate_first_step + step, grid.threads());
         std::swap(now, next);

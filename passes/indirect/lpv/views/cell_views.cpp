@@ -38,7 +38,7 @@ struct Shading {
     std::uint32_t shown = spheres_received, irradiance = irradiance_cell;
 };
 
-/// `light` of each grid, LightCell.
+/// `light` of each grid: as DeviceGrid::total has it.
 Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGrid>& grids, const std::vector<Buffer>& light,
               const Shading& shading) {
     // Of radiance 1 a face of a cell sends as many W/sr as it has square metres.
@@ -49,7 +49,8 @@ Image spheres(Graph& graph, const FrameImages& frame, const std::vector<DeviceGr
     graph.clear(places, 0);
     for (std::size_t i = 0; i < grids.size(); ++i)
         graph.compute("indirect/lpv/views/spheres.comp")
-            .loads("Light", light[i])
+            .loads("Total", light[i])
+            .fixes("cell_storage", grids[i].storage)
             .updates("Places", places)
             .updates("picture", picture.color)
             .updates("nearest", picture.nearest)

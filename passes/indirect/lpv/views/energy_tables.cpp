@@ -27,6 +27,8 @@ public:
             .loads("Before", light)
             .updates("numbers", numbers_)
             .updates("Lost", lost_)
+            .loads("Total", grid.total)
+            .fixes("cell_storage", grid.storage)
             .push(EnergyPush{.grid = grid.place, .step = row})
             .groups({1, 1, 1});
     }

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/indirect/irradiance.glsl"
+#include "passes/indirect/lpv/read_total.glsl"
 #include "passes/indirect/lpv/views/views.shared.h"
 #include "passes/shaders/camera.glsl"
 
@@ -11,7 +12,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = 0) const uint shown = spheres_received;
 layout(push_constant, scalar) uniform Push { SpheresPush push; };
-layout(set = 0, binding = 0, scalar) readonly buffer Light { LightCell light[]; };
 layout(set = 0, binding = 1, scalar) buffer Places { GridPlace places[]; };  // of the grids up to this one
 layout(set = 0, binding = 2, rgba32f) uniform image2D picture;
 layout(set = 0, binding = 3, r32f) uniform image2D nearest;  // view depth
@@ -60,7 +60,7 @@ void follow(ivec2 at, vec3 ray, float end) {
     for (float entered = begin; entered < end && in_grid(push.grid, cell);) {
         const vec3 middle = middle_of(push.grid, cell);
         const float depth = entered_at(middle, ray);
-        const LightCell l = light[cell_index(push.grid, cell)];
+        const LightCell l = total_light(cell_index(push.grid, cell));
         if (depth > view.near && depth < end && !is_empty(l) && !is_of_another(middle)) {
             draw(at, l, (depth * ray - middle) / (radius * push.grid.cell), depth);
             return;
