@@ -301,7 +301,10 @@ void expect_agreement(std::uint32_t method, const std::vector<std::string>& more
     request.choices = with(method, more).choices;
     const Technique& technique = **find_technique("gbuffer/octahedral");
     const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::gbuffer, Against::model));
-    expect_proven_within_tolerance(accuracy, technique, request, "fence_and_foliage");
+    if (method != masked_hardware) return expect_proven_within_tolerance(accuracy, technique, request, "fence_and_foliage");
+    // The model leaves alphas between 0 and 1 to the device, and what lies behind them: 46 % of the samples.
+    expect_within_tolerance(accuracy, technique, request, "fence_and_foliage");
+    EXPECT_GT(accuracy.compared - accuracy.trivial, 10'000u);
 }
 
 TEST_P(MaskedBy, CoverTheSamplesOfAFenceThatTheModelSays) { expect_agreement(GetParam(), {}); }

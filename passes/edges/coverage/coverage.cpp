@@ -36,6 +36,7 @@ Image partly_covered(Graph& graph, const FrameImages& frame) {
     gbuffer::add_coverage(draw, masks);
     fix_materials(draw, frame, Surfaces::opaque)
         .tests_depth(frame.depth)
+        .at_equal_depth()
         .updates("partly", partly)
         .fixes("full_coverage", std::int32_t((1 << frame.samples) - 1));
     if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) draw.culls(Cull::back);

@@ -24,7 +24,7 @@ Seen seen(const Covering& c, const ReferenceImage& depths, glm::uvec2 pixel) {
 
 Verdict verdict_on(const Covering& c, const Seen& bits, std::uint32_t all) {
     if (!c.is_masked && bits.cut != 0) return Verdict::undecided;  // nothing cuts it: a side within rounding
-    if (bits.there == 0) return c.is_masked && bits.cut != 0 && bits.hidden != 0 ? Verdict::undecided : Verdict::plain;
+    if (bits.there == 0) return Verdict::plain;
     if (c.covered != all || bits.cut != 0) return Verdict::edge;
     if (!c.is_masked) return Verdict::plain;
     return bits.hidden != 0 || c.is_fractional ? Verdict::undecided : Verdict::plain;

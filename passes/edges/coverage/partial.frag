@@ -1,6 +1,6 @@
-// Notes pixels in which a visible triangle does not cover every sample (docs/algorithms/deferred.md 3.2, D3). Drawn over the
-// finished depth, so that only triangles with a visible sample get here; coverage is the rasterizer's, before the depth test, and
-// what the G-buffer's mask leaves of it.
+// Notes pixels in which a visible triangle does not cover every sample (docs/algorithms/deferred.md 3.2, D3). Drawn where the
+// finished depth is equal, so that only triangles with a visible sample get here; coverage is the rasterizer's, before the depth
+// test, and what the G-buffer's mask leaves of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/coverage/coverage.glsl"
@@ -18,10 +18,11 @@ layout(constant_id = 1) const int full_coverage = 15;
 
 layout(set = 0, binding = 0, r8ui) writeonly uniform uimage2D partly;
 
-// Which samples the device's alpha to coverage takes is its secret: an alpha between 0 and 1 counts as a part.
+// Which samples the device's alpha to coverage takes is its secret: an alpha between 0 and 1 counts as one of those that the
+// triangle covers.
 uint taken_by_hardware(float alpha) {
     if (alpha <= 0.0) return 0u;
-    return alpha >= 1.0 ? every_sample : 1u;
+    return alpha >= 1.0 ? every_sample : 1u << findLSB(gl_SampleMaskIn[0]);
 }
 
 // The samples that the G-buffer's mask leaves (passes/gbuffer/fill.glsl). No back of a one-sided face has any.
