@@ -50,18 +50,23 @@ std::uint32_t layout_number(const FrameImages& frame, const Layout& layout, cons
     std::uint32_t number = index_in_stage(**find_technique(layout.technique));
     if (shades_samples(frame, params)) number |= layout_shaded_at_sample;
     if (layout.depth == DepthFrom::depth_buffer) number |= layout_reads_depth;
-    return number;
+    return number | params.masked << layout_masked_shift;
 }
 
-DrawPass fill_pass(Graph& graph, const FrameImages& frame, const Layout& layout, const FillParams& params) {
+/// The draw into the targets; in front of it, of two passes, the one into depth.
+DrawPass fill_pass(Graph& graph, FrameImages& frame, const Layout& layout, const FillParams& params) {
     const bool at_sample = shades_samples(frame, params);
     const Coverage coverage = declare_coverage(graph, frame, params.masked, at_sample ? ShadingRate::sample : ShadingRate::pixel);
+    const bool has_depth = coverage.method == masked_hardware;
+    if (has_depth) draw_depth_by_alpha(graph, frame);
     DrawPass fill = graph.draw(fmt::format("{}/fill{}", layout.technique, at_sample ? "_sample" : ""), frame.opaque);
     fix_materials(fill, frame, Surfaces::opaque);
     add_coverage(fill, coverage);
     if (at_sample) fill.fixes("sample_near", frame.recorded->view.near);
     // The shader discards backs draw by draw: the same pixels, shaded in vain.
     if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) fill.culls(Cull::back);
+    if (has_depth) fill.tests_depth(frame.depth).at_equal_depth();
+    else fill.writes_depth(frame.depth);
     return fill;
 }
 
@@ -91,7 +96,6 @@ void add_fill(Graph& graph, FrameImages& frame, const Layout& layout, const Sett
         DrawPass fill = fill_pass(graph, frame, layout, params);
         fill.covers(gbuffer0).covers(gbuffer1).covers(emission);
         if (has_third) fill.covers(gbuffer2);
-        fill.writes_depth(frame.depth);
     }
     frame.gbuffer0 = spread(graph, gbuffer0, "gbuffer0");
     frame.gbuffer1 = spread(graph, gbuffer1, "gbuffer1");

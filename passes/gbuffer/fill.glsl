@@ -10,8 +10,9 @@ layout(location = 7) flat in uint in_triangle;  // the vertex that it begins wit
 
 layout(location = 2) out vec4 emission;
 
-// Bit i: the alpha test leaves sample i.
+// Bit i: the alpha test leaves sample i. Of hardware's coverage depth tells.
 uint left_samples(MaterialRecord material, float alpha, float vertex_alpha) {
+    if (masked == masked_hardware) return every_sample;
     if (masked == masked_clip) return is_cut_away(material, alpha) ? 0u : every_sample;
     const uint number = draws[in_draw].material, surface = mask_surface(in_draw, in_triangle);
     const uint covered = covered_samples(material, number, varying_uv(), vertex_alpha, surface);

@@ -12,7 +12,7 @@ ComputePass sample_gbuffer(ComputePass pass, const FrameImages& frame) {
     const bool reads_depth = (frame.gbuffer_layout & gbuffer::layout_reads_depth) != 0;
     return sample_words(pass, frame)
         .samples("gbuffer_depth", reads_depth ? frame.depth_layers : Image{})
-        .fixes("gbuffer_layout", frame.gbuffer_layout);
+        .fixes("gbuffer_layout", frame.gbuffer_layout & gbuffer::layout_readers_mask);
 }
 
 }  // namespace strata

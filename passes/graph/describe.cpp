@@ -41,6 +41,8 @@ std::string raster_text(const PlannedStep& planned) {
         if (shader.ends_with(".geom")) text += ", through " + shader;
     if (planned.layers > 1) text += fmt::format(", {} layers at once", planned.layers);
     const auto* draw = std::get_if<DrawWork>(&planned.step.work);
+    if (draw && draw->alpha_to_coverage) text += ", alpha to coverage";
+    if (draw && draw->at_equal_depth) text += ", at equal depth";
     if (draw && draw->rows) text += fmt::format(", rows {} to {}", draw->rows->first, draw->rows->first + draw->rows->count - 1);
     return text;
 }

@@ -194,6 +194,16 @@ DrawPass& DrawPass::culls(Cull side) {
     return *this;
 }
 
+DrawPass& DrawPass::covers_by_alpha() {
+    std::get<DrawWork>(step().work).alpha_to_coverage = true;
+    return *this;
+}
+
+DrawPass& DrawPass::at_equal_depth() {
+    std::get<DrawWork>(step().work).at_equal_depth = true;
+    return *this;
+}
+
 DrawPass& DrawPass::in_rows(Rows rows) {
     std::get<DrawWork>(step().work).rows = rows;
     return *this;

@@ -89,6 +89,11 @@ class DrawPass : public RasterBuilder<DrawPass> {
 public:
     using RasterBuilder::RasterBuilder;
     DrawPass& culls(Cull);
+    /// Alpha to coverage: the alpha of color 0, which needs no attachment, says how many samples of a pixel are drawn. How many
+    /// of which is the device's choice.
+    DrawPass& covers_by_alpha();
+    /// With tests_depth(): draws only where depth is the draw's own to the last bit, as a draw of the same list has left it.
+    DrawPass& at_equal_depth();
     /// Draws these rows of the attachments alone: a scissor, which spares all fragments of others. lavapipe 22.3 lets the lower
     /// samples of the row above through where pixels have several, so the shader must leave out rows above the first.
     DrawPass& in_rows(Rows);

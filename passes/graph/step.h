@@ -60,8 +60,8 @@ struct Part {
 
 enum class Filter : std::uint32_t { nearest, linear };
 enum class Blend : std::uint32_t { none, add, multiply, dual_source_over, max, min, alpha_over };
-/// What a draw's pipeline does with depth: reversed Z, so nearer is GREATER_OR_EQUAL.
-enum class DepthUse : std::uint32_t { none, test, test_and_write };
+/// What a draw's pipeline does with depth: reversed Z, so nearer is GREATER_OR_EQUAL. test_equal compares with EQUAL.
+enum class DepthUse : std::uint32_t { none, test, test_and_write, test_equal };
 enum class Cull : std::uint32_t { none, back, front };
 
 /// A run of indirect draw commands over the scene's vertices, 20 bytes each: VkDrawIndexedIndirectCommand, or without an index
@@ -130,7 +130,9 @@ struct ComputeWork {
 };
 struct DrawWork {
     DrawList list = {};
-    Buffer count = {};  ///< how many of list.count to draw, when it exists
+    Buffer count = {};               ///< how many of list.count to draw, when it exists
+    bool alpha_to_coverage = false;  ///< the device makes coverage of color 0's alpha
+    bool at_equal_depth = false;     ///< depth is tested by EQUAL
     std::uint64_t count_offset = 0;
     Cull cull = Cull::none;
     std::optional<Extent> viewport = {};  ///< without attachments, or smaller than them

@@ -61,6 +61,7 @@ std::string key_of(const PlannedStep& planned, const RasterState& state) {
     append(key, state.depth);
     append(key, state.samples);
     append(key, state.cull);
+    append(key, state.alpha_to_coverage);
     append(key, state.keeps_side_effects);
     for (const ColorTarget& target : state.colors) append(key, target);
     return key;
@@ -138,7 +139,7 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(DepthUse depth) {
     return vk::PipelineDepthStencilStateCreateInfo()
         .setDepthTestEnable(depth != DepthUse::none)
         .setDepthWriteEnable(depth == DepthUse::test_and_write)
-        .setDepthCompareOp(vk::CompareOp::eGreaterOrEqual);
+        .setDepthCompareOp(depth == DepthUse::test_equal ? vk::CompareOp::eEqual : vk::CompareOp::eGreaterOrEqual);
 }
 
 vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep& planned, const RasterState& state,
@@ -158,7 +159,8 @@ vk::raii::Pipeline make_raster(const vk::raii::Device& device, const PlannedStep
     const vk::PipelineInputAssemblyStateCreateInfo triangles({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
     const auto raster = rasterization(state.cull);
-    const vk::PipelineMultisampleStateCreateInfo samples({}, static_cast<vk::SampleCountFlagBits>(state.samples));
+    const auto samples = vk::PipelineMultisampleStateCreateInfo({}, static_cast<vk::SampleCountFlagBits>(state.samples))
+                             .setAlphaToCoverageEnable(state.alpha_to_coverage);
     const auto depth = depth_state(state.depth);
     const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, vk::LogicOp::eCopy, blends);
     constexpr std::array dynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor};

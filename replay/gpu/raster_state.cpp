@@ -1,6 +1,7 @@
 #include "replay/gpu/raster_state.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 
 #include "replay/gpu/format_table.h"
@@ -60,7 +61,12 @@ RasterState raster_state(const PlannedStep& planned, const std::vector<ImageReco
             can_blend &= row(shape.format).kind == FormatKind::real;
         }
     }
-    if (const auto* draw = std::get_if<DrawWork>(&step.work)) state.cull = draw->cull;
+    if (const auto* draw = std::get_if<DrawWork>(&step.work)) {
+        assert(!draw->at_equal_depth || state.depth == DepthUse::test);
+        state.cull = draw->cull;
+        state.alpha_to_coverage = draw->alpha_to_coverage;
+        if (draw->at_equal_depth) state.depth = DepthUse::test_equal;
+    }
     state.keeps_side_effects = on_llvmpipe && can_blend && is_lone_opaque_color(state) && writes_outside(planned);
     return state;
 }

@@ -24,6 +24,7 @@ struct RasterState {
     DepthUse depth = DepthUse::none;
     std::uint32_t samples = 1;
     Cull cull = Cull::none;
+    bool alpha_to_coverage = false;
 };
 
 /// llvmpipe (22.3 and 25.0) drops what a fragment shader writes to buffers and images where later opaque fragments cover a whole

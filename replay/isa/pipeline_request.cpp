@@ -52,7 +52,9 @@ PipelineRequest request_of(const PlannedStep& planned, const std::vector<ImageRe
         request.images.push_back({.shape = {.format = shape.format, .samples = shape.samples}});
         kept.step.attachments.push_back({.access = attachment.access, .image = image, .blend = attachment.blend});
     }
-    if (const auto* draw = std::get_if<DrawWork>(&planned.step.work)) kept.step.work = DrawWork{.cull = draw->cull};
+    if (const auto* draw = std::get_if<DrawWork>(&planned.step.work))
+        kept.step.work =
+            DrawWork{.alpha_to_coverage = draw->alpha_to_coverage, .at_equal_depth = draw->at_equal_depth, .cull = draw->cull};
     else if (std::holds_alternative<FullscreenWork>(planned.step.work)) kept.step.work = FullscreenWork{};
     return request;
 }
@@ -77,7 +79,11 @@ ordered_json json_of(const PipelineRequest& request) {
         json["attachments"].push_back({number(attachment.access), number(attachment.blend), number(shape.format), shape.samples});
     }
     json["work"] = step.work.index();
-    if (const auto* draw = std::get_if<DrawWork>(&step.work)) json["cull"] = number(draw->cull);
+    if (const auto* draw = std::get_if<DrawWork>(&step.work)) {
+        json["cull"] = number(draw->cull);
+        json["alpha_to_coverage"] = draw->alpha_to_coverage;
+        json["at_equal_depth"] = draw->at_equal_depth;
+    }
     return json;
 }
 
@@ -115,7 +121,9 @@ Result<PipelineRequest> request_from(const ordered_json& json, const ShaderLibra
         request.images.push_back({.shape = {.format = static_cast<Format>(a.at(2).get<std::uint32_t>()), .samples = a.at(3)}});
     }
     if (json.at("work") == Work(DrawWork{}).index())
-        planned.step.work = DrawWork{.cull = static_cast<Cull>(json.at("cull").get<std::uint32_t>())};
+        planned.step.work = DrawWork{.alpha_to_coverage = json.at("alpha_to_coverage"),
+                                     .at_equal_depth = json.at("at_equal_depth"),
+                                     .cull = static_cast<Cull>(json.at("cull").get<std::uint32_t>())};
     if (json.at("work") == Work(FullscreenWork{}).index()) planned.step.work = FullscreenWork{};
     return request;
 }

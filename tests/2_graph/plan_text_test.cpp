@@ -38,6 +38,20 @@ TEST(PlanText, AScopeNamesItsTechniqueAndThePlaceWhereThatActs) {
     EXPECT_EQ(text_of({}), "frame");
 }
 
+TEST(PlanText, SaysOfADrawThatAlphaOrEqualDepthDecidesWhatItCovers) {
+    Graph graph;
+    const DrawList list{graph.import("commands", 20, ImportId{1}), graph.import("indices", 12, ImportId{2}), 0, 1};
+    Image color = graph.create("color", small_shape()), depth = graph.create("depth", small_depth());
+    graph.clear(depth, {});
+    graph.draw("paint", list).covers_by_alpha().drops_other_colors().writes_depth(depth);
+    graph.draw("paint", list).covers(color).tests_depth(depth).at_equal_depth();
+    graph.keep(color);
+    const std::string text = describe(compiled(graph));
+    EXPECT_NE(text.find("    paint, alpha to coverage\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("    paint, at equal depth\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("        depth: depth_written -> depth_tested\n"), std::string::npos) << text;
+}
+
 TEST(ImagesWritten, AreWhatAStepClearsCopiesToStoresOrDrawsIntoEachOnce) {
     Graph graph;
     const DrawList list{graph.import("commands", 20, ImportId{1}), graph.import("indices", 12, ImportId{2}), 0, 1};

@@ -11,6 +11,8 @@
 #include "captures/scenarios/shapes.h"
 #include "passes/occlusion/judge.h"
 #include "passes/occlusion/truth.h"
+#include "passes/reference/estimated_image.h"
+#include "passes/reference/place_code.h"
 #include "tests/4_references/tiny_frame.h"
 
 namespace strata {
@@ -29,6 +31,23 @@ ReferenceImage traced(Frame frame, double radius, const TracedDirections& direct
     const ImageSet before{{"surface_normal", ReferenceImage(size, size, 1, {0, 1, 0, 1})},
                           {"surface_material", ReferenceImage(size, size, 1, {double(LightingModel::lambert), 0, 1, 0})}};
     return traced_visibility({frame, before}, radius, directions);
+}
+
+/// Samples of a plane that faces the eye have one normal and one depth; what tells them apart is where in the pixel they lie.
+TEST(EstimatedImage, IsMadeForEveryPlaceInThePixelThatASampleHas) {
+    const ReferenceImage normal(1, 1, 4, {0, 0, -1, 2});
+    ReferenceImage material(1, 1, 4, {double(LightingModel::lambert), 0, 1, 0});
+    const Frame frame = tiny::frame(1, 1, 4);
+    const auto x_of = [&](std::uint32_t sample) {
+        const auto place = [](const SurfacePoint& at, const DrawnNumbers&) { return at.position; };
+        return estimated_image(frame, {normal, material}, 1, glm::dvec4(0), place).at(0, 0, sample).x;
+    };
+    for (std::uint32_t sample = 0; sample < 4; ++sample) EXPECT_EQ(x_of(sample), 0) << "the pixel's center";
+    for (std::uint32_t sample = 0; sample < 4; ++sample)
+        material.at(0, 0, sample).w = place_code(sample_position(4, sample) - 0.5);
+    // The pixel is 4 m wide at a depth of 2 m.
+    for (std::uint32_t sample = 0; sample < 4; ++sample)
+        EXPECT_NEAR(x_of(sample), 4 * (sample_position(4, sample).x - 0.5), 1e-6) << "sample " << sample;
 }
 
 double visibility(const Frame& frame, double radius) { return traced(frame, radius, {.side = 128, .batches = 1}).at(0, 0).x; }

@@ -63,6 +63,11 @@ constexpr std::array divergences = {
         "and .256)"},
     Divergence{"fence_and_foliage", 1, .0045, .06,
                "the ground's depth towards the horizon moves by what it changes in 1/16 pixel (compact: .0022 and .028)"},
+    Divergence{"fence_and_foliage", 4, .02, .85, "the same, and normals of small leaves (wide: .0099; all: .417)"},
+    Divergence{"sixteen_normals", 1, .003, .19,
+               "a component of a normal takes the neighboring half float, and what is rebuilt from two of them differs by more "
+               "(packed: .0014 and .094)"},
+    Divergence{"sixteen_normals", 4, .0036, .19, "the same (z_first: .0018; packed: .093)"},
     Divergence{"courtyard", 4, .029, .5, "the same (lpv: .0138 and .244)"},
     Divergence{"spheres_125", 4, .002, .055, "the same (wavelet and voxel: .027)"},
 };
@@ -75,7 +80,10 @@ constexpr std::array<std::string_view, 8> shaded_at_centers = {
 /// two surfaces is in front.
 constexpr std::array without_ties = {std::string_view("coincident_panes")};
 
-/// What follows from these three is known of SwiftShader alone.
+/// A floor of 2.5 km ends in a row of pixels: 1/16 pixel beside it lies another kilometer, or the sky (rmse 1.1 and more).
+constexpr std::array up_to_the_horizon = {std::string_view("far_wall")};
+
+/// What follows from these four is known of SwiftShader alone.
 bool is_swiftshader() { return second_gpu() == "SwiftShader"; }
 
 Technique with_divergence(Technique technique, std::string_view scenario, std::uint32_t samples) {
@@ -136,6 +144,8 @@ TEST_P(SecondDevice, AgreesWithTheModel) {
     if (second_driver().empty()) GTEST_SKIP() << no_second_driver;
     if (is_swiftshader() && std::ranges::count(without_ties, GetParam().scenario) > 0)
         GTEST_SKIP() << "equal depths are none on this device";
+    if (is_swiftshader() && std::ranges::count(up_to_the_horizon, GetParam().scenario) > 0)
+        GTEST_SKIP() << "the horizon moves by a part of a pixel on this device";
     const Technique& technique = *must(find_technique(GetParam().technique));
     const bool at_centers = is_swiftshader() && technique.stage == Stage::transparency && GetParam().samples > 1 &&
                             std::ranges::count(shaded_at_centers, GetParam().scenario) > 0;

@@ -136,6 +136,43 @@ TEST(Raster, KeepsTheNearerAndLeavesDepthAloneWhereItOnlyTests) {
     EXPECT_EQ(texel(run.images.at(depth.id), 2, 4).x, 0.5);
 }
 
+/// Which samples an alpha takes is the device's choice; all that Vulkan says of it is tested.
+TEST(Raster, CoversNoSampleByAlphaZeroAllByOneAndNeverFewerByMore) {
+    RasterFrame frame;
+    frame.shader("alpha.vert", pulling_vertex);
+    frame.shader("alpha.frag", R"(
+        layout(location = 0) out vec4 out_color;
+        void main() { out_color = vec4(floor(gl_FragCoord.x) / 15); })");
+    Image depth = frame.depth_target(4);
+    const Triangles triangles(frame.graph, {middle});
+    frame.graph.draw("alpha", triangles.list).covers_by_alpha().drops_other_colors().writes_depth(depth);
+    const Image depths = spread(frame.graph, depth, "depths");
+    const HostImage result = frame.result(depths);
+    const auto covered = [&](std::uint32_t x) {
+        int samples = 0;
+        for (std::uint32_t y = 0; y < 8; ++y)
+            for (std::uint32_t sample = 0; sample < 4; ++sample) samples += texel(result, x, y, sample).x > 0;
+        return samples;
+    };
+    EXPECT_EQ(covered(0), 0);
+    EXPECT_EQ(covered(15), 4 * 8);
+    for (std::uint32_t x = 1; x < 16; ++x) EXPECT_GE(covered(x), covered(x - 1)) << "alpha " << x << " / 15";
+    EXPECT_LT(covered(5), 4 * 8);
+}
+
+TEST(Raster, DrawsAtEqualDepthAloneWhatIsNeitherNearerNorFarther) {
+    RasterFrame frame;
+    Image target = frame.target(), depth = frame.depth_target();
+    const Triangles triangles(frame.graph, {middle, left_half, nearest});
+    DrawList first = triangles.list;
+    first.count = 1;
+    frame.graph.draw("pull", first).covers(target).writes_depth(depth);
+    Image equal = frame.target();
+    frame.graph.draw("pull", triangles.list).covers(equal).tests_depth(depth).at_equal_depth();
+    const HostImage result = frame.result(equal);
+    for (const std::uint32_t x : {2u, 12u}) EXPECT_EQ(texel(result, x, 4).x, 20) << "0.25 and 0.75 come later";
+}
+
 TEST(Raster, SamplesTheDepthItTests) {
     RasterFrame frame;
     frame.shader("fade.vert", pulling_vertex);

@@ -3,6 +3,7 @@
 #include "passes/edges/mark.h"
 #include "passes/edges/routing/ratios.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/gbuffer/surface_at.h"
 
 namespace strata::edges {
@@ -13,6 +14,14 @@ namespace {
 
 void declare(Graph& graph, FrameImages& frame, const Settings&) {
     if (has_samples(frame)) sample_words(mark_edges(graph, frame, "edges/bitwise/mark.comp"), frame);
+}
+
+/// Where equal words lie at different places.
+std::vector<std::string> notes(const FrameImages& frame, const Settings&) {
+    if (!has_samples(frame) || (frame.gbuffer_layout & gbuffer::layout_reads_depth) == 0) return {};
+    return {
+        "edges/bitwise: this G-buffer takes depth from the depth buffer, which words do not hold; plain pixels are shaded at the "
+        "place of their first sample"};
 }
 
 }  // namespace
@@ -31,7 +40,8 @@ Technique bitwise() {
             .claims = {.ratios = shading_ratios()},
             .declare = declare,
             .model = bitwise_model,
-            .tolerance = {.rmse = 0, .worst = 0, .because = "bits are equal or not"}};
+            .tolerance = {.rmse = 0, .worst = 0, .because = "bits are equal or not"},
+            .notes = notes};
 }
 
 }  // namespace strata::edges

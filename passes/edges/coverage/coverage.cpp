@@ -3,6 +3,8 @@
 #include "passes/edges/coverage/coverage.shared.h"
 #include "passes/edges/surface_tests.h"
 #include "passes/edges/views/edge_views.h"
+#include "passes/gbuffer/coverage/fill_coverage.h"
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
 
@@ -29,9 +31,12 @@ Image partly_covered(Graph& graph, const FrameImages& frame) {
     Image partly = graph.create("partly covered", {.extent = frame.extent, .format = Format::r8ui});
     graph.clear(partly, {});
     if (frame.opaque.count == 0) return partly;
+    const gbuffer::Coverage masks = gbuffer::declare_coverage_again(graph, frame);
     DrawPass draw = graph.draw("edges/coverage/partial", frame.opaque);
+    gbuffer::add_coverage(draw, masks);
     fix_materials(draw, frame, Surfaces::opaque)
         .tests_depth(frame.depth)
+        .at_equal_depth()
         .updates("partly", partly)
         .fixes("full_coverage", std::int32_t((1 << frame.samples) - 1));
     if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) draw.culls(Cull::back);
@@ -45,6 +50,21 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     test_surfaces(mark_edges(graph, frame, "edges/coverage/mark.comp"), frame, tests_of(params.with_tests))
         .samples("partly", partly)
         .push(surface_limits(normal_angle_row.fallback, params.depth_step, params.color_step));
+}
+
+/// Where the masks of the G-buffer are not known to the bit.
+std::vector<std::string> notes(const FrameImages& frame, const Settings&) {
+    constexpr std::uint32_t masked = 1u << static_cast<std::uint32_t>(AlphaMode::mask);
+    if (!has_samples(frame) || (frame.facts->material_uses(Surfaces::opaque).alpha_modes & masked) == 0) return {};
+    if (frame.gbuffer_layout >> gbuffer::layout_masked_shift == gbuffer::masked_hardware)
+        return {
+            "edges/coverage: the device does not say which samples alpha to coverage takes; masked surfaces of an alpha between "
+            "0 and 1 are all marked"};
+    if ((frame.gbuffer_layout & gbuffer::layout_shaded_at_sample) != 0)
+        return {
+            "edges/coverage: alpha at samples is found from the pixel's center, to first order; attributes=sample may cover "
+            "others"};
+    return {};
 }
 
 }  // namespace
@@ -70,7 +90,8 @@ Technique coverage() {
             .tables = edge_tables(),
             .declare = declare,
             .model = coverage_model,
-            .tolerance = {.rmse = 0, .worst = 0, .because = "pixels whose coverage hangs on rounding are undecided"}};
+            .tolerance = {.rmse = 0, .worst = 0, .because = "pixels whose coverage hangs on rounding are undecided"},
+            .notes = notes};
 }
 
 }  // namespace strata::edges

@@ -16,6 +16,7 @@ const uint masked_full_step = 6u;        // the same; the dither spans a whole b
 const uint masked_unbiased = 7u;         // dithered so that the mean coverage is alpha, and hashed by surface
 const uint masked_mip_coverage = 8u;     // alpha scaled mip by mip so that as much stays as in the finest mip
 const uint masked_sharpened = 9u;        // alpha steepened to one pixel around the cutoff, then bands
+const uint masked_hardware = 10u;        // the device's alpha to coverage, in a pass of its own before the fill
 
 // Mips of a texture that have a scale of their own; coarser ones take the last.
 const uint mask_scale_mips = 16u;

@@ -5,6 +5,7 @@
 #include "passes/choice_names.h"
 #include "passes/gbuffer/coverage/mip_scales.h"
 #include "passes/gbuffer/fill.shared.h"
+#include "passes/gbuffer/layout.shared.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
 
@@ -20,7 +21,8 @@ constexpr auto mask_methods = choice_names({{masked_clip, "clip"},
                                             {masked_full_step, "full_step"},
                                             {masked_unbiased, "unbiased"},
                                             {masked_mip_coverage, "mip_coverage"},
-                                            {masked_sharpened, "sharpened"}});
+                                            {masked_sharpened, "sharpened"},
+                                            {masked_hardware, "hardware"}});
 
 bool has_masks(const FrameImages& frame) {
     const std::uint32_t mask = 1u << static_cast<std::uint32_t>(AlphaMode::mask);
@@ -30,7 +32,7 @@ bool has_masks(const FrameImages& frame) {
 uint method_that_matters(const FrameImages& frame, uint method, ShadingRate rate) {
     if (!has_masks(frame)) return masked_clip;
     if (method == masked_per_sample && (frame.samples == 1 || rate == ShadingRate::sample)) return masked_clip;
-    const bool is_of_samples = method == masked_per_sample_fine || method == masked_sharpened;
+    const bool is_of_samples = method == masked_per_sample_fine || method == masked_sharpened || method == masked_hardware;
     return is_of_samples && frame.samples == 1 ? masked_clip : method;
 }
 
@@ -63,7 +65,7 @@ Param masked_param() {
     return param<&FillParams::masked>(
         {.name = "masked",
          .low = 0,
-         .high = masked_sharpened,
+         .high = masked_hardware,
          .fallback = masked_clip,
          .help = "how alpha of masked surfaces covers samples; clip compares it with the cutoff at the pixel's center",
          .choices = mask_methods});
@@ -76,10 +78,25 @@ Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, S
 }
 
 void add_coverage(DrawPass& pass, const Coverage& coverage) {
+    const bool masks_in_shader = coverage.method != masked_clip && coverage.method != masked_hardware;
     pass.fixes("masked", coverage.method)
-        .fixes("mask_samples", coverage.method == masked_clip ? 1u : coverage.samples)
-        .fixes("masks_at_sample", coverage.method != masked_clip && coverage.rate == ShadingRate::sample ? 1u : 0u)
+        .fixes("mask_samples", masks_in_shader ? coverage.samples : 1u)
+        .fixes("masks_at_sample", masks_in_shader && coverage.rate == ShadingRate::sample ? 1u : 0u)
         .samples("mask_scales", coverage.scales);
+}
+
+void draw_depth_by_alpha(Graph& graph, FrameImages& frame) {
+    DrawPass draw = graph.draw("gbuffer/coverage/depth_by_alpha", frame.opaque);
+    fix_materials(draw, frame, Surfaces::opaque);
+    if (shows_no_backs(*frame.recorded, frame.facts->lists().opaque)) draw.culls(Cull::back);
+    draw.covers_by_alpha().drops_other_colors().writes_depth(frame.depth);
+}
+
+Coverage declare_coverage_again(Graph& graph, const FrameImages& frame) {
+    const uint method = frame.gbuffer_layout >> layout_masked_shift;
+    // Alpha at the sample against the cutoff is what the plain test does where attributes are the sample's.
+    const bool at_sample = (frame.gbuffer_layout & layout_shaded_at_sample) != 0;
+    return declare_coverage(graph, frame, at_sample && method == masked_clip ? masked_per_sample : method, ShadingRate::pixel);
 }
 
 }  // namespace strata::gbuffer

@@ -31,4 +31,12 @@ Coverage declare_coverage(Graph&, const FrameImages&, uint method, ShadingRate);
 /// Gives it to a step whose fragment shader includes coverage.glsl.
 void add_coverage(DrawPass&, const Coverage&);
 
+/// The first of two passes of masked_hardware: draws frame.opaque into the depth alone, by the device's alpha to coverage. The
+/// fill then draws at equal depth.
+void draw_depth_by_alpha(Graph&, FrameImages&);
+
+/// What the fill of a drawn G-buffer was given, for a step that draws the same surfaces once per pixel: the method out of
+/// FrameImages::gbuffer_layout. Declares what declare_coverage() declares.
+Coverage declare_coverage_again(Graph&, const FrameImages&);
+
 }  // namespace strata::gbuffer

@@ -69,6 +69,8 @@ public:
                                       alpha(material, linear, own_place(point), 1 / std::sqrt(double(frame_->view.samples))));
             case masked_mip_coverage:
                 return against_cutoff(material, alpha(material, linear, {}, 1) * scale(material, linear));
+            case masked_hardware:
+                return by_device(material, linear, shade_at_ == ShadeAt::sample ? -sample_offset(point) : glm::dvec2(0));
             default:
                 return by_bands(point, material, linear);
         }
@@ -77,7 +79,25 @@ public:
 private:
     glm::dvec2 own_place(const RasterPoint& point) const {
         if (shade_at_ == ShadeAt::sample) return {};
-        return sample_position(frame_->view.samples, point.sample) - 0.5;
+        return sample_offset(point);
+    }
+
+    /// From the pixel's center.
+    glm::dvec2 sample_offset(const RasterPoint& point) const { return sample_position(frame_->view.samples, point.sample) - 0.5; }
+
+    /// Vulkan says what alphas of 0 and 1 cover and leaves the others to the device. Alpha is the pixel center's, which lies so
+    /// many pixels from here; a filter that a float puts a little aside must say the same.
+    MaskCover by_device(const Material& material, const Linear& l, glm::dvec2 center) const {
+        constexpr double aside = 0.05;
+        bool none = true, all = true;
+        for (const glm::dvec2 step : {glm::dvec2(0), {aside, 0}, {-aside, 0}, {0, aside}, {0, -aside}})
+            for (const double width : {1 - aside, 1 + aside}) {
+                const double a = alpha(material, l, center + step, width);
+                none = none && a <= 0;
+                all = all && a >= 1 - 1e-9;
+            }
+        if (none || all) return all ? MaskCover::kept : MaskCover::cut;
+        return alpha(material, l, center, 1) >= double(material.mask_cutoff) ? MaskCover::maybe_kept : MaskCover::maybe_cut;
     }
 
     /// So many pixels from the point, over a footprint so many pixels wide.
@@ -162,7 +182,8 @@ double mip_scale_model(const Frame& frame, const Material& material, std::uint32
 }
 
 MaskTest mask_model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) {
-    if (method == masked_clip) return cutoff_test(frame);
+    // One sample has nothing to share out: see declare_coverage().
+    if (method == masked_clip || (method == masked_hardware && frame.view.samples == 1)) return cutoff_test(frame);
     return [model = std::make_shared<const Model>(frame, method, shade_at)](const RasterPoint& point) { return (*model)(point); };
 }
 

@@ -22,6 +22,8 @@ constexpr Row rows[] = {
      "taps per fragment, docs/algorithms/deferred.md 4.4", 3},
     {"masked surfaces at 4 samples: alpha scaled by mip, against the pixel's center", "masked=mip_coverage",
      "taps per fragment, docs/algorithms/deferred.md 4.4", 1},
+    {"masked surfaces at 4 samples: alpha to coverage in two passes, against the test in one", "masked=hardware",
+     "draws of all geometry, docs/algorithms/deferred.md 4.3", 2},
 };
 
 }  // namespace

@@ -166,6 +166,25 @@ double psnr(const HostImage& a, const HostImage& b, double& worst) {
     return -10 * std::log10(sum / double(one.texels.size()));
 }
 
+// Words say nothing of a depth that is the depth buffer's: equal ones lie at different places, and a plain pixel is shaded at its
+// first sample's.
+TEST(RoutedShading, OfLayoutsThatReadDepthIsAlmostThePictureAndSaysSo) {
+    for (const char* layout : {"gbuffer/depth_rebuilt", "gbuffer/compact", "gbuffer/octahedral"}) {
+        const Way way{{"lighting/brute_force", layout}, {}};
+        const auto all = shaded(crossing_without_maps, "edges/all_samples", way),
+                   routed = shaded(crossing_without_maps, "edges/bitwise", way);
+        const bool is_exact = std::string_view(layout) == "gbuffer/octahedral";
+        EXPECT_EQ(differing_words(all, routed) == 0, is_exact) << layout;
+        EXPECT_EQ(std::ranges::count_if(routed.notes, [](const std::string& n) { return n.starts_with("edges/bitwise: "); }),
+                  is_exact ? 0 : 1)
+            << layout;
+        double worst = 0;
+        const double quality = psnr(all.images.at("display"), routed.images.at("display"), worst);
+        RecordProperty(layout, fmt::format("PSNR {:.1f} dB, worst {:.4f}", quality, worst));
+        EXPECT_GT(quality, 40) << layout;
+    }
+}
+
 // T-MS-1 asks for numbers of what other edges cost in quality: recorded, with room for a change of a scene.
 TEST(RoutedShading, AtFewerEdgesIsAlmostTheSamePicture) {
     for (const std::size_t frame : {crossing_without_maps, city})
