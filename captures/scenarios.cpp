@@ -83,6 +83,7 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      scenario::crossing_planes},
     {"corners", "How much ambient light reaches a corner, the foot of a pillar and the floor under a ball?", 64, 36,
      scenario::corners},
+    {"roof_in_rain", "Does everything get wet that rain reaches, and nothing under a roof?", 64, 36, scenario::roof_in_rain},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,
