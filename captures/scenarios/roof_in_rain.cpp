@@ -40,7 +40,7 @@ void add_metals(FrameBuilder& builder) {
 
 /// Carried over the pavement: dry below while it is there.
 void add_umbrella(FrameBuilder& builder) {
-    const auto at = [](double progress) { return glm::translate(glm::dmat4(1), glm::dvec3(-1.6 - progress, 1.75, 1.1)); };
+    const auto at = [](double progress) { return glm::translate(glm::dmat4(1), glm::dvec3(-1.1 - 0.5 * progress, 2.15, 0.9)); };
     const std::uint32_t cloth = builder.add(rough("cloth", {0.1f, 0.2f, 0.45f}, 0.8f));
     Draw& umbrella = builder.draw(builder.add(box({0.5f, 0.02f, 0.5f})), cloth, {});
     umbrella.to_world = at(builder.progress());

@@ -25,12 +25,15 @@ uvec3 world_cell(vec3 scaled, float cells) { return push.cubes * uint(4.0 * cell
 
 uint noise_at(vec3 place) { return hashed(tap_key, world_cell(place * noise_cells + noise_shift, noise_cells)); }
 
+// Radius in texels around a surface that leans by the sine of its angle to the rain.
+float disc_radius(float lean) { return jitter == jitter_none ? 0.70710678 : radius * (1.0 - disc_loss * lean); }
+
 // In texels. The four lie in a quarter of the disc each, evenly over its area.
-vec2 tap_offset(uint noise, uint tap) {
+vec2 tap_offset(uint noise, uint tap, float disc) {
     if (jitter == jitter_none) return vec2(tap & 1u, tap >> 1) - 0.5;
     const uint word = hashed(noise + tap);
     const float around = quarter_turn * (float(tap) + float(word & 0xffffu) / 65536.0);
-    return radius * sqrt((float(word >> 16) + 0.5) / 65536.0) * vec2(cos(around), sin(around));
+    return disc * sqrt((float(word >> 16) + 0.5) / 65536.0) * vec2(cos(around), sin(around));
 }
 
 // Outside of the map nothing is known to be above.
@@ -43,13 +46,13 @@ bool is_reached(vec2 at, float depth) {
 // 0 sheltered, 1 open. The place moves out along its normal, by as much as lifts a tap at the rim of the disc over the surface's
 // own plane, so that no plane shelters itself, however steep.
 float rain_visibility(vec3 position, vec3 normal) {
-    const float lean = length(cross(normal, push.towards_rain));
-    const vec4 moved = vec4(position + normal * (push.normal_offset * lean), 1.0);
+    const float lean = min(length(cross(normal, push.towards_rain)), 1.0), disc = disc_radius(lean);
+    const vec4 moved = vec4(position + normal * ((disc + 1.0) * push.texel * lean), 1.0);
     const vec2 at = vec2(dot(push.map_u, moved), dot(push.map_v, moved));
     const float depth = max(dot(push.map_depth, moved), 0.0);
     const uint noise = noise_at(world_place(position));
     uint reached = 0u;
-    for (uint tap = 0u; tap < 4u; ++tap) reached += is_reached(at + tap_offset(noise, tap), depth) ? 1u : 0u;
+    for (uint tap = 0u; tap < 4u; ++tap) reached += is_reached(at + tap_offset(noise, tap, disc), depth) ? 1u : 0u;
     return float(reached) / 4.0;
 }
 

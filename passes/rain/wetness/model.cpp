@@ -50,11 +50,16 @@ std::uint32_t noise_of(const glm::dvec3& cell) {
     return pcg(pcg(pcg(tap_key ^ wrapped(cell.x)) ^ wrapped(cell.y)) ^ wrapped(cell.z));
 }
 
-glm::dvec2 tap_offset(const WetnessParams& params, std::uint32_t noise, std::uint32_t tap) {
+double disc_radius(const WetnessParams& params, double lean) {
+    return params.jitter == jitter_none ? std::sqrt(0.5) : double(params.radius) * (1 - double(disc_loss) * lean);
+}
+
+/// In texels; `disc` is the radius.
+glm::dvec2 tap_offset(const WetnessParams& params, std::uint32_t noise, std::uint32_t tap, double disc) {
     if (params.jitter == jitter_none) return glm::dvec2(tap % 2, tap / 2) - 0.5;
     const std::uint32_t word = pcg(noise + tap);
     const double around = (tap + (word & 0xffffu) / 65536.0) * std::numbers::pi / 2;
-    const double away = double(params.radius) * std::sqrt(((word >> 16) + 0.5) / 65536.0);
+    const double away = disc * std::sqrt(((word >> 16) + 0.5) / 65536.0);
     return away * glm::dvec2(std::cos(around), std::sin(around));
 }
 
@@ -86,7 +91,7 @@ std::vector<glm::dvec3> cells_at(const glm::dvec3& world, double distance) {
 Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
     const glm::dvec3 normal = facing_normal(p);
     const double up = cosine_to_rain(scene.input.frame, normal), lean = std::sqrt(std::max(0.0, 1 - up * up));
-    const double aside = (double(scene.params.radius) + 1) * scene.map.texel() * lean;
+    const double disc = disc_radius(scene.params, lean), aside = (disc + 1) * scene.map.texel() * lean;
     const glm::dvec3 at = scene.map.place(p.position + normal * aside);
     const double distance = glm::length(p.position), doubt = 1e-4 + rounding * (1 + distance);
     Arriving result;
@@ -94,7 +99,7 @@ Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
     for (const glm::dvec3& cell : cells_at(to_world(scene.input.frame, p.position), distance)) {
         double open = 0;
         for (std::uint32_t i = 0; i < 4; ++i) {
-            const glm::dvec2 place = glm::dvec2(at) + tap_offset(scene.params, noise_of(cell), i);
+            const glm::dvec2 place = glm::dvec2(at) + tap_offset(scene.params, noise_of(cell), i, disc);
             const Reached reached = tap(scene, place, at.z - double(scene.params.bias), doubt);
             open += reached.open;
             result.undecided = result.undecided || reached.undecided;

@@ -13,7 +13,7 @@ namespace strata::rain {
 
 struct RainMapShape {
     std::uint32_t size = 1024;  ///< texels a side
-    double radius = 4;          ///< of lookups, in texels
+    double radius = 2;          ///< of lookups, in texels
     double reach = 40;          ///< metres of view depth
 };
 

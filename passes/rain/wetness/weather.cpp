@@ -26,7 +26,7 @@ WetnessPush weather_push(const Frame& frame, const RainMap& map, const WetnessPa
             .map_v = glm::vec4(map.v),
             .map_depth = glm::vec4(biased),
             .towards_rain = glm::vec3(-(frame.view.to_view * glm::dvec3(frame.rain.direction))),
-            .normal_offset = static_cast<float>((double(params.radius) + 1) * map.texel),
+            .texel = static_cast<float>(map.texel),
             .cubes = {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)},
             .place = glm::vec3(frame.view.origin - cube * whole),
             .ring_turns = rings.whole,

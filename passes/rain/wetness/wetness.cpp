@@ -146,7 +146,7 @@ std::vector<Param> map_params() {
             {.name = "rain_radius",
              .low = 0,
              .high = 16,
-             .fallback = 4,
+             .fallback = 2,
              .help = "radius in texels of the disc that four taps sample; larger: softer edges of dry areas"}),
         param<&WetnessParams::jitter>(
             {.name = "rain_jitter",
@@ -245,7 +245,7 @@ Technique wetness() {
             "are as wide as the lookup, and low shelters near walls are missed.",
         .params = params(),
         .points = {"rain_map_size=64", "rain_map_size=256", "rain_map_size=512", "rain_map_size=2048", "rain_radius=0",
-                   "rain_radius=1", "rain_radius=8", "rain_jitter=none", "rain_casters=fixed",
+                   "rain_radius=4", "rain_radius=8", "rain_jitter=none", "rain_casters=fixed",
                    "rain_beyond=dry rain_reach=20 rain_fade=0.25", "wet_form=xray", "wet_form=xray puddles=0", "ripple_height=0",
                    "flow_height=0", "puddles=0", "puddles=1", "ripple_filter=off"},
         .counters =
@@ -267,9 +267,10 @@ Technique wetness() {
         .approximates = approximates,
         .model = wetness_model,
         .tolerance = {
-            .rmse = 1e-3,
+            .rmse = 1e-4,
             .worst = 0.02,
-            .because = "base color and roughness are stored in 8 bits: a float on a rounding boundary takes the next code"}};
+            .because = "normals are off by 1e-4, as the layout rounds them; base color and roughness are stored in 8 bits, and a "
+                       "float on a rounding boundary takes the next code"}};
 }
 
 }  // namespace strata::rain

@@ -24,6 +24,9 @@ const uint beyond_dry = 1u;
 const float noise_cells = 32.0f;
 const float noise_shift = 0.37f;
 
+// Of a vertical surface, the disc of taps is smaller by this share: all of it must be moved out of what stands above.
+const float disc_loss = 0.75f;
+
 struct WetnessParams {
     uint map_size;
     float radius;  // texels
@@ -49,8 +52,8 @@ struct RainMapPush {
 struct WetnessPush {
     // Of a view-space point (p, 1): texels along both axes of the map, and depth there, 1 where the map begins, with the bias.
     vec4 map_u, map_v, map_depth;
-    vec3 towards_rain;    // view space, unit
-    float normal_offset;  // metres along the normal for a vertical surface
+    vec3 towards_rain;  // view space, unit
+    float texel;        // metres
     // The eye's place in the world: whole cubes of 4 m modulo 2^32, and metres from there.
     uvec3 cubes;
     vec3 place;
