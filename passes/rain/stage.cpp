@@ -8,7 +8,7 @@ namespace strata::rain {
 namespace {
 
 std::optional<std::string> unwanted(const Features& features) {
-    if (features.has(Feature::rain)) return std::nullopt;
+    if (features.has(Feature::rain)) return info(Stage::culling).unwanted(features);
     return "the frame has no rain";
 }
 
