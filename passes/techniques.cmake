@@ -1,5 +1,6 @@
 # add_techniques(target stage/name...): compiles all shaders, collects every *_test.cpp for the test programs, and writes what must
-# know all techniques: the table, the embedded shaders with their sources and the G-buffer decoders.
+# know all techniques: the table, the embedded shaders with their sources and the G-buffer decoders and
+# encoders.
 
 set(generated_passes ${CMAKE_BINARY_DIR}/generated/passes)
 
@@ -70,7 +71,7 @@ endfunction()
 # The GLSL of all shaders, what it includes, and how it is compiled.
 function(embed_sources target)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag *.glsl *.shared.h shader_interop.h)
-    set(generated ${generated_passes}/gbuffer/decoders.glsl)
+    set(generated ${generated_passes}/gbuffer/decoders.glsl ${generated_passes}/gbuffer/encoders.glsl)
     list(APPEND sources ${generated})
     embed_files(${target} source ${sources})
     set(externs "")
@@ -162,25 +163,36 @@ inline constexpr std::string_view stage_names[] = {
     write_table(${target} stage_table StageInfo passes/stages.h ${ARGN})
 endfunction()
 
-# A switch over the decode.glsl of every G-buffer technique, in the list's order (index_in_stage).
-function(write_gbuffer_decoders)
-    set(includes "")
-    set(cases "")
+# Switches over the decode.glsl and over the pack.glsl of every G-buffer technique, in the list's order (index_in_stage).
+function(write_gbuffer_coders)
+    foreach(kind decode pack)
+        set(${kind}_includes "")
+        set(${kind}_cases "")
+    endforeach()
     set(index 0)
     foreach(technique IN LISTS ARGN)
         get_filename_component(stage ${technique} DIRECTORY)
         get_filename_component(name ${technique} NAME)
         if(stage STREQUAL "gbuffer")
-            string(APPEND includes "#include \"passes/${technique}/decode.glsl\"\n")
-            string(APPEND cases "    if (layout_index == ${index}u) return decode_${name}(t);\n")
+            string(APPEND decode_includes "#include \"passes/${technique}/decode.glsl\"\n")
+            string(APPEND decode_cases "    if (layout_index == ${index}u) return decode_${name}(t);\n")
+            string(APPEND pack_includes "#include \"passes/${technique}/pack.glsl\"\n")
+            string(APPEND pack_cases "    if (layout_index == ${index}u) return pack_${name}(m);\n")
             math(EXPR index "${index} + 1")
         endif()
     endforeach()
     file(CONFIGURE OUTPUT ${generated_passes}/gbuffer/decoders.glsl CONTENT
 "// Written by passes/techniques.cmake: every G-buffer technique's decode.glsl.
-${includes}
+${decode_includes}
 Surface decode_gbuffer(uint layout_index, GBufferTexel t) {
-${cases}    return no_surface();
+${decode_cases}    return no_surface();
+}
+" @ONLY)
+    file(CONFIGURE OUTPUT ${generated_passes}/gbuffer/encoders.glsl CONTENT
+"// Written by passes/techniques.cmake: every G-buffer technique's pack.glsl.
+${pack_includes}
+GBufferWords pack_gbuffer(uint layout_index, MaterialPoint m) {
+${pack_cases}    return GBufferWords(vec4(0.0), vec4(0.0), vec4(0.0));
 }
 " @ONLY)
 endfunction()
@@ -194,7 +206,7 @@ function(add_techniques target)
         endif()
     endforeach()
     write_table(${target} technique_table Technique passes/registry.h ${ARGN})
-    write_gbuffer_decoders(${ARGN})
+    write_gbuffer_coders(${ARGN})
 
     set(spirv "")
     file(GLOB_RECURSE shaders CONFIGURE_DEPENDS *.comp *.vert *.geom *.frag)

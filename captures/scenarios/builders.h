@@ -80,6 +80,8 @@ Frame zone_at_dusk(std::uint32_t frame, const ScenarioOptions&);
 Frame night_market(std::uint32_t frame, const ScenarioOptions&);
 // beams.cpp
 Frame beams(std::uint32_t frame, const ScenarioOptions&);
+// roof_in_rain.cpp
+Frame roof_in_rain(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

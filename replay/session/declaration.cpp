@@ -69,9 +69,15 @@ Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
     return {};
 }
 
-void keep_all_images(Declaration& d) {
+void keep_all_of(Declaration& d, const FrameImages& images) {
     for (const FrameImageRow& row : frame_images())
-        if (const Image image = d.images.*row.member; image && d.graph.shape(image).samples == 1) d.graph.keep(image);
+        if (const Image image = images.*row.member; image && d.graph.shape(image).samples == 1) d.graph.keep(image);
+}
+
+/// Also those in whose place a later act put others.
+void keep_all_images(Declaration& d) {
+    for (const DeclaredAct& act : d.frame.acts) keep_all_of(d, act.before);
+    keep_all_of(d, d.images);
 }
 
 void keep_counters(Declaration& d) {

@@ -46,11 +46,17 @@ struct PeekedImage {
     std::size_t peek = 0;
 };
 
+/// The frame's images as an act left them: a later one may have put others in their place.
+const FrameImages& images_after(const Declaration& d, std::size_t act) {
+    return act + 1 < d.frame.acts.size() ? d.frame.acts[act + 1].before : d.images;
+}
+
 /// The outputs of its stage that an act writes, after its last step.
-std::vector<PeekedImage> peek_outputs(const Declaration& d, const DeclaredAct& act, Peeks& peeks) {
+std::vector<PeekedImage> peek_outputs(const Declaration& d, std::size_t place, Peeks& peeks) {
+    const DeclaredAct& act = d.frame.acts[place];
     std::vector<PeekedImage> places;
     for (const std::string_view output : info(act.technique->stage).outputs) {
-        const Image image = d.images.*find_frame_image(output)->member;
+        const Image image = images_after(d, place).*find_frame_image(output)->member;
         if (!image || d.graph.shape(image).samples > 1) continue;
         const auto step = last_write(d.plan, image, first_step_after(d.plan, act.scope));
         if (step && d.plan.steps[*step].step.scope == act.scope) places.push_back({std::string(output), peeks.add(*step, image)});
@@ -144,7 +150,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     for (const FrameImageRow& row : frame_images())
         if (!is_known) want(before, row.name, last->before.*row.member, first_step_after(d.plan, last->scope - 1));
     for (const std::string_view output : info(stage).outputs) {
-        const Image image = d.images.*find_frame_image(output)->member;
+        const Image image = images_after(d, *acts_before).*find_frame_image(output)->member;
         const std::size_t end = first_step_after(d.plan, end_scope(d, *last));
         const auto step = image ? last_write(d.plan, image, end) : std::nullopt;
         if (step && is_step_of(d, stage, *step)) want(result, output, image, end);
@@ -176,7 +182,7 @@ Result<Run> DeviceSession::run_with_acts(const Request& request) {
     for (const auto& [output, source] : d.tables)
         if (const auto step = last_write(d.plan, source.second, d.plan.steps.size()))
             tables.push_back({output, peeks.add(*step, source.second)});
-    for (const DeclaredAct& act : d.frame.acts) of_acts.push_back(peek_outputs(d, act, peeks));
+    for (std::size_t act = 0; act < d.frame.acts.size(); ++act) of_acts.push_back(peek_outputs(d, act, peeks));
 
     const auto execution = execute(d, peeks.options());
     if (!execution) return execution.error();

@@ -39,6 +39,7 @@ constexpr std::array parts_of_references = {
     Exception{"passes/indirect/leg_blockers", "blockers between two surfaces, in double"},
     Exception{"passes/indirect/volume_light", "light of volumes at any place, in double"},
     Exception{"passes/lighting/every_light", "lighting in double"},
+    Exception{"passes/rain/formulas", "wet surfaces in double"},
     Exception{"passes/shadows/kernel", "filter kernels in double"},
     Exception{"passes/shadows/lookup", "lookups of shadow maps in double"},
     Exception{"passes/shadows/receivers", "the points that visibility is asked for, in double"},

@@ -1,20 +1,9 @@
-// Writes layout F of docs/algorithms/deferred.md 2.1: octahedral coordinates and occlusion in 10 bits each, 2 bits of material, and
-// no depth of its own.
-#include "passes/gbuffer/bytes.glsl"
-#include "passes/gbuffer/codes.glsl"
-#include "passes/gbuffer/compact/compact.shared.h"
-#include "passes/gbuffer/octahedron.glsl"
+// Writes layout F of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/compact/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
 
-uint compact_class(float metallic, uint lighting_model) {
-    if (lighting_model == model_unlit) return compact_unlit;
-    if (lighting_model == model_hair) return compact_hair;
-    return has_metals(lighting_model) && metallic >= 0.5 ? compact_metal : compact_dielectric;
-}
-
 void encode(MaterialPoint m) {
-    const uvec2 steps = uvec2(floor(clamp(to_octahedron(m.normal), -1.0, 1.0) * compact_normal_steps + 0.5) + compact_normal_steps);
-    const uint occlusion = uint(floor(clamp(m.occlusion, 0.0, 1.0) * compact_occlusion_steps + 0.5));
-    gbuffer0 = pack_bytes(steps.x | steps.y << 10 | occlusion << 20 | compact_class(m.metallic, m.lighting_model) << 30);
-    gbuffer1 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_compact(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
 }

@@ -1,10 +1,9 @@
-// Writes layout C of docs/algorithms/deferred.md 2.1: octahedral coordinates as half floats.
-#include "passes/gbuffer/half_depth.glsl"
-#include "passes/gbuffer/octahedron.glsl"
+// Writes layout C of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/oct_half/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
 
 void encode(MaterialPoint m) {
-    gbuffer0 = vec4(nearest_half(to_octahedron(m.normal)), pack_half_depth(m.position.z),
-                    pack_material(m.occlusion, m.metallic, m.lighting_model));
-    gbuffer1 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_oct_half(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
 }

@@ -1,27 +1,9 @@
-// Writes layout D of docs/algorithms/deferred.md 2.1 (Cigolle et al., A Survey of Efficient Representations for Independent Unit
-// Vectors, 2014).
-#include "passes/gbuffer/codes.glsl"
-#include "passes/gbuffer/octahedral/octahedral.shared.h"
-#include "passes/gbuffer/octahedron.glsl"
+// Writes layout D of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/octahedral/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
-#include "passes/shaders/scene.glsl"
-
-float octahedral_code(float p) {
-    return half_of_code(uint(floor(clamp(p, -1.0, 1.0) * octahedral_center + 0.5) + octahedral_center));
-}
-
-vec2 pack_normal(vec3 n) {
-    const vec2 p = to_octahedron(n);
-    return vec2(octahedral_code(p.x), octahedral_code(p.y));
-}
-
-// z is extrapolated to the pixel's center and may lie before the near plane, or behind the eye.
-float pack_depth(float z) {
-    const float share = log2(max(z / view.near, 1.0)) / log2(octahedral_far_over_near);
-    return half_of_code(uint(floor(min(share, 1.0) * octahedral_depth_steps + 0.5)));
-}
 
 void encode(MaterialPoint m) {
-    gbuffer0 = vec4(pack_normal(m.normal), pack_depth(m.position.z), pack_material(m.occlusion, m.metallic, m.lighting_model));
-    gbuffer1 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_octahedral(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
 }

@@ -1,14 +1,9 @@
-// Writes layout B of docs/algorithms/deferred.md 2.1 (Lobanchikov and Gruen, S.T.A.L.K.E.R.: Clear Sky, 2009).
-#include "passes/gbuffer/half_depth.glsl"
+// Writes layout B of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/packed/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
 
-vec2 pack_normal(vec3 n) {
-    const vec2 q = 0.5 * n.xy + 0.5;
-    const float x = nearest_half(q.x);
-    return vec2(n.z < 0.0 ? -x : x, nearest_half(q.y));
-}
-
 void encode(MaterialPoint m) {
-    gbuffer0 = vec4(pack_normal(m.normal), pack_half_depth(m.position.z), pack_material(m.occlusion, m.metallic, m.lighting_model));
-    gbuffer1 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_packed(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
 }

@@ -1,19 +1,12 @@
-// Writes layout A of docs/algorithms/deferred.md 2.1 (Lobanchikov and Gruen, S.T.A.L.K.E.R.: Clear Sky, 2009: the layout before it
-// was optimized).
-#include "passes/gbuffer/half_depth.glsl"
+// Writes layout A of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/wide/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
-#include "passes/gbuffer/wide/wide.shared.h"
 
 layout(location = 3) out vec4 gbuffer2;
 
-float pack_wide_material(float metallic, uint lighting_model) {
-    const uint step = uint(floor(clamp(metallic, 0.0, 1.0) * float(wide_metallic_steps - 1u) + 0.5));
-    return half_of_code(lighting_model * wide_metallic_steps + step);
-}
-
 void encode(MaterialPoint m) {
-    const vec3 position = vec3(nearest_half(m.position.xy), pack_half_depth(m.position.z));
-    gbuffer0 = vec4(position, pack_wide_material(m.metallic, m.lighting_model));
-    gbuffer1 = vec4(nearest_half(m.normal), nearest_half(clamp(m.occlusion, 0.0, 1.0)));
-    gbuffer2 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_wide(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
+    gbuffer2 = words.g2;
 }

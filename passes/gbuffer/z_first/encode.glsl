@@ -1,14 +1,9 @@
-// Writes layout B' of docs/algorithms/deferred.md 2.1: the packing that the X-Ray engine had later.
-#include "passes/gbuffer/half_depth.glsl"
+// Writes layout B' of docs/algorithms/deferred.md 2.1, as pack.glsl packs it.
+#include "passes/gbuffer/z_first/pack.glsl"
 #include "passes/gbuffer/targets.glsl"
 
-vec2 pack_normal(vec3 n) {
-    const float x = nearest_half(0.5 * n.x + 0.5);
-    return vec2(nearest_half(n.z), n.y < 0.0 ? -x : x);
-}
-
 void encode(MaterialPoint m) {
-    gbuffer0 =
-        vec4(pack_normal(m.normal), pack_half_depth(m.position.z), pack_material(m.occlusion, m.metallic, m.lighting_model));
-    gbuffer1 = pack_color(m.base_color, m.roughness);
+    const GBufferWords words = pack_z_first(m);
+    gbuffer0 = words.g0;
+    gbuffer1 = words.g1;
 }

@@ -1,0 +1,68 @@
+#include "passes/rain/truth.h"
+
+#include <tbb/parallel_for.h>
+
+#include "passes/rain/formulas.h"
+#include "passes/rain/look.h"
+#include "passes/reference/decoded.h"
+#include "passes/reference/directions.h"
+#include "passes/reference/rays.h"
+
+namespace strata {
+namespace {
+
+// Farther than anything casts: of a scene in metres.
+constexpr double above_everything = 1e6;
+
+/// Calls visit(texel, surface) for every surface of the images before the stage; rows run in parallel.
+template <typename Visit>
+void for_every_surface(const StageInput& input, const Visit& visit) {
+    const ReferenceImage &normal = input.before.at("surface_normal"), &color = input.before.at("surface_color"),
+                         &material = input.before.at("surface_material");
+    tbb::parallel_for(0u, normal.height * normal.layers, [&](std::uint32_t row) {
+        for (std::uint32_t x = 0; x < normal.width; ++x) {
+            const std::size_t i = std::size_t(row) * normal.width + x;
+            if (normal.texels[i].w <= 0) continue;
+            const DecodedTexels texels{normal.texels[i], color.texels[i], material.texels[i]};
+            visit(i, decoded_surface(input.frame, texels, x, row % normal.height));
+        }
+    });
+}
+
+ImageSet wet_images(const StageInput& input, const rain::Look& look) {
+    if (!input.before.contains("surface_normal")) return {};
+    const ReferenceImage arriving = rain::traced_rain(input);
+    ImageSet images{{"surface_color", input.before.at("surface_color")},
+                    {"surface_normal", input.before.at("surface_normal")},
+                    {"surface_material", input.before.at("surface_material")}};
+    for_every_surface(input, [&](std::size_t i, const SurfacePoint& dry) {
+        const SurfacePoint wet = rain::wet_surface(input.frame, dry, look, arriving.texels[i].x);
+        images.at("surface_color").texels[i] = glm::dvec4(wet.base_color, wet.roughness);
+        images.at("surface_normal").texels[i] = glm::dvec4(wet.normal, images.at("surface_normal").texels[i].w);
+    });
+    return images;
+}
+
+}  // namespace
+
+namespace rain {
+
+ReferenceImage traced_rain(const StageInput& input) {
+    const RayScene scene(input.frame, RayMask::shadow_casters);
+    const glm::dvec3 towards = -(input.frame.view.to_view * glm::dvec3(input.frame.rain.direction));
+    const ReferenceImage& shape = input.before.at("surface_normal");
+    ReferenceImage arriving(shape.width, shape.height, shape.layers);
+    for_every_surface(input, [&](std::size_t i, const SurfacePoint& p) {
+        const glm::dvec3 start = ray_start(p.position, facing_normal(p));
+        arriving.texels[i].x = scene.clear(start, towards, 0, above_everything) ? 1 : 0;
+    });
+    return arriving;
+}
+
+}  // namespace rain
+
+ImageSet rain_truth(const StageInput& input) { return wet_images(input, {}); }
+
+ImageSet xray_rain_truth(const StageInput& input) { return wet_images(input, {.form = rain::form_xray}); }
+
+}  // namespace strata

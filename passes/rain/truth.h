@@ -1,0 +1,20 @@
+// The wet surface under every sample: what the formulas give where rain is traced.
+#pragma once
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// surface_color, surface_normal and surface_material. Rain arrives at a sample where no caster lies on the one ray that runs
+/// from it against the rain's direction: 0 or 1, at any distance. Waves are as high however small they are on the screen.
+ImageSet rain_truth(const StageInput&);
+/// The same with wet_form=xray.
+ImageSet xray_rain_truth(const StageInput&);
+
+namespace rain {
+
+/// Whether rain arrives at every sample, from 0 to 1; 0 where there is no surface.
+ReferenceImage traced_rain(const StageInput&);
+
+}  // namespace rain
+}  // namespace strata

@@ -1,0 +1,30 @@
+// Where the rain map lies: a parallel view along the rain, around what the eye sees up to the reach.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+#include "passes/scene/draw_bounds.h"
+
+namespace strata::rain {
+
+struct RainMapShape {
+    std::uint32_t size = 1024;  ///< texels a side
+    double radius = 2;          ///< of lookups, in texels
+    double reach = 40;          ///< metres of view depth
+};
+
+/// Of a view-space point (p, 1): texels along both axes, and depth, 1 before all casters and 0 behind them.
+struct RainMap {
+    glm::dvec4 u{0}, v{0}, depth{0};
+    double texel = 0;  ///< metres: the same wherever the eye is and looks
+    double range = 0;  ///< metres of depth from 1 to 0
+};
+
+/// Moves in steps of one texel of a grid fixed in the world.
+RainMap rain_map(const Frame&, std::span<const BoundingSphere> casters, const RainMapShape&);
+
+}  // namespace strata::rain

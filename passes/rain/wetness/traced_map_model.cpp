@@ -1,0 +1,81 @@
+#include "passes/rain/wetness/traced_map_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::rain {
+namespace {
+
+// Metres against the rain from which rays begin: above anything that casts.
+constexpr double above = 1e5;
+// Where nothing lies.
+constexpr double nothing = 1e9;
+// Positions snap to 1/256 texel in x and y when the device rasterizes.
+constexpr double snap = 1.5 / 256;
+
+Frame with_casters(Frame frame, std::uint32_t casters) {
+    if (casters == casters_fixed)
+        for (Draw& draw : frame.draws) draw.casts_shadow = draw.casts_shadow && draw.mobility == Mobility::fixed;
+    return frame;
+}
+
+/// Radius and depth of the smallest sphere on the view axis around the corners of the view at the reach and the eye.
+glm::dvec2 sphere_around_view(const View& view, double reach) {
+    const double x = (1 + std::abs(double(view.projection[2][0]))) / std::abs(double(view.projection[0][0]));
+    const double y = (1 + std::abs(double(view.projection[2][1]))) / std::abs(double(view.projection[1][1]));
+    const double corner = reach * std::hypot(x, y);
+    // Equally far from eye and corner: z = (reach^2 + corner^2) / (2 reach).
+    const double middle = (reach * reach + corner * corner) / (2 * reach);
+    return middle < reach ? glm::dvec2(middle, middle) : glm::dvec2(corner, reach);
+}
+
+}  // namespace
+
+TracedMap::TracedMap(const Frame& frame, const WetnessParams& params)
+    : frame_(with_casters(frame, params.casters)), scene_(frame_, RayMask::shadow_casters), size_(64u << params.map_size) {
+    const View& view = frame_.view;
+    const glm::dvec2 sphere = sphere_around_view(view, double(params.reach));
+    const double margin = std::min(2 * double(params.radius) + 3, size_ / 4.0);
+    texel_ = 2 * sphere.x / (size_ - 2 * margin);
+    const glm::dvec3 along = glm::normalize(glm::dvec3(frame_.rain.direction));
+    const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, along)), v = glm::cross(along, u);
+    const glm::dvec3 center = view.origin + glm::transpose(view.to_view) * glm::dvec3(0, 0, sphere.y);
+    const auto corner = [&](const glm::dvec3& axis) {
+        const double on_grid = std::round(glm::dot(center, axis) / texel_) * texel_;
+        return on_grid - 0.5 * size_ * texel_ - glm::dot(view.origin, axis);
+    };
+    corner_ = {corner(u), corner(v)};
+    u_ = view.to_view * u;
+    v_ = view.to_view * v;
+    along_ = view.to_view * along;
+}
+
+glm::dvec3 TracedMap::place(const glm::dvec3& position) const {
+    return {(glm::dot(position, u_) - corner_.x) / texel_, (glm::dot(position, v_) - corner_.y) / texel_,
+            glm::dot(position, along_)};
+}
+
+const TracedMap::Depths& TracedMap::depths(glm::ivec2 texel) const {
+    const auto [found, is_new] =
+        known_.try_emplace(static_cast<std::uint32_t>(texel.y) * size_ + static_cast<std::uint32_t>(texel.x));
+    if (!is_new) return found->second;
+    Depths seen{nothing, -nothing};
+    for (const glm::dvec2 aside :
+         {glm::dvec2(0, 0), glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
+        const glm::dvec2 at = corner_ + (glm::dvec2(texel) + 0.5 + aside * snap) * texel_;
+        const auto hit = scene_.closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
+        const double depth = hit ? hit->distance - above : nothing;
+        seen = {std::min(seen.least, depth), std::max(seen.most, depth)};
+    }
+    return found->second = seen;
+}
+
+Reached TracedMap::is_reached(glm::ivec2 texel, double depth, double doubt) const {
+    if (std::min(texel.x, texel.y) < 0 || std::max(texel.x, texel.y) >= static_cast<int>(size_)) return {};
+    const Depths& seen = depths(texel);
+    const bool surely_open = depth <= seen.least - doubt, surely_closed = depth > seen.most + doubt;
+    return {.open = depth <= 0.5 * (seen.least + seen.most), .undecided = !surely_open && !surely_closed};
+}
+
+}  // namespace strata::rain

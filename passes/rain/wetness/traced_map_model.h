@@ -1,0 +1,48 @@
+// The rain map in double: each texel that is asked for is a ray along the rain.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include <glm/glm.hpp>
+
+#include "capture_format/frame.h"
+#include "passes/rain/wetness/wetness.shared.h"
+#include "passes/reference/rays.h"
+
+namespace strata::rain {
+
+/// What a comparison with the map says, and whether rounding may say otherwise.
+struct Reached {
+    bool open = true, undecided = false;
+};
+
+class TracedMap {
+public:
+    TracedMap(const Frame&, const WetnessParams&);
+    TracedMap(const TracedMap&) = delete;
+
+    std::uint32_t size() const { return size_; }
+    double texel() const { return texel_; }  ///< metres
+    /// Texels along both axes and metres along the rain, of a view-space position.
+    glm::dvec3 place(const glm::dvec3& position) const;
+    /// Whether nothing lies above this depth, in metres along the rain, in the texel's middle.
+    Reached is_reached(glm::ivec2 texel, double depth, double doubt) const;
+
+private:
+    /// Of the nearest caster, at the texel's middle or where rasterizing may move it to.
+    struct Depths {
+        double least = 0, most = 0;
+    };
+    const Depths& depths(glm::ivec2 texel) const;
+
+    Frame frame_;  ///< with the casters that count
+    RayScene scene_;
+    std::uint32_t size_;
+    double texel_ = 0;
+    glm::dvec3 u_, v_, along_;  ///< view space
+    glm::dvec2 corner_{0};      ///< metres along u and v of the map's corner, from the eye
+    mutable std::unordered_map<std::uint32_t, Depths> known_;
+};
+
+}  // namespace strata::rain

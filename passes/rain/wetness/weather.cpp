@@ -1,0 +1,40 @@
+#include "passes/rain/wetness/weather.h"
+
+#include <cmath>
+
+namespace strata::rain {
+namespace {
+
+std::uint32_t wrapped(double whole) {
+    const double rest = std::fmod(whole, 0x1p32);
+    return static_cast<std::uint32_t>(rest < 0 ? rest + 0x1p32 : rest);
+}
+
+}  // namespace
+
+Turns turns_of(double time, double rate) {
+    const double turns = time * rate, whole = std::floor(turns);
+    return {wrapped(whole), static_cast<float>(turns - whole)};
+}
+
+WetnessPush weather_push(const Frame& frame, const RainMap& map, const WetnessParams& params) {
+    constexpr double cube = 4;  // metres
+    const glm::dvec3 whole = glm::floor(frame.view.origin / cube);
+    const Turns rings = turns_of(frame.time, double(ring_rate)), flow = turns_of(frame.time, double(flow_rate));
+    const glm::dvec4 biased = map.depth + glm::dvec4(0, 0, 0, double(params.bias) / map.range);
+    return {.map_u = glm::vec4(map.u),
+            .map_v = glm::vec4(map.v),
+            .map_depth = glm::vec4(biased),
+            .towards_rain = glm::vec3(-(frame.view.to_view * glm::dvec3(frame.rain.direction))),
+            .texel = static_cast<float>(map.texel),
+            .cubes = {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)},
+            .place = glm::vec3(frame.view.origin - cube * whole),
+            .ring_turns = rings.whole,
+            .ring_phase = rings.rest,
+            .flow_turns = flow.whole,
+            .flow_phase = flow.rest,
+            .wetness = frame.rain.wetness,
+            .intensity = frame.rain.intensity};
+}
+
+}  // namespace strata::rain
