@@ -68,6 +68,8 @@ Frame far_wall(std::uint32_t frame, const ScenarioOptions&);
 Frame crossing_planes(std::uint32_t frame, const ScenarioOptions&);
 // corners.cpp
 Frame corners(std::uint32_t frame, const ScenarioOptions&);
+// lamp_at_night.cpp
+Frame lamp_at_night(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);
