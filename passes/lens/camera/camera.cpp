@@ -44,7 +44,7 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
         wanted.has(Feature::depth_of_field) || wanted.has(Feature::lens_distortion) || wanted.has(Feature::bloom);
     if (!wants_color || frame.color != found) return;
     // Every effect is switched off: the stage still has a result, which is compared with its truth.
-    Image kept = graph.create("color as it was", graph.shape(found));
+    Image kept = graph.create("color", graph.shape(found));
     graph.copy(found, kept);
     frame.color = kept;
 }
@@ -84,7 +84,7 @@ std::vector<Param> params() {
                                    .help = "blur: layered gather by a thin lens, X-Ray's 12 taps as published, or off",
                                    .choices = focuses}),
         param<&LensParams::focus_taps>({.name = "focus_taps",
-                                        .fallback = focus_taps_64,
+                                        .fallback = focus_taps_128,
                                         .help = "taps per sample (focus=gather); more: less noise, in proportion to time",
                                         .choices = tap_counts}),
         param<&LensParams::focus_reach>({.name = "focus_reach",
@@ -110,9 +110,9 @@ Claims claims() {
         return TimeRatio{.name = name, .of = of, .against = against, .steps = {part}, .scenario = "lamp_at_night"};
     };
     return {.ratios = {ratio("bloom: pyramid, against X-Ray's at 256x256", "", "bloom=xray", "lens/bloom"),
-                       ratio("depth of field: 64 taps, against 16", "", "focus_taps=16", "lens/depth_of_field"),
-                       ratio("depth of field: 256 taps, against 64", "focus_taps=256", "", "lens/depth_of_field"),
-                       ratio("depth of field: 64 taps, against X-Ray's 12", "", "focus=xray", "lens/depth_of_field")}};
+                       ratio("depth of field: 64 taps, against 16", "focus_taps=64", "focus_taps=16", "lens/depth_of_field"),
+                       ratio("depth of field: 128 taps, against 64", "", "focus_taps=64", "lens/depth_of_field"),
+                       ratio("depth of field: 128 taps, against X-Ray's 12", "", "focus=xray", "lens/depth_of_field")}};
 }
 
 }  // namespace
@@ -129,8 +129,8 @@ Technique camera() {
                 "behind a blurred surface is guessed from beside it.",
             .params = params(),
             .points = {"exposure=xray", "exposure=off", "exposure_amount=1 exposure_grey=0.2", "bloom=xray", "bloom=off",
-                       "bloom_reach=0.03", "focus=xray", "focus=off", "focus_taps=16", "focus_taps=256", "focus_reach=0.03",
-                       "distortion=off", "k1=-0.2", "bloom=off focus=off distortion=off",
+                       "bloom_reach=0.03", "focus=xray", "focus=off", "focus_taps=16", "focus_taps=64", "focus_taps=256",
+                       "focus_reach=0.03", "distortion=off", "k1=-0.2", "bloom=off focus=off distortion=off",
                        "exposure=xray bloom=xray focus=xray distortion=off"},
             .abilities = {.is_time_unit = true},
             .claims = claims(),

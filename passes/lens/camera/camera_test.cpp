@@ -54,7 +54,7 @@ TEST(Lens, BlursThenBendsThenGlows) {
 
 TEST(Lens, HandsOnWhatItFoundWhereAllIsSwitchedOff) {
     EXPECT_EQ(steps_for({.bloom = 1, .auto_exposure = true}, {{"bloom", "off"}, {"exposure", "off"}}),
-              (Names{"clear exposure", "copy color to color as it was"}));
+              (Names{"clear exposure", "copy color to color"}));
 }
 
 TEST(Lens, GlowsByTheExposureThatItFound) {

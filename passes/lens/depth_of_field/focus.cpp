@@ -43,7 +43,7 @@ Image reach_of(Graph& graph, const FrameImages& frame, const BlurPush& push) {
 void blur_by_depth(Graph& graph, FrameImages& frame, const LensParams& params) {
     const BlurPush push = push_of(frame, params);
     const Extent threads{frame.extent.width, frame.extent.height, frame.samples};
-    Image blurred = graph.create("focused color", graph.shape(frame.color));
+    Image blurred = graph.create("color", graph.shape(frame.color));
     if (params.focus == focus_gather) {
         const Image spread = reach_of(graph, frame, push);
         read_samples(graph.compute("lens/depth_of_field/gather.comp"), frame)

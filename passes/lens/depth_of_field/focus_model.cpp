@@ -106,7 +106,7 @@ private:
         for (std::size_t to = 0; to < own.size(); ++to)
             for (std::size_t from = 0; from < own.size(); ++from) {
                 const auto gap = [](std::size_t a, std::size_t b) {
-                    return a == b ? 0. : (std::max(a, b) - std::min(a, b) - 1) * 8. + 1;
+                    return a == b ? 0. : 8 * (double(std::max(a, b)) - double(std::min(a, b)) - 1) + 1;
                 };
                 const double apart = std::hypot(gap(to % across, from % across), gap(to / across, from / across));
                 if (own[from] + 1 >= apart) reach[to] = std::max(reach[to], own[from]);

@@ -6,7 +6,7 @@
 namespace strata::lens {
 
 /// The mean of pictures seen from `places` points of the lens, evenly over its disc. From each, a sample moves by its blur times
-/// the place's offset and hides what is farther; where nothing falls, what lies beside it and farther away goes on. What the
+/// the place's offset and hides what is farther; where nothing falls, the farther of what lies beside the gap goes on. What the
 /// picture hides is not known to it.
 ReferenceImage seen_through_lens(const StageInput&, const ReferenceImage& color, std::uint32_t places = 256);
 

@@ -11,7 +11,7 @@ double radial_scale(double k1, double width, double height) {
 }
 
 void distort(Graph& graph, FrameImages& frame, const LensParams& params) {
-    Image distorted = graph.create("distorted color", graph.shape(frame.color));
+    Image distorted = graph.create("color", graph.shape(frame.color));
     const double scale = radial_scale(double(params.k1), frame.extent.width, frame.extent.height);
     graph.compute("lens/distortion/radial.comp")
         .samples("color", frame.color)
