@@ -1,6 +1,6 @@
 #include "passes/film/truth.h"
 
-#include "passes/film/formulas.h"
+#include "passes/film/grain_model.h"
 
 namespace strata {
 

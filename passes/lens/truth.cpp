@@ -2,7 +2,7 @@
 
 #include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/bloom/scattered.h"
-#include "passes/lens/depth_of_field/lens_truth.h"
+#include "passes/lens/depth_of_field/truth.h"
 #include "passes/lens/distortion/radial_model.h"
 #include "passes/lens/exposure/exposure_model.h"
 

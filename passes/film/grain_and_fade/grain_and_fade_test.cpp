@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/film/formulas.h"
+#include "passes/film/grain_model.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
 

@@ -1,8 +1,8 @@
 // The same in double. Noise is a bit pattern, so the model repeats the shader's: grain_and_fade_test.cpp tests what it must be.
 #include <cmath>
 
-#include "passes/film/formulas.h"
 #include "passes/film/grain_and_fade/grain_and_fade.shared.h"
+#include "passes/film/grain_model.h"
 #include "passes/technique.h"
 
 namespace strata::film {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/lens/depth_of_field/focus_model.h"
-#include "passes/lens/depth_of_field/lens_truth.h"
+#include "passes/lens/depth_of_field/truth.h"
 #include "passes/lens/depth_of_field/xray_model.h"
 #include "tests/support/one_pixel.h"
 

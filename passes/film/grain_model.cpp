@@ -1,4 +1,4 @@
-#include "passes/film/formulas.h"
+#include "passes/film/grain_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "passes/lens/depth_of_field/lens_truth.h"
+#include "passes/lens/depth_of_field/truth.h"
 
 #include <algorithm>
 #include <cmath>
