@@ -156,6 +156,23 @@ TEST(LensAndFilm, OnePixelThatIsNoNumberStaysAlone) {
     }
 }
 
+TEST(LensAndFilm, ForcedOnAFrameWithoutThemChangeNothing) {
+    auto frames = scenario_frames("lamp_at_night");
+    frames[0].lens = {};
+    frames[0].film = {};
+    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto plain = must(session->run(wanting({"color", "display"})));
+    Request request = wanting({"color", "display"});
+    for (const Feature feature :
+         {Feature::bloom, Feature::auto_exposure, Feature::depth_of_field, Feature::lens_distortion, Feature::grain})
+        request.variant.force.push_back(feature);
+    const auto forced = must(session->run(request));
+    EXPECT_GT(steps_of(forced, "lens/camera"), 5u);
+    EXPECT_GE(steps_of(forced, "film/grain_and_fade"), 1u);
+    for (const char* image : {"color", "display"})
+        EXPECT_EQ(forced.images.at(image).texels, plain.images.at(image).texels) << image;
+}
+
 TEST(LensAndFilm, FadesWhatCombiningDeveloped) {
     auto frames = scenario_frames("lamp_at_night");
     frames[0].lens = {};

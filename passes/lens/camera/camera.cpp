@@ -20,15 +20,23 @@ constexpr auto tap_counts =
     choice_names({{focus_taps_16, "16"}, {focus_taps_64, "64"}, {focus_taps_128, "128"}, {focus_taps_256, "256"}});
 constexpr auto distortions = choice_names({{distortion_radial, "radial"}, {distortion_off, "off"}});
 
+/// A feature may be forced on a frame that does not record it: then nothing may change.
+bool adapts(const FrameImages& frame, const LensParams& params) {
+    return frame.recorded->lens.auto_exposure && params.exposure != exposure_off;
+}
+
 /// Exposure goes on from the frame before: what that left is read before the stage, so that the stage's input says it.
 void recall(Graph& graph, FrameImages& frame, const Settings& settings) {
-    if (frame.features->has(Feature::auto_exposure) && settings.as<LensParams>().exposure != exposure_off)
-        recall_exposure(graph, frame);
+    if (adapts(frame, settings.as<LensParams>())) recall_exposure(graph, frame);
 }
 
 void expose(Graph& graph, FrameImages& frame, const LensParams& params) {
-    if (params.exposure == exposure_off) keep_exposure(graph, frame);
-    else adapt_exposure(graph, frame, params);
+    if (adapts(frame, params)) adapt_exposure(graph, frame, params);
+    else keep_exposure(graph, frame);
+}
+
+bool distorts(const FrameImages& frame, const LensParams& params) {
+    return frame.recorded->lens.distortion && params.distortion != distortion_off && params.k1 != 0;
 }
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -37,8 +45,7 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const Image found = frame.color;
     if (wanted.has(Feature::auto_exposure)) expose(graph, frame, params);
     if (wanted.has(Feature::depth_of_field) && params.focus != focus_off) blur_by_depth(graph, frame, params);
-    if (wanted.has(Feature::lens_distortion) && params.distortion != distortion_off && params.k1 != 0)
-        distort(graph, frame, params);
+    if (distorts(frame, params)) distort(graph, frame, params);
     if (wanted.has(Feature::bloom) && params.bloom != bloom_off) add_bloom(graph, frame, params);
     const bool wants_color =
         wanted.has(Feature::depth_of_field) || wanted.has(Feature::lens_distortion) || wanted.has(Feature::bloom);

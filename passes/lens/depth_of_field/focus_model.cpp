@@ -125,7 +125,7 @@ private:
         const double density = half_taps / pi * (1 / (discs.outer * discs.outer) + in_inner / (discs.inner * discs.inner));
         const double thrown = std::clamp(std::abs(blur) - away + .5, 0., 1.) / disc_area(blur) / density;
         if (deeper < 0) before.add(color.texels[tap], std::min(-deeper, 1.) * thrown);
-        if (deeper > 0) behind.add(color.texels[tap], std::min(deeper, 1.) * in_inner / density);
+        if (deeper > 0) behind.add(color.texels[tap], std::min(deeper, 1.) * in_inner / density / (away * away));
         on.add(color.texels[tap], std::max(0., 1 - std::abs(deeper)) * thrown);
     }
 

@@ -47,7 +47,9 @@ void add_tap(Center c, vec2 offset, inout Layers layers) {
     const float thrown = pixels * clamp(abs(blur) - away + 0.5, 0.0, 1.0) / disc_area(blur);
     layers.before += before * thrown * vec4(radiance, 1.0);
     layers.on += (1.0 - before - behind) * thrown * vec4(radiance, 1.0);
-    layers.behind += behind * pixels * clamp(c.inner - away + 0.5, 0.0, 1.0) * vec4(radiance, 1.0);
+    // What is nearest to the surface's border stands for what it hides.
+    const float near_by = pixels * clamp(c.inner - away + 0.5, 0.0, 1.0) / (away * away);
+    layers.behind += behind * near_by * vec4(radiance, 1.0);
 }
 
 Layers gathered(Center c) {
