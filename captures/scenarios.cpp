@@ -97,6 +97,8 @@ constexpr auto scenario_table = std::to_array<Scenario>({
      54, scenario::night_market},
     {"beams", "Do beams of sunlight in foggy air begin and end where a roof with holes lets them?", 64, 36, scenario::beams},
     {"roof_in_rain", "Does everything get wet that rain reaches, and nothing under a roof?", 64, 36, scenario::roof_in_rain},
+    {"lamp_at_night", "Does a lens blur, bend, expose and glow as it should, and keep what is in focus sharp?", 64, 36,
+     scenario::lamp_at_night},
     // The scenes of two public demonstrations, at the extents that times are published for.
     {"spheres_125", "What do five spheres in a row cost, of which only front faces are seen?", 640, 360, scenario::spheres_125},
     {"spheres_1024", "What do a thousand small spheres cost where several lie over every pixel?", 480, 360,

@@ -82,6 +82,8 @@ Frame night_market(std::uint32_t frame, const ScenarioOptions&);
 Frame beams(std::uint32_t frame, const ScenarioOptions&);
 // roof_in_rain.cpp
 Frame roof_in_rain(std::uint32_t frame, const ScenarioOptions&);
+// lamp_at_night.cpp
+Frame lamp_at_night(std::uint32_t frame, const ScenarioOptions&);
 // spheres.cpp
 Frame spheres_125(std::uint32_t frame, const ScenarioOptions&);
 Frame spheres_1024(std::uint32_t frame, const ScenarioOptions&);

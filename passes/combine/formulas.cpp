@@ -45,14 +45,23 @@ double tone_mapped(double exposed, double white) {
     return x * (1 + x / (white * white)) / (1 + x);
 }
 
-glm::dvec3 developed(const Frame& frame, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+double exposure_of(const StageInput& input) {
+    const auto factor = input.before.find("exposure");
+    const double recorded = input.frame.view.exposure;
+    return factor == input.before.end() ? recorded : recorded * factor->second.at(0, 0).x;
+}
+
+glm::dvec3 developed(const StageInput& input, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+    const double exposure = exposure_of(input), white = input.frame.film.white;
     glm::dvec3 sum(0);
     for (std::uint32_t sample = 0; sample < color.layers; ++sample)
-        for (int c = 0; c < 3; ++c)
-            sum[c] += tone_mapped(color.at(x, y, sample)[c] * double(frame.view.exposure), double(frame.film.white));
+        for (int c = 0; c < 3; ++c) sum[c] += tone_mapped(color.at(x, y, sample)[c] * exposure, white);
     return sum / double(color.layers);
 }
 
-bool is_drawn_over(const Frame& frame) { return !transparent_draws(frame).empty(); }
+bool is_drawn_over(const Frame& frame) {
+    const Lens& lens = frame.lens;
+    return !transparent_draws(frame).empty() || lens.bloom > 0 || lens.aperture > 0 || lens.distortion;
+}
 
 }  // namespace strata::combine

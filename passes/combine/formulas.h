@@ -16,10 +16,13 @@ glm::dvec3 composed(const StageInput&, const ComposedSample&);
 /// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
 double tone_mapped(double exposed, double white);
 
-/// Display light of a pixel: its samples exposed and tone mapped, then averaged (docs/algorithms/deferred.md 3.5).
-glm::dvec3 developed(const Frame&, const ReferenceImage& color, std::uint32_t x, std::uint32_t y);
+/// From radiance to exposed radiance: the recorded exposure times the factor that the lens found, where it adapts.
+double exposure_of(const StageInput&);
 
-/// Whether something is drawn over the combined color before it is developed.
+/// Display light of a pixel: its samples exposed and tone mapped, then averaged (docs/algorithms/deferred.md 3.5).
+glm::dvec3 developed(const StageInput&, const ReferenceImage& color, std::uint32_t x, std::uint32_t y);
+
+/// Whether something is drawn over the combined color, or a lens changes it, before it is developed.
 bool is_drawn_over(const Frame&);
 
 }  // namespace strata::combine

@@ -16,7 +16,7 @@ ImageSet combine_truth(const StageInput& input) {
     const ReferenceImage& final_color = drawn_over ? input.before.at("color") : color;
     for (std::uint32_t y = 0; y < view.height; ++y)
         for (std::uint32_t x = 0; x < view.width; ++x)
-            display.at(x, y) = glm::dvec4(combine::developed(input.frame, final_color, x, y), 1);
+            display.at(x, y) = glm::dvec4(combine::developed(input, final_color, x, y), 1);
     ImageSet images{{"display", display}};
     if (!drawn_over) images.emplace("color", color);
     return images;

@@ -1,4 +1,6 @@
 // The stage film: what it writes, and when a frame does not need it.
+#include "passes/film/judge.h"
+#include "passes/film/truth.h"
 #include "passes/stages.h"
 
 namespace strata::film {
@@ -11,6 +13,13 @@ std::optional<std::string> unwanted(const Features& features) {
 
 }  // namespace
 
-StageInfo stage() { return {.purpose = "adds grain and fading", .unwanted = unwanted, .outputs = {"display"}, .scenarios = {}}; }
+StageInfo stage() {
+    return {.purpose = "adds grain and fading",
+            .unwanted = unwanted,
+            .outputs = {"display"},
+            .truth = film_truth,
+            .judge = film_judge,
+            .scenarios = {"lamp_at_night"}};
+}
 
 }  // namespace strata::film

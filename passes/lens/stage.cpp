@@ -1,4 +1,6 @@
 // The stage lens: what it writes, and when a frame does not need it.
+#include "passes/lens/judge.h"
+#include "passes/lens/truth.h"
 #include "passes/stages.h"
 
 namespace strata::lens {
@@ -13,7 +15,13 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.purpose = "adds bloom, depth of field and distortion", .unwanted = unwanted, .outputs = {"color"}, .scenarios = {}};
+    return {.purpose = "adapts exposure, adds bloom, depth of field and distortion",
+            .unwanted = unwanted,
+            .outputs = {"color", "exposure"},
+            .truth = lens_truth,
+            .truth_is = "in double; 256 places of a thin lens over what the picture shows, a sum of Gaussians as glow",
+            .judge = lens_judge,
+            .scenarios = {"lamp_at_night"}};
 }
 
 }  // namespace strata::lens

@@ -61,14 +61,14 @@ DeclaredAct act(Graph& graph, FrameImages& images, const Choice& choice, const S
     return declared;
 }
 
-/// Every act in the order of the frame: a stage's own technique first, then what others do there.
+/// Every act in the order of the frame: what earlier stages finish there, the stage's own technique, what later ones prepare.
 std::vector<std::pair<const Choice*, StageWork>> acts_at(Stage stage, const Choices& wanted) {
     std::vector<std::pair<const Choice*, StageWork>> acts;
-    for (const auto& [own, choice] : wanted)
+    for (const auto& [own, choice] : wanted) {
         if (own == stage) acts.push_back({&choice, {stage, choice.technique->declare}});
-    for (const auto& [own, choice] : wanted)
         for (const StageWork& other : choice.technique->at_other_stages)
             if (other.at == stage) acts.push_back({&choice, other});
+    }
     return acts;
 }
 

@@ -7,11 +7,16 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 1) const uint resolve = resolve_tone_mapped;
+layout(constant_id = 2) const uint has_exposure = 0u;
 
 layout(set = 0, binding = 0) uniform sampler2DArray color;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2D display;
+layout(set = 0, binding = 2) uniform sampler2D exposure;  // a factor on the recorded one
 
-vec3 exposed(ivec2 pixel, int i) { return texelFetch(color, ivec3(pixel, i), 0).rgb * view.exposure; }
+vec3 exposed(ivec2 pixel, int i) {
+    const vec3 recorded = texelFetch(color, ivec3(pixel, i), 0).rgb * view.exposure;
+    return has_exposure != 0u ? recorded * texelFetch(exposure, ivec2(0), 0).r : recorded;
+}
 
 // Each sample by 1 / (1 + luminance), so that one of 100 weighs a hundredth of what it adds. Bounded, because an infinite sample
 // of no weight would add what is not a number.

@@ -40,8 +40,10 @@ void add_display(Graph& graph, FrameImages& frame, const Settings& settings) {
     frame.display = graph.create("display", {.extent = frame.extent, .format = Format::rgba16f});
     graph.compute("combine/hi_lo/film.comp")
         .samples("color", frame.color)
+        .samples("exposure", frame.exposure)
         .stores("display", frame.display)
         .fixes("resolve", resolve)
+        .fixes("has_exposure", frame.exposure ? 1u : 0u)
         .over(frame.extent);
 }
 

@@ -11,10 +11,11 @@ namespace strata::combine {
 namespace {
 
 /// The samples of a pixel, exposed and not negative.
-std::vector<glm::dvec3> exposed_samples(const Frame& frame, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+std::vector<glm::dvec3> exposed_samples(const StageInput& input, const ReferenceImage& color, std::uint32_t x, std::uint32_t y) {
+    const double exposure = exposure_of(input);
     std::vector<glm::dvec3> samples;
     for (std::uint32_t sample = 0; sample < color.layers; ++sample)
-        samples.emplace_back(glm::dvec3(color.at(x, y, sample)) * double(frame.view.exposure));
+        samples.emplace_back(glm::dvec3(color.at(x, y, sample)) * exposure);
     return samples;
 }
 
@@ -74,11 +75,11 @@ Quantized resolved_lo(const Frame& frame, std::span<const glm::dvec3> exposed) {
 
 Quantized display_at(const StageInput& input, const ReferenceImage& color, std::uint32_t x, std::uint32_t y,
                      std::uint32_t resolve) {
-    const std::vector<glm::dvec3> exposed = exposed_samples(input.frame, color, x, y);
+    const std::vector<glm::dvec3> exposed = exposed_samples(input, color, x, y);
     if (resolve == resolve_linear) return {curve(input.frame, mean(exposed))};
     if (resolve == resolve_weighted) return {curve(input.frame, weighted_mean(exposed))};
     if (resolve == resolve_lo_hi) return resolved_lo(input.frame, exposed);
-    return {developed(input.frame, color, x, y)};
+    return {developed(input, color, x, y)};
 }
 
 ReferenceImage combined(const StageInput& input) {

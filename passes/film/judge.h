@@ -1,0 +1,13 @@
+// How far a picture on film is from its truth.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// First the root mean square error of display light. Then how much brighter or darker the whole picture is: grain must not be.
+std::vector<Figure> film_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

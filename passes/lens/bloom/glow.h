@@ -1,0 +1,15 @@
+// Light that a lens scatters around what is bright (docs/algorithms/deferred.md 8.6).
+#pragma once
+
+#include "passes/frame_images.h"
+#include "passes/lens/lens.shared.h"
+
+namespace strata::lens {
+
+/// Halvings of the picture that make its widest glow about `reach` of its height in standard deviation; 1 to 12.
+std::uint32_t glow_levels(double reach, std::uint32_t height);
+
+/// Adds the glow of FrameImages::color to it, every sample of a pixel alike.
+void add_bloom(Graph&, FrameImages&, const LensParams&);
+
+}  // namespace strata::lens

@@ -1,0 +1,61 @@
+#include "passes/lens/depth_of_field/focus.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strata::lens {
+namespace {
+
+constexpr std::uint32_t tap_counts[] = {16, 64, 128, 256};  // focus_taps_* of lens.shared.h
+
+BlurPush push_of(const FrameImages& frame, const LensParams& params) {
+    const View& view = frame.recorded->view;
+    // The lens cannot focus on what is nearer than the picture begins.
+    const float focus = std::max(frame.recorded->lens.focus_distance, view.near);
+    if (params.focus == focus_xray) return {.scale = 0, .focus = std::min(focus, 0.5f * xray_far), .most = 0};
+    const float pixels = std::abs(view.projection[1][1]) * float(view.height) / 2;  // of a length of 1 at a depth of 1
+    return {.scale = frame.recorded->lens.aperture / 2 / focus * pixels,
+            .focus = focus,
+            .most = params.focus_reach * float(view.height)};
+}
+
+ComputePass read_samples(ComputePass pass, const FrameImages& frame) {
+    return pass.samples("color", frame.color)
+        .samples("depth_layers", frame.depth_layers)
+        .fixes("has_depth", frame.depth_layers ? 1u : 0u);
+}
+
+Image tiles_of(Graph& graph, const char* name, const FrameImages& frame) {
+    const auto tiles = [](std::uint32_t pixels) { return (pixels + blur_tile - 1) / blur_tile; };
+    return graph.create(name, {.extent = {tiles(frame.extent.width), tiles(frame.extent.height)}, .format = Format::r32f});
+}
+
+Image reach_of(Graph& graph, const FrameImages& frame, const BlurPush& push) {
+    Image reach = tiles_of(graph, "blur of tiles", frame), spread = tiles_of(graph, "blur that reaches tiles", frame);
+    const Extent tiles = graph.shape(reach).extent;
+    read_samples(graph.compute("lens/depth_of_field/reach.comp"), frame).stores("reach", reach).push(push).groups(tiles);
+    graph.compute("lens/depth_of_field/spread.comp").samples("reach", reach).stores("spread", spread).push(push).over(tiles);
+    return spread;
+}
+
+}  // namespace
+
+void blur_by_depth(Graph& graph, FrameImages& frame, const LensParams& params) {
+    const BlurPush push = push_of(frame, params);
+    const Extent threads{frame.extent.width, frame.extent.height, frame.samples};
+    Image blurred = graph.create("color", graph.shape(frame.color));
+    if (params.focus == focus_gather) {
+        const Image spread = reach_of(graph, frame, push);
+        read_samples(graph.compute("lens/depth_of_field/gather.comp"), frame)
+            .samples("spread", spread)
+            .stores("blurred", blurred)
+            .fixes("taps", tap_counts[params.focus_taps])
+            .push(push)
+            .over(threads);
+    } else {
+        read_samples(graph.compute("lens/depth_of_field/xray.comp"), frame).stores("blurred", blurred).push(push).over(threads);
+    }
+    frame.color = blurred;
+}
+
+}  // namespace strata::lens

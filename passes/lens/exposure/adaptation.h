@@ -1,0 +1,16 @@
+// Exposure that follows the picture over frames (docs/algorithms/deferred.md 8.5).
+#pragma once
+
+#include "passes/frame_images.h"
+#include "passes/lens/lens.shared.h"
+
+namespace strata::lens {
+
+/// Before the lens: FrameImages::exposure is what earlier frames left, as rgba32f (held.comp).
+void recall_exposure(Graph&, FrameImages&);
+/// Measures FrameImages::color and makes FrameImages::exposure the factor that this frame is shown with, one texel of r32f.
+void adapt_exposure(Graph&, FrameImages&, const LensParams&);
+/// A factor of 1.
+void keep_exposure(Graph&, FrameImages&);
+
+}  // namespace strata::lens

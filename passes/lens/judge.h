@@ -1,0 +1,14 @@
+// How far a picture through the lens is from its truth.
+#pragma once
+
+#include <vector>
+
+#include "passes/stages.h"
+
+namespace strata {
+
+/// First the root mean square error of display light, as this frame's exposure and tone curve show both. Then radiance, and the
+/// exposure's error in stops.
+std::vector<Figure> lens_judge(const ImageSet& result, const ImageSet& truth, const StageInput&);
+
+}  // namespace strata

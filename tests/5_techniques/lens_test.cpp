@@ -1,0 +1,185 @@
+// The lens and the film on the device: what a frame without them pays, what they leave as it is, exposure over frames.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "passes/lens/exposure/exposure_model.h"
+#include "tests/support/session.h"
+
+namespace strata {
+namespace {
+
+std::size_t steps_of(const Run& run, std::string_view technique) {
+    return std::size_t(
+        std::ranges::count_if(run.steps, [&](const StepRecord& step) { return step.scope.technique == technique; }));
+}
+
+/// Frames of lamp_at_night with another lens and no film, at these times.
+std::unique_ptr<Session> night(const Lens& lens, const std::vector<double>& times = {0}, std::uint32_t samples = 1) {
+    std::vector<Frame> frames;
+    for (const double time : times) {
+        frames.push_back(scenario_frames("lamp_at_night", samples).front());
+        frames.back().lens = lens;
+        frames.back().film = {};
+        frames.back().time = time;
+    }
+    return must(Session::open(std::move(frames), {.validation = true}));
+}
+
+Request wanting(std::vector<std::string> outputs, std::uint32_t frame = 0, const std::vector<std::string>& sets = {}) {
+    Request request{.choices = chosen({}, sets), .outputs = std::move(outputs)};
+    request.variant.frame = frame;
+    return request;
+}
+
+double exposure_of(Session& session, std::uint32_t frame, const std::vector<std::string>& sets = {}) {
+    return in_double(must(session.run(wanting({"exposure"}, frame, sets))).images.at("exposure")).at(0, 0).x;
+}
+
+ReferenceImage color_of(Session& session, const std::vector<std::string>& sets = {}) {
+    return in_double(must(session.run(wanting({"color"}, 0, sets))).images.at("color"));
+}
+
+constexpr Lens adapting{.auto_exposure = true, .exposure_speed = 2};
+
+}  // namespace
+
+TEST(LensAndFilm, AreLeftOutWhereAFrameHasNone) {
+    const auto run = must(night({})->run(wanting({"display"})));
+    EXPECT_EQ(steps_of(run, "lens/camera"), 0u);
+    EXPECT_EQ(steps_of(run, "film/grain_and_fade"), 0u);
+}
+
+/// T-PP-4, and what is off in an identity: no sample changes by a bit.
+TEST(LensAndFilm, AFocusedPictureKeepsItsBits) {
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const ReferenceImage pinhole = color_of(*night({}, {0}, samples));
+        const auto session = night({.bloom = 1, .focus_distance = 2.6f, .aperture = .004f, .distortion = true}, {0}, samples);
+        EXPECT_EQ(color_of(*session, {"bloom=off", "distortion=off"}).texels, pinhole.texels) << samples;
+        EXPECT_EQ(color_of(*session, {"bloom=off", "focus=off", "k1=0"}).texels, pinhole.texels) << samples;
+        EXPECT_NE(color_of(*session).texels, pinhole.texels);
+    }
+}
+
+TEST(LensAndFilm, WhatIsInFocusKeepsItsBitsBesideWhatIsNot) {
+    const ReferenceImage pinhole = color_of(*night({}));
+    const auto session = night({.focus_distance = 2.6f, .aperture = .25f});
+    const ReferenceImage blurred = color_of(*session);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < blurred.texels.size(); ++i) kept += blurred.texels[i] == pinhole.texels[i];
+    EXPECT_GT(kept, 200u) << "the lamp, the crate and the ground around them";
+    EXPECT_LT(kept, 1800u);
+}
+
+/// T-PP-3 on the device.
+TEST(LensAndFilm, AConstantPictureGlowsByItsStrength) {
+    std::vector<Frame> frames{scenario_frames("lamp_at_night").front()};
+    frames[0].draws.clear();
+    frames[0].lights.clear();
+    frames[0].background = glm::vec3(.5f);
+    frames[0].lens = {.bloom = .25f, .bloom_threshold = 0};
+    frames[0].film = {};
+    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    for (const glm::dvec4& texel : color_of(*session).texels) ASSERT_EQ(texel.x, .625);
+}
+
+TEST(LensAndFilm, ExposureFollowsTheTimeAndStartsAnewWhereItDoesNotGoOn) {
+    const auto session = night(adapting, {10, 10.25, 10.5, 9});
+    const Frame frame = scenario_frames("lamp_at_night").front();
+    const double luminance = *lens::measured_luminance(frame, color_of(*session), lens::exposure_exponential, 1);
+    const auto target = [&](double grey) { return lens::exposure_target(luminance, .7, grey); };
+    const std::string bright = "exposure_grey=2";
+    EXPECT_NEAR(exposure_of(*session, 0), target(1), 1e-4) << "a frame that is replayed again";
+    const double after_a_quarter = target(1) + (target(2) - target(1)) * (1 - std::exp(-.5));
+    EXPECT_NEAR(exposure_of(*session, 1, {bright}), after_a_quarter, 1e-4);
+    EXPECT_NEAR(exposure_of(*session, 2, {bright}), after_a_quarter + (target(2) - after_a_quarter) * (1 - std::exp(-.5)), 1e-4);
+    EXPECT_NEAR(exposure_of(*session, 3), target(1), 1e-4) << "back in time";
+    EXPECT_NEAR(exposure_of(*session, 2, {bright}), target(1) + (target(2) - target(1)) * (1 - std::exp(-3.)), 1e-4)
+        << "1.5 s in one step";
+}
+
+TEST(LensAndFilm, ExposureIsFoundByTheTimeAfterHoursToo) {
+    const double later = 1e6;
+    const auto early = night(adapting, {0, .004}), late = night(adapting, {later, later + .004});
+    for (Session* session : {early.get(), late.get()}) exposure_of(*session, 0);
+    EXPECT_NEAR(exposure_of(*early, 1, {"exposure_grey=2"}), exposure_of(*late, 1, {"exposure_grey=2"}), 1e-6);
+}
+
+/// The model starts from what the device held: judged in the middle of a sequence, at both forms.
+TEST(LensAndFilm, ExposureInASequenceIsWhatTheModelSays) {
+    for (const char* form : {"exposure=exponential", "exposure=xray"}) {
+        const auto session = night(adapting, {0, .1, .2});
+        exposure_of(*session, 0, {form});
+        exposure_of(*session, 1, {form, "exposure_grey=2"});
+        const Accuracy accuracy =
+            must(session->judge(wanting({"display"}, 2, {form, "exposure_grey=3"}), Stage::lens, Against::model));
+        EXPECT_EQ(accuracy.incomparable, "");
+        EXPECT_LT(accuracy.model_worst, 1e-5) << form;
+    }
+}
+
+/// T-DT-2: but for exposure, a frame does not know which frames came before.
+TEST(LensAndFilm, AFrameAloneIsItselfInASequenceButForExposure) {
+    const auto session = scenario_session("lamp_at_night", 1, 2);
+    const auto last_of = [&](const std::vector<std::uint32_t>& frames, const std::vector<std::string>& sets) {
+        session->forget_memo();
+        std::vector<std::byte> last;
+        for (const std::uint32_t frame : frames)
+            last = must(session->run(wanting({"display"}, frame, sets))).images.at("display").texels;
+        return last;
+    };
+    EXPECT_EQ(last_of({1}, {"exposure=off"}), last_of({0, 1}, {"exposure=off"}));
+    EXPECT_EQ(last_of({1}, {}), last_of({1, 1}, {})) << "T-DT-1";
+    EXPECT_EQ(last_of({1}, {"exposure=off"}), last_of({1, 1}, {"exposure=off"})) << "from the memo";
+    EXPECT_NE(last_of({1}, {}), last_of({0, 1}, {}));
+}
+
+/// T-PP-7: a pixel that is not a number stays where it is, or is gone.
+TEST(LensAndFilm, OnePixelThatIsNoNumberStaysAlone) {
+    const Lens all{
+        .bloom = .5f, .bloom_threshold = 0, .auto_exposure = true, .focus_distance = 2.6f, .aperture = .25f, .distortion = true};
+    const auto session = night(all);
+    const ReferenceImage plain = color_of(*night({}));
+    for (const double bad : {double(NAN), HUGE_VAL}) {
+        ReferenceImage given = plain;
+        given.at(20, 10) = glm::dvec4(bad, bad, bad, 1);
+        for (const std::vector<std::string>& sets : {std::vector<std::string>{}, {"focus=xray", "bloom=xray", "exposure=xray"}}) {
+            const auto run = must(session->run_from(wanting({"color", "exposure"}, 0, sets), Stage::combine, {{"color", given}}));
+            std::size_t not_finite = 0;
+            for (const glm::dvec4& texel : in_double(run.images.at("color")).texels) not_finite += !std::isfinite(texel.x);
+            EXPECT_LE(not_finite, 1u);
+            EXPECT_TRUE(std::isfinite(in_double(run.images.at("exposure")).at(0, 0).x));
+        }
+    }
+}
+
+TEST(LensAndFilm, ForcedOnAFrameWithoutThemChangeNothing) {
+    auto frames = scenario_frames("lamp_at_night");
+    frames[0].lens = {};
+    frames[0].film = {};
+    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto plain = must(session->run(wanting({"color", "display"})));
+    Request request = wanting({"color", "display"});
+    for (const Feature feature :
+         {Feature::bloom, Feature::auto_exposure, Feature::depth_of_field, Feature::lens_distortion, Feature::grain})
+        request.variant.force.push_back(feature);
+    const auto forced = must(session->run(request));
+    EXPECT_GT(steps_of(forced, "lens/camera"), 5u);
+    EXPECT_GE(steps_of(forced, "film/grain_and_fade"), 1u);
+    for (const char* image : {"color", "display"})
+        EXPECT_EQ(forced.images.at(image).texels, plain.images.at(image).texels) << image;
+}
+
+TEST(LensAndFilm, FadesWhatCombiningDeveloped) {
+    auto frames = scenario_frames("lamp_at_night");
+    frames[0].lens = {};
+    frames[0].film = {.fade = 1};
+    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    for (const glm::dvec4& texel : in_double(must(session->run(wanting({"display"}))).images.at("display")).texels)
+        ASSERT_EQ(glm::dvec3(texel), glm::dvec3(0));
+}
+
+}  // namespace strata
