@@ -24,7 +24,7 @@ StageInfo stage() {
                               .make = xray_rain_truth,
                               .is = "X-Ray's formulas in double, rain traced along its direction from every sample"}},
             .judge = rain_judge,
-            .scenarios = {"roof_in_rain"},
+            .scenarios = {"roof_in_rain", "zone_at_dusk"},
             // Readers of given surfaces do not read the layout.
             .leaves = {"gbuffer0", "gbuffer1", "gbuffer2"}};
 }

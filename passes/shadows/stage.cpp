@@ -19,7 +19,7 @@ StageInfo stage() {
             .outputs = {"visibility", "shadow_maps", "shadow_bounds"},
             .truth = shadows_truth,
             .judge = shadows_judge,
-            .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows"}};
+            .scenarios = {"sun_and_boxes", "spot_and_box", "soft_shadows", "tilted_ground", "thirty_boxes", "leaves"}};
 }
 
 }  // namespace strata::shadows

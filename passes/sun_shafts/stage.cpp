@@ -23,7 +23,7 @@ StageInfo stage() {
             .truth_is = "single scattering, integrated in double over exact shadow intervals of a point-like sun",
             .other_truths = other_sun_shafts_truths(),
             .judge = sun_shafts_judge,
-            .scenarios = {"beams"}};
+            .scenarios = {"beams", "hall_with_shafts"}};
 }
 
 }  // namespace strata::sun_shafts
