@@ -126,17 +126,32 @@ uint class_by_bounds(inout MapPoint p) {
 
 // --- the lookup -------------------------------------------------------------------------------------------------------------
 
-// Whether the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) of the map are lit. Quads are gathered at the corner that they
-// share: half a texel from where a device's rounding would choose another one (5.2).
-uvec4 are_lit(MapPoint p, ivec2 texel) {
-    const vec2 corner = vec2(p.corner.xy + texel + 1) / vec2(textureSize(shadow_maps, 0).xy);
-    const vec4 depth = textureGather(shadow_maps, vec3(corner, float(p.corner.z))).wzxy;
-    const vec4 receiver = vec4(plane_depth(p, texel), plane_depth(p, texel + ivec2(1, 0)), plane_depth(p, texel + ivec2(0, 1)),
-                               plane_depth(p, texel + 1));
-    return uvec4(greaterThanEqual(receiver, depth));
+// Depth of the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), each as map_depth reads it after kept_on_face. Quads are
+// gathered at the corner that they share: half a texel from where a device's rounding would choose another one (5.2). Beyond the
+// map's edge the quad is the outermost one, of which the outermost row or column is taken twice.
+vec4 quad_depths(MapPoint p, ivec2 texel) {
+    const ivec2 last = ivec2(p.size - 1), quad = clamp(texel, ivec2(0), max(last - 1, ivec2(0)));
+    const vec2 corner = vec2(p.corner.xy + quad + 1) / vec2(textureSize(shadow_maps, 0).xy);
+    const vec4 found = textureGather(shadow_maps, vec3(corner, float(p.corner.z))).wzxy;
+    const bvec2 second_of_first = greaterThan(clamp(texel, ivec2(0), last), quad);
+    const bvec2 second_of_second = greaterThan(clamp(texel + 1, ivec2(0), last), quad);
+    const vec2 left = second_of_first.x ? found.yw : found.xz, right = second_of_second.x ? found.yw : found.xz;
+    vec4 depth = vec4(second_of_first.y ? left.y : left.x, second_of_first.y ? right.y : right.x,
+                      second_of_second.y ? left.y : left.x, second_of_second.y ? right.y : right.x);
+    if (p.at_seams) return depth;
+    const bvec2 in_first = equal(clamp(texel, ivec2(0), last), texel);
+    const bvec2 in_second = equal(clamp(texel + 1, ivec2(0), last), texel + 1);
+    return depth * vec4(in_first.x && in_first.y, in_second.x && in_first.y, in_first.x && in_second.y, in_second.x && in_second.y);
 }
 
-// As fixed_kernel_from, of a kernel that lies in the map: (N / 2)^2 gathers.
+uvec4 are_lit(MapPoint p, ivec2 texel) {
+    const vec4 receiver =
+        vec4(plane_depth(p, kept_on_face(p, texel)), plane_depth(p, kept_on_face(p, texel + ivec2(1, 0))),
+             plane_depth(p, kept_on_face(p, texel + ivec2(0, 1))), plane_depth(p, kept_on_face(p, texel + 1)));
+    return uvec4(greaterThanEqual(receiver, quad_depths(p, texel)));
+}
+
+// As fixed_kernel_from, by (N / 2)^2 gathers.
 float gathered_kernel_from(int y, MapPoint p) {
     const KernelPlace k = kernel_place(p.u);
     uint sum = 0u;
@@ -159,9 +174,6 @@ float early_share(inout MapPoint p, out uint found) {
     if (bounds_form == form_hierarchical && has_bounds(p.size) && (is_inside || !p.at_seams)) return hierarchical_share(p, found);
     found = class_expensive;
     if (bounds_form != form_hierarchical) found = class_by_bounds(p);
-    const bool compares = found == class_expensive;
-    const float gathered = gathered_kernel_from(compares && is_inside ? 0 : shadow_kernel, p);
-    const float fetched = fixed_kernel_from(compares && !is_inside ? 0 : shadow_kernel, p);
-    if (found == class_lit) return 1.0;
-    return is_inside ? gathered : fetched;
+    const float compared = gathered_kernel_from(found == class_expensive ? 0 : shadow_kernel, p);
+    return found == class_lit ? 1.0 : compared;
 }
