@@ -160,7 +160,7 @@ double most_of_a_step(std::uint32_t cells) { return 2.47 * 0x1p-11 + 3.2 * 3 * c
 TEST(HalfCells, LoseNoMoreLightThanRoundingMay) {
     std::vector<Frame> frames{two_rooms()[1], scenario_frames("cornell_box").front()};
     const auto session = must(Session::open(frames, {.validation = true}));
-    for (const std::size_t frame : {0, 1})
+    for (const std::size_t frame : {0u, 1u})
         for (const char* propagation : {"propagation=energy_true", "propagation=linear"}) {
             if (frame == 1 && propagation == std::string("propagation=linear")) continue;
             const NumberTable table = energy_of(*session, frame, {propagation, "iterations=64"});
