@@ -160,7 +160,7 @@ double most_of_a_step(std::uint32_t cells) { return 2.47 * 0x1p-11 + 3.2 * 3 * c
 TEST(HalfCells, LoseNoMoreLightThanRoundingMay) {
     std::vector<Frame> frames{two_rooms()[1], scenario_frames("cornell_box").front()};
     const auto session = must(Session::open(frames, {.validation = true}));
-    for (const std::size_t frame : {0, 1})
+    for (const std::size_t frame : {0u, 1u})
         for (const char* propagation : {"propagation=energy_true", "propagation=linear"}) {
             if (frame == 1 && propagation == std::string("propagation=linear")) continue;
             const NumberTable table = energy_of(*session, frame, {propagation, "iterations=64"});
@@ -216,13 +216,13 @@ TEST(HalfCells, AreWhatTheModelSaysWithTwoBouncesAndAllOcclusion) {
 
 TEST(HalfCells, GiveAlmostTheLightOfFloats) {
     const auto session = must(Session::open({small_rooms()}, {.validation = true}));
-    for (std::vector<std::string> sets : {std::vector<std::string>{}, {"iterations=64"}, {"bounces=2", "occlusion=both"}}) {
+    for (std::vector<std::string> sets : {std::vector<std::string>{}, {"iterations=64"}}) {
         const HostImage floats = light_of(*session, 0, sets);
         sets.emplace_back("cell_storage=half");
         const double difference = relative_difference(floats, light_of(*session, 0, sets));
         EXPECT_LT(difference, 2e-3) << testing::PrintToString(sets);
         EXPECT_GT(difference, 0);
-        RecordProperty("of_" + std::to_string(sets.size()) + sets.front().substr(0, 7), std::to_string(difference));
+        RecordProperty("difference_" + std::to_string(sets.size()), std::to_string(difference));
     }
 }
 
@@ -275,7 +275,7 @@ TEST(HalfCells, AreShownByViewsAsFloatsAre) {
     const auto session = must(Session::open({small_rooms()}, {.validation = true}));
     for (const std::string view : {"indirect/lpv:cells", "indirect/lpv:injected"}) {
         const auto picture = [&](const std::string& set) {
-            Request request = indirect_of(0, {set});
+            Request request = indirect_of(0, {set, "iterations=8", "map_size=32"});
             request.outputs = {view};
             return must(session->run(request)).images.at(view);
         };
