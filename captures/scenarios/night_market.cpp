@@ -20,7 +20,7 @@ Light& Lamps::add(std::string name, LightType type, glm::dvec3 position, glm::ve
     light.type = type;
     light.position = position;
     light.intensity = intensity;
-    light.range = 7;
+    light.range = 6;
     return light;
 }
 

@@ -27,7 +27,7 @@ Stone stone_at(glm::vec2 uv, glm::uvec2 count, std::uint64_t seed) {
             .shade = hashed(std::int64_t(column) % count.x, std::int64_t(row) % count.y, seed + 1)};
 }
 
-constexpr glm::uvec2 setts_in_tile{16, 24};
+constexpr glm::uvec2 setts_in_tile{16, 24}, bricks_in_tile{4, 12};
 constexpr float setts_tile = 3.84f, brick_tile = 1;  // metres
 
 /// Where water stands between and on the setts, 0..1.
@@ -40,6 +40,31 @@ float sett_height(glm::vec2 uv) {
     return 0.0042f * (dome + rough + 0.5f * stone.shade) * (1 - puddle(uv));
 }
 
+glm::vec4 sett_color(glm::vec2 uv) {
+    const Stone stone = stone_at(uv, setts_in_tile, 11);
+    const float joint = std::clamp(stone.border / 0.09f, 0.0f, 1.0f), dirt = 0.6f + 0.6f * tiling_noise(uv, 12, 3);
+    const glm::vec3 color = glm::mix(glm::vec3(0.085f, 0.087f, 0.095f), glm::vec3(0.16f, 0.13f, 0.105f), stone.shade);
+    const float wet = 1 - 0.55f * puddle(uv);
+    return glm::vec4(glm::mix(glm::vec3(0.025f), color * dirt, joint) * wet, 1);
+}
+
+/// Roughness in y: damp stones, and water.
+glm::vec4 sett_gloss(glm::vec2 uv) {
+    const float damp = 0.27f + 0.17f * tiling_noise(uv, 9, 8) - 0.08f * stone_at(uv, setts_in_tile, 11).shade;
+    return glm::vec4(1, glm::mix(damp, 0.07f, puddle(uv)), 0, 1);
+}
+
+glm::vec4 brick_color(glm::vec2 uv) {
+    const Stone brick = stone_at(uv, bricks_in_tile, 31);
+    const glm::vec3 color = glm::mix(glm::vec3(0.22f, 0.1f, 0.07f), glm::vec3(0.4f, 0.2f, 0.13f), brick.shade);
+    const float soot = 0.5f + 0.7f * tiling_noise(uv, 5, 2);
+    return glm::vec4(brick.border < 0.08f ? glm::vec3(0.2f, 0.18f, 0.16f) : color * soot, 1);
+}
+
+float brick_height(glm::vec2 uv) {
+    return 0.01f * std::clamp(stone_at(uv, bricks_in_tile, 31).border / 0.15f, 0.0f, 1.0f) + 0.004f * tiling_noise(uv, 24, 4);
+}
+
 Material textured(std::string name, Texture texture, float metres, FrameBuilder& builder) {
     Material material = lambert(std::move(name), glm::vec3(1));
     material.lighting_model = LightingModel::ggx;
@@ -49,53 +74,21 @@ Material textured(std::string name, Texture texture, float metres, FrameBuilder&
     return material;
 }
 
-/// `surface` gives the roughness in y.
 std::uint32_t add_setts(FrameBuilder& builder) {
-    Material material = textured("setts",
-                                 painted("setts", {.edge = 256},
-                                         [](glm::vec2 uv) {
-                                             const Stone stone = stone_at(uv, setts_in_tile, 11);
-                                             const float joint = std::clamp(stone.border / 0.09f, 0.0f, 1.0f);
-                                             const float dirt = 0.6f + 0.6f * tiling_noise(uv, 12, 3);
-                                             const glm::vec3 color = glm::mix(glm::vec3(0.085f, 0.087f, 0.095f),
-                                                                              glm::vec3(0.16f, 0.13f, 0.105f), stone.shade);
-                                             const float wet = 1 - 0.55f * puddle(uv);
-                                             return glm::vec4(glm::mix(glm::vec3(0.025f), color * dirt, joint) * wet, 1);
-                                         }),
-                                 setts_tile, builder);
-    material.normal_texture = {builder.add(relief("setts relief", 256, sett_height)), 0, material.base_color_texture.transform};
-    material.metallic_roughness_texture = {builder.add(painted("setts gloss", {.edge = 128, .format = TextureFormat::rgba8_unorm},
-                                                               [](glm::vec2 uv) {
-                                                                   const float damp =
-                                                                       0.27f + 0.17f * tiling_noise(uv, 9, 8) -
-                                                                       0.08f * stone_at(uv, setts_in_tile, 11).shade;
-                                                                   return glm::vec4(1, glm::mix(damp, 0.07f, puddle(uv)), 0, 1);
-                                                               })),
-                                           0, material.base_color_texture.transform};
+    Material material = textured("setts", painted("setts", {.edge = 256}, sett_color), setts_tile, builder);
+    const auto& tile = material.base_color_texture.transform;
+    material.normal_texture = {builder.add(relief("setts relief", 256, sett_height)), 0, tile};
+    const Canvas gloss{.edge = 128, .format = TextureFormat::rgba8_unorm};
+    material.metallic_roughness_texture = {builder.add(painted("setts gloss", gloss, sett_gloss)), 0, tile};
     material.roughness = 1;
     material.normal_scale = 0.9f;
     return builder.add(material);
 }
 
 std::uint32_t add_brick(FrameBuilder& builder) {
-    constexpr glm::uvec2 bricks{4, 12};
-    Material material = textured(
-        "brick",
-        painted("brick", {.edge = 128},
-                [](glm::vec2 uv) {
-                    const Stone brick = stone_at(uv, bricks, 31);
-                    const glm::vec3 color = glm::mix(glm::vec3(0.22f, 0.1f, 0.07f), glm::vec3(0.4f, 0.2f, 0.13f), brick.shade);
-                    const float soot = 0.5f + 0.7f * tiling_noise(uv, 5, 2);
-                    return glm::vec4(brick.border < 0.08f ? glm::vec3(0.2f, 0.18f, 0.16f) : color * soot, 1);
-                }),
-        brick_tile, builder);
-    material.normal_texture = {builder.add(relief("brick relief", 128,
-                                                  [](glm::vec2 uv) {
-                                                      const float border = stone_at(uv, bricks, 31).border;
-                                                      return 0.01f * std::clamp(border / 0.15f, 0.0f, 1.0f) +
-                                                             0.004f * tiling_noise(uv, 24, 4);
-                                                  })),
-                               0, material.base_color_texture.transform};
+    Material material = textured("brick", painted("brick", {.edge = 128}, brick_color), brick_tile, builder);
+    const std::uint32_t height = builder.add(relief("brick relief", 128, brick_height));
+    material.normal_texture = {height, 0, material.base_color_texture.transform};
     material.roughness = 0.55f;
     return builder.add(material);
 }

@@ -33,7 +33,7 @@ public:
           parts_(builder),
           random_(builder.seed() + 77),
           lantern_(builder.add(lantern_mesh())),
-          bulb_(builder.add(sphere(0.05f, 12))) {}
+          bulb_(builder.add(sphere(0.05f, 8))) {}
 
     void add_noodle_stall() {
         const Stall stall{.place = {.position = {1.6, 0, -5.5}, .yaw = -1.0}, .width = 2.6f, .cloth = m_.red_cloth};
@@ -112,7 +112,7 @@ public:
         add_frame(stall);
         parts_.draw(stall.place);
         for (const float x : {-0.8f, 0.0f, 0.8f}) hang_lantern(stall, {x, awning_low - 0.3f, awning_front}, 1);
-        lamps_->globe("lanterns of the far stall", at(stall, {0, 1.8f, awning_front}), {4.2f, 1.8f, 0.6f}, 0.2f);
+        lamps_->globe("lanterns of the far stall", at(stall, {0, 1.8f, awning_front}), {4.2f, 1.8f, 0.6f}, 0.2f).range = 4;
     }
 
     /// Beside the eye, out of focus: a lantern above and a plant in a tub below.
@@ -214,7 +214,7 @@ private:
         for (int stack = 0; stack < 3; ++stack)
             for (int i = 0; i < 4 + stack; ++i)
                 part::turned(parts_.of(m_.ceramic), bowl,
-                             foot + glm::vec3(0.2f * float(stack) - 0.2f, 0.035f * float(i), -0.1f * float(stack % 2)), 16);
+                             foot + glm::vec3(0.2f * float(stack) - 0.2f, 0.035f * float(i), -0.1f * float(stack % 2)), 10);
     }
 
     /// A menu of paper strips on a board.
@@ -242,7 +242,7 @@ private:
         for (int i = 0; i < 16; ++i) {
             const glm::vec3 foot(low.x + 0.09f + 0.18f * float(i % 4), low.y + (i < 8 ? 0.045f : 0.245f),
                                  low.z + (i / 4 % 2 == 0 ? 0.1f : 0.26f));
-            part::ball(parts_.of(m_.dough), foot, {0.075f, 0.05f}, 14);
+            part::ball(parts_.of(m_.dough), foot, {0.075f, 0.05f}, 10);
         }
     }
 
@@ -286,7 +286,7 @@ private:
                         z = random_.between(-0.01f, 0.01f);
             const glm::vec3 place(0.07f + 0.104f * (float(k % columns) + (upper ? 0.5f : 0.0f)) + x, upper ? 0.165f : 0.09f,
                                   0.065f + 0.097f * (float(k / columns) + (upper ? 0.5f : 0.0f)) + z);
-            part::ball(heap, low + place, glm::vec2(radius), 10);
+            part::ball(heap, low + place, glm::vec2(radius), 8);
         }
     }
 

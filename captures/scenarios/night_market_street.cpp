@@ -189,7 +189,7 @@ void add_cables(FrameBuilder& builder, Parts& parts, const Materials& materials,
         float sag;
         int bulbs;
     };
-    const std::uint32_t bulb = builder.add(sphere(0.045f, 10));
+    const std::uint32_t bulb = builder.add(sphere(0.045f, 8));
     for (const Span& span : {Span{{-side, 4.1f, -3.4f}, {side, 3.7f, -4.6f}, 0.5f, 9},
                              {{-side, 3.9f, -6.8f}, {side, 3.5f, -7.4f}, 0.55f, 9},
                              {{0.35f, 3.7f, -9.6f}, {side, 3.3f, -10.2f}, 0.35f, 6},
@@ -202,9 +202,9 @@ void add_cables(FrameBuilder& builder, Parts& parts, const Materials& materials,
             const glm::vec3 at = glm::mix(span.from, span.to, t) - glm::vec3(0, span.sag * 4 * t * (1 - t) + 0.07f, 0);
             builder.draw(bulb, materials.warm_bulb, {.position = glm::dvec3(at)}).casts_shadow = false;
         }
-        if (span.bulbs == 0) continue;
+        if (span.bulbs < 9) continue;
         const glm::dvec3 middle = glm::dvec3(0.5f * (span.from + span.to)) - glm::dvec3(0, span.sag + 0.1, 0);
-        lamps.globe("string of bulbs", middle, glm::vec3(1.7f, 1.05f, 0.45f) * (float(span.bulbs) / 9), 0.3f).range = 6;
+        lamps.globe("string of bulbs", middle, {2.0f, 1.25f, 0.55f}, 0.3f).range = 6;
     }
 }
 
@@ -254,9 +254,9 @@ void light_room(FrameBuilder& builder, const Materials& materials, Lamps& lamps)
     builder.draw(builder.add(sphere(0.15f, 16)), materials.warm_bulb, {.position = hangs}).casts_shadow = false;
     frame.light_volumes = {{.kind = VolumeKind::fixed_local,
                             .occlusion = VolumeOcclusion::axial,
-                            .center = {-1.3, 1.4, -9},
-                            .half_extent = {2.8f, 1.8f, 4.2f},
-                            .cells = {14, 9, 21},
+                            .center = {-1.3, 1.4, -9.7},
+                            .half_extent = {2.6f, 1.8f, 3.2f},
+                            .cells = {13, 9, 16},
                             .iterations = 12}};
 }
 

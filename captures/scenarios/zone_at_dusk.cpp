@@ -251,9 +251,9 @@ void add_particles(FrameBuilder& builder) {
 void add_dusk(Frame& frame) {
     frame.sun.direction = -glm::normalize(towards_sun);
     frame.sun.irradiance = {8.5f, 4.2f, 1.7f};
-    frame.sun.shadow = {.casts = true, .map_size = 1024, .bias = 0.03f, .soft = false};
-    frame.sun.cascades = 3;
-    frame.sun.shadow_distance = 45;
+    frame.sun.shadow = {.casts = true, .map_size = 512, .bias = 0.03f, .soft = false};
+    frame.sun.cascades = 2;
+    frame.sun.shadow_distance = 32;
     frame.sun.shafts = true;
     frame.hemisphere = {.sky = {0.13f, 0.16f, 0.25f}, .ground = {0.09f, 0.07f, 0.055f}};
     frame.background = {0.3f, 0.33f, 0.42f};
