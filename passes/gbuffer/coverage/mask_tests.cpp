@@ -173,7 +173,7 @@ double mip_scale_model(const Frame& frame, const Material& material, std::uint32
     // Every threshold that parts different alphas, from the lowest up, one below all of them and one above all of them.
     std::vector<double> alphas = alphas_of(texture, mip), levels = alphas;
     std::ranges::sort(levels);
-    levels.erase(std::ranges::unique(levels).begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
     std::vector<double> thresholds{levels.front() * (1 - 1e-3)};
     for (std::size_t i = 1; i < levels.size(); ++i) thresholds.push_back((levels[i] + levels[i - 1]) / 2);
     thresholds.push_back(levels.back() * (1 + 1e-3));
