@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/lens/bloom/bloom_model.h"
 #include "passes/lens/exposure/exposure_model.h"
 #include "tests/support/session.h"
 
@@ -84,6 +85,28 @@ TEST(LensAndFilm, AConstantPictureGlowsByItsStrength) {
     frames[0].film = {};
     const auto session = must(Session::open(std::move(frames), {.validation = true}));
     for (const glm::dvec4& texel : color_of(*session).texels) ASSERT_EQ(texel.x, .625);
+}
+
+/// The matrix compares colors, beside which a glow is small: here it is alone.
+TEST(LensAndFilm, GlowIsWhatTheModelSays) {
+    const Lens glows{.bloom = 1, .bloom_threshold = 1};
+    const ReferenceImage plain = color_of(*night({}));
+    const auto session = night(glows);
+    const lens::Bloom bloom{.strength = 1, .threshold = 1};
+    const ReferenceImage pyramid = lens::pyramid_glow(lens::glowing(plain, bloom), lens::pyramid_levels(.12, plain.height));
+    const auto compare = [&](const char* form, const ReferenceImage& model) {
+        const ReferenceImage got = color_of(*session, {std::string("bloom=") + form});
+        double brightest = 0;
+        for (std::size_t i = 0; i < got.texels.size(); ++i) {
+            const double glow = got.texels[i].x - plain.texels[i].x, wanted = model.texels[i].x;
+            ASSERT_NEAR(glow, wanted, .008 * wanted + 1e-5)
+                << form << " at " << i << ": half floats, six of them in X-Ray's product";
+            brightest = std::max(brightest, wanted);
+        }
+        EXPECT_GT(brightest, .5) << form;
+    };
+    compare("pyramid", pyramid);
+    compare("xray", lens::xray_glow(plain, 1));
 }
 
 TEST(LensAndFilm, ExposureFollowsTheTimeAndStartsAnewWhereItDoesNotGoOn) {

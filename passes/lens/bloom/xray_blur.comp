@@ -15,7 +15,9 @@ layout(push_constant, scalar) uniform Push { XrayBlurPush push; };
 void main() {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = textureSize(glow, 0) - 1;
     if (any(greaterThan(texel, last))) return;
-    const ivec2 step_of = along_y != 0u ? ivec2(0, 1) : ivec2(1, 0);
+    // No choice between vectors by a constant: lavapipe 22.3 takes the wrong one.
+    ivec2 step_of = ivec2(1, 0);
+    if (along_y != 0u) step_of = step_of.yx;
     vec4 sum = push.weights[0] * texelFetch(glow, texel, 0);
     for (int i = 1; i < 8; ++i) {
         const vec4 before = texelFetch(glow, clamp(texel - i * step_of, ivec2(0), last), 0);

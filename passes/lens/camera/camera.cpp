@@ -144,8 +144,8 @@ Technique camera() {
             .declare = declare,
             .at_other_stages = {{.at = Stage::transparency, .declare = recall}},
             .model = camera_model,
-            .tolerance = {.rmse = 1e-3,
-                          .worst = 1e-2,
+            .tolerance = {.rmse = 1e-4,
+                          .worst = 4e-3,
                           .because = "half floats of undefined rounding in up to nine images of the glow, 2^-10 each"}};
 }
 
