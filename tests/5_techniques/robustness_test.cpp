@@ -82,8 +82,8 @@ protected:
         twin_ = hard_ + 1;
     }
 
-    /// Every stage runs, needed or not: the technique meets the frame even where the frame does not call for it. Transparency
-    /// alone is left to its own techniques: it draws over what the others' models say of color.
+    /// Every stage runs, needed or not: the technique meets the frame even where the frame does not call for it. But for later
+    /// stages that write over what it wrote: its model does not speak of them.
     Request forced(const Technique& technique) const {
         Request request{
             .variant = {.frame = hard_}, .choices = chosen({std::string(technique.name)}), .outputs = {"color", "display"}};
@@ -97,7 +97,10 @@ protected:
     bool may_force(Feature feature, const Technique& technique) const {
         Features alone;
         alone.set(feature, "forced");
-        if (!info(Stage::transparency).unwanted(alone)) return technique.stage == Stage::transparency;
+        for (const StageInfo& later : stages())
+            for (const std::string_view output : info(technique.stage).outputs)
+                if (later.stage > technique.stage && std::ranges::count(later.outputs, output) > 0 && !later.unwanted(alone))
+                    return false;
         return feature != Feature::multisampled || must(session_.frame(hard_)).view.samples > 1;
     }
 

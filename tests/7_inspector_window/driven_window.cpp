@@ -114,7 +114,6 @@ Seen DrivenWindow::look_until(const std::function<bool(const Seen&)>& is_there) 
     return seen_;
 }
 
-/// Scrolls to it.
 SeenWidget DrivenWindow::reach(const std::string& path) {
     for (int turn = 0; turn < 40; ++turn) {
         const SeenWidget widget = look().at(path);

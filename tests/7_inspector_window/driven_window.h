@@ -57,6 +57,8 @@ public:
     /// What look() saw last.
     const Seen& seen() const { return seen_; }
 
+    /// Scrolls to it.
+    SeenWidget reach(const std::string& path);
     void click(const std::string& path);
     void click_at(double x, double y) const;
     void choose(const std::string& path, const std::string& item);
@@ -71,7 +73,6 @@ public:
 
 private:
     bool save() const;
-    SeenWidget reach(const std::string& path);
 
     const Screen* screen_;
     std::filesystem::path folder_;

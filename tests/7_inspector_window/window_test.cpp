@@ -156,7 +156,7 @@ void changes_a_technique(Sitting& at) {
 
 void drags_a_slider(Sitting& at) {
     constexpr const char* slider = "Techniques/transparency/scale/value";
-    const SeenWidget before = at.window->look().at(slider);
+    const SeenWidget before = at.window->reach(slider);
     const double y = before.box().middle_y();
     at.window->drag(before.box().middle_x(), y, before.box().left + .75 * (before.box().right - before.box().left), y);
     const Seen seen = at.window->look();

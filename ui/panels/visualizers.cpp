@@ -49,7 +49,10 @@ public:
         const float height = ImGui::GetContentRegionAvail().y;
         ImGui::BeginChild("gallery", {0, chosen.view ? height * .46f : 0});
         if (groups_.empty()) services.widgets.text("state", "no technique in use has views of its inside", &palette().dim);
-        for (Group& group : groups_) draw_group(model, services, *replay, group);
+        for (const bool is_run : {true, false})  // what is left out has no pictures, and comes last
+            for (Group& group : groups_)
+                if (!std::ranges::count(replay->skipped, group.technique->stage, &SkippedStage::stage) == is_run)
+                    draw_group(model, services, *replay, group);
         ImGui::EndChild();
         if (!chosen.view) return;
         ImGui::Separator();

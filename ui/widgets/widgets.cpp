@@ -117,7 +117,8 @@ void Widgets::record(std::string_view label, WidgetKind kind, std::string value)
         .path = fmt::format("{}{}{}", path_, path_.empty() ? "" : "/", label), .kind = kind, .value = std::move(value)};
     made.from = ImGui::GetItemRectMin();
     made.to = ImGui::GetItemRectMax();
-    made.visible = ImGui::IsItemVisible();
+    const ImVec2 middle((made.from.x + made.to.x) / 2, (made.from.y + made.to.y) / 2);
+    made.visible = ImGui::IsRectVisible(middle, middle);
     made.enabled = (ImGui::GetStyle().Alpha >= .999f);
     if (made.path == revealed_) {
         ImGui::SetScrollHereY();

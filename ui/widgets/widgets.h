@@ -21,7 +21,8 @@ struct WidgetRecord {
     WidgetKind kind;
     std::string value;  ///< as text: what it says or is set to
     ImVec2 from, to;    ///< pixels
-    bool enabled = true, visible = true;
+    bool enabled = true;
+    bool visible = true;                   ///< its middle, where a click goes
     double low = 0, high = 0, number = 0;  ///< of a slider
     bool open = false;                     ///< a tree's node, a combo's list
     std::string updating = {};             ///< the word over it, where it is not of what its label says

@@ -19,6 +19,18 @@ Frame with_casters(Frame frame, std::uint32_t casters) {
     return frame;
 }
 
+Frame without_holes(Frame frame) {
+    for (Material& material : frame.materials)
+        if (material.alpha_mode == AlphaMode::mask) material.alpha_mode = AlphaMode::opaque;
+    return frame;
+}
+
+Frame without_masked_casters(Frame frame) {
+    for (Draw& draw : frame.draws)
+        draw.casts_shadow = draw.casts_shadow && frame.materials[draw.material].alpha_mode != AlphaMode::mask;
+    return frame;
+}
+
 /// Radius and depth of the smallest sphere on the view axis around the corners of the view at the reach and the eye.
 glm::dvec2 sphere_around_view(const View& view, double reach) {
     const double x = (1 + std::abs(double(view.projection[2][0]))) / std::abs(double(view.projection[0][0]));
@@ -32,12 +44,16 @@ glm::dvec2 sphere_around_view(const View& view, double reach) {
 }  // namespace
 
 TracedMap::TracedMap(const Frame& frame, const WetnessParams& params)
-    : frame_(with_casters(frame, params.casters)), scene_(frame_, RayMask::shadow_casters), size_(64u << params.map_size) {
-    const View& view = frame_.view;
+    : solid_(without_holes(with_casters(frame, params.casters))),
+      open_(without_masked_casters(with_casters(frame, params.casters))),
+      through_solid_(solid_, RayMask::shadow_casters),
+      through_open_(open_, RayMask::shadow_casters),
+      size_(64u << params.map_size) {
+    const View& view = frame.view;
     const glm::dvec2 sphere = sphere_around_view(view, double(params.reach));
     const double margin = std::min(2 * double(params.radius) + 3, size_ / 4.0);
     texel_ = 2 * sphere.x / (size_ - 2 * margin);
-    const glm::dvec3 along = glm::normalize(glm::dvec3(frame_.rain.direction));
+    const glm::dvec3 along = glm::normalize(glm::dvec3(frame.rain.direction));
     const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(helper, along)), v = glm::cross(along, u);
     const glm::dvec3 center = view.origin + glm::transpose(view.to_view) * glm::dvec3(0, 0, sphere.y);
@@ -64,9 +80,11 @@ const TracedMap::Depths& TracedMap::depths(glm::ivec2 texel) const {
     for (const glm::dvec2 aside :
          {glm::dvec2(0, 0), glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
         const glm::dvec2 at = corner_ + (glm::dvec2(texel) + 0.5 + aside * snap) * texel_;
-        const auto hit = scene_.closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
-        const double depth = hit ? hit->distance - above : nothing;
-        seen = {std::min(seen.least, depth), std::max(seen.most, depth)};
+        for (const RayScene* scene : {&through_solid_, &through_open_}) {
+            const auto hit = scene->closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
+            const double depth = hit ? hit->distance - above : nothing;
+            seen = {std::min(seen.least, depth), std::max(seen.most, depth)};
+        }
     }
     return found->second = seen;
 }

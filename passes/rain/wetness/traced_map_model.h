@@ -30,14 +30,16 @@ public:
     Reached is_reached(glm::ivec2 texel, double depth, double doubt) const;
 
 private:
-    /// Of the nearest caster, at the texel's middle or where rasterizing may move it to.
+    /// Of the nearest caster, at the texel's middle or where rasterizing may move it to. At which mip the device looks a mask up
+    /// is its choice: with masked casters as solid as can be, and without them.
     struct Depths {
         double least = 0, most = 0;
     };
     const Depths& depths(glm::ivec2 texel) const;
 
-    Frame frame_;  ///< with the casters that count
-    RayScene scene_;
+    Frame solid_;  ///< with the casters that count, none with holes
+    Frame open_;   ///< without those that have holes
+    RayScene through_solid_, through_open_;
     std::uint32_t size_;
     double texel_ = 0;
     glm::dvec3 u_, v_, along_;  ///< view space

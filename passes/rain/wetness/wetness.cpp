@@ -267,10 +267,10 @@ Technique wetness() {
         .approximates = approximates,
         .model = wetness_model,
         .tolerance = {
-            .rmse = 1e-4,
-            .worst = 0.02,
+            .rmse = 2e-4,
+            .worst = 0.03,
             .because = "normals are off by 1e-4, as the layout rounds them; base color and roughness are stored in 8 bits, and a "
-                       "float on a rounding boundary takes the next code"}};
+                       "float on a rounding boundary takes the next code: 1/255 is .024 of a puddle's roughness"}};
 }
 
 }  // namespace strata::rain
