@@ -52,13 +52,13 @@ build() {
 demo() {
     local out=out/demo
     mkdir -p "$out"
-    build/strata record smoke_grenade -o "$out/smoke.strata"
-    build/strata info "$out/smoke.strata"
+    build/strata record night_market --size 160x90 -o "$out/market.strata"
+    build/strata info "$out/market.strata"
     for technique in $(build/strata list transparency --names); do
-        build/strata replay "$out/smoke.strata" --use "$technique" -o "$out/${technique#*/}"
+        build/strata replay "$out/market.strata" --use "$technique" -o "$out/${technique#*/}"
     done
-    build/strata report "$out/smoke.strata" --defaults
-    echo "each technique is measured at its default settings; to include their other settings: build/strata report $out/smoke.strata"
+    build/strata report "$out/market.strata" --stage transparency --defaults
+    echo "each technique is measured at its default settings; to include their other settings: build/strata report $out/market.strata --stage transparency"
     echo "images:"
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }
