@@ -81,9 +81,10 @@ std::string as_text(const Table& table) {
             text += without_spaces_at_the_end(line);
             line = std::string(marks_width + layout.label, ' ');
         }
+        const bool is_sentence = row.cells.size() != layout.widths.size();  // numbers are never cut
         for (std::size_t i = 0; i < row.cells.size(); ++i)
-            line += row.cells.size() == layout.widths.size() ? layout.cell(i, row.cells[i]) : " " + row.cells[i];
-        if (line.size() > columns) line.replace(columns - 3, std::string::npos, "...");
+            line += is_sentence ? " " + row.cells[i] : layout.cell(i, row.cells[i]);
+        if (is_sentence && line.size() > columns) line.replace(columns - 3, std::string::npos, "...");
         text += without_spaces_at_the_end(line);
     }
     return text;

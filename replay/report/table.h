@@ -1,4 +1,4 @@
-// A table for people at a terminal of 120 columns.
+// A table for people at a terminal of 120 columns, which it leaves only where its numbers alone are wider.
 #pragma once
 
 #include <string>

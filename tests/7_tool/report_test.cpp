@@ -440,6 +440,14 @@ HardCaseReport hard_cases_of(HardOutcome outcome) {
     return report;
 }
 
+TEST(Table, CutsNoNumberHoweverManyColumns) {
+    Table table{.heads = std::vector<std::string>(20, "column"),
+                .rows = {{.label = "row", .cells = std::vector<std::string>(20, "1.234e-05")}}};
+    const std::string text = as_text(table);
+    EXPECT_THAT(text, HasSubstr("1.234e-05\n"));
+    EXPECT_THAT(text, Not(HasSubstr("...")));
+}
+
 TEST(HardCaseTable, FitsATerminalOf120ColumnsAndSaysWhatEachVerdictIs) {
     using Verdict = HardOutcome::Verdict;
     const std::pair<Verdict, const char*> cells[] = {
