@@ -171,7 +171,7 @@ std::vector<Param> map_params() {
                                      .low = 0,
                                      .high = 0.95,
                                      .fallback = 0.5,
-                                     .help = "share of rain_reach from which on the map's say fades"}),
+                                     .help = "share of rain_reach at which the map begins to fade out"}),
         param<&WetnessParams::beyond>({.name = "rain_beyond",
                                        .fallback = beyond_open,
                                        .help = "surfaces beyond rain_reach: open are rained on; dry never are (X-Ray)",

@@ -10,6 +10,7 @@
 #include "passes/shadows/judge.h"
 #include "passes/shadows/shadows.shared.h"
 #include "passes/technique.h"
+#include "tests/support/ground_from_above.h"
 
 namespace strata::shadows {
 
@@ -17,23 +18,14 @@ Technique pcf();
 
 namespace {
 
-constexpr double height = 10;
+constexpr double height = height_above_ground;
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr std::uint32_t width = 256, rows = 4;
 
-// The sun shines along +x and down, `angle` from the vertical. The picture is 8 m wide on the ground.
+// 8 m of the ground.
 Frame ground(double angle) {
-    Frame frame;
-    frame.view.width = width;
-    frame.view.height = rows;
-    frame.view.origin = {0, height, 0};
-    frame.view.to_view = glm::transpose(glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, -1, 0}));
-    frame.view.projection = perspective(2 * std::atan(4.0 / height * rows / width), double(width) / rows, 0.1);
-    frame.sun.direction = {float(std::sin(angle)), float(-std::cos(angle)), 0};
-    frame.sun.irradiance = {1, 1, 1};
-    frame.sun.cascades = 1;
-    frame.sun.shadow_distance = 20;
-    frame.sun.shadow = {.casts = true, .map_size = 512, .bias = 0.01f};
+    Frame frame = ground_from_above(width, rows, 8);
+    add_slanted_sun(frame, angle, 512);
     return frame;
 }
 

@@ -9,6 +9,7 @@
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/pcss/soft_kernel.h"
 #include "passes/shadows/truth.h"
+#include "tests/support/ground_from_above.h"
 #include "tests/support/traced_maps.h"
 
 namespace strata::shadows {
@@ -17,17 +18,11 @@ Technique pcss();
 
 namespace {
 
-constexpr double height = 10;
+constexpr double height = height_above_ground;
 constexpr std::uint32_t width = 256, rows = 4;
 
-/// The picture is `wide` metres wide on the ground, its middle at x = 0.
 Frame ground(double wide) {
-    Frame frame;
-    frame.view.width = width;
-    frame.view.height = rows;
-    frame.view.origin = {0, height, 0};
-    frame.view.to_view = glm::transpose(glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, -1, 0}));
-    frame.view.projection = perspective(2 * std::atan(0.5 * wide / height * rows / width), double(width) / rows, 0.1);
+    Frame frame = ground_from_above(width, rows, wide);
     frame.materials.emplace_back();
     return frame;
 }
