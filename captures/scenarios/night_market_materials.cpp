@@ -143,26 +143,26 @@ std::uint32_t add_cloth(FrameBuilder& builder, const char* name, glm::vec3 color
     return builder.add(material);
 }
 
-std::uint32_t plain(FrameBuilder& builder, const char* name, glm::vec3 color, float roughness) {
+Material glossy(const char* name, glm::vec3 color, float roughness) {
     Material material = lambert(name, color);
     material.lighting_model = LightingModel::ggx;
     material.roughness = roughness;
-    return builder.add(material);
+    return material;
+}
+
+std::uint32_t plain(FrameBuilder& builder, const char* name, glm::vec3 color, float roughness) {
+    return builder.add(glossy(name, color, roughness));
 }
 
 std::uint32_t nylon(FrameBuilder& builder, const char* name, glm::vec3 color) {
-    Material material = lambert(name, color);
-    material.lighting_model = LightingModel::ggx;
-    material.roughness = 0.35f;
+    Material material = glossy(name, color, 0.35f);
     material.double_sided = true;
     return builder.add(material);
 }
 
 std::uint32_t metal(FrameBuilder& builder, const char* name, glm::vec3 color, float roughness) {
-    Material material = lambert(name, color);
-    material.lighting_model = LightingModel::ggx;
+    Material material = glossy(name, color, roughness);
     material.metallic = 1;
-    material.roughness = roughness;
     return builder.add(material);
 }
 

@@ -65,20 +65,17 @@ const uint kernel_total = uint((shadow_kernel - 1) * (shadow_kernel - 1)) * 6553
 
 float share_of_weight(uint sum) { return sum == kernel_total ? 1.0 : float(sum) * (1.0 / float(kernel_total)); }
 
-// N x N texels with the weights of (N-1)^2 bilinear taps, as integers of 1/256, so that all lit is exactly 1 on every device. The
-// kernel begins with the row `y`.
-float fixed_kernel_from(int y, MapPoint p) {
+// N x N texels with the weights of (N-1)^2 bilinear taps, as integers of 1/256, so that all lit is exactly 1 on every device.
+float fixed_kernel(MapPoint p) {
     const KernelPlace k = kernel_place(p.u);
     uint sum = 0u;
-    for (; y < shadow_kernel; ++y) {
+    for (int y = 0; y < shadow_kernel; ++y) {
         uint in_row = 0u;
         for (int x = 0; x < shadow_kernel; ++x) in_row += kernel_weight(x, k.f.x) * is_lit(p, k.first + ivec2(x, y));
         sum += kernel_weight(y, k.f.y) * in_row;
     }
     return share_of_weight(sum);
 }
-
-float fixed_kernel(MapPoint p) { return fixed_kernel_from(0, p); }
 
 // What whoever includes this says of a lookup by the fixed kernel, in a map of shadows: the share that is lit, and the same where
 // the kernel reaches no texel of the map.

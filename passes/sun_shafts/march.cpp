@@ -37,8 +37,7 @@ MarchPush push_of(const Frame& frame, const MarchParams& params) {
 
 /// What every step that asks where rays end is given.
 ComputePass read_rays(ComputePass pass, const FrameImages& frame, const MarchParams& params) {
-    return sample_edges(pass, frame)
-        .samples("depth_layers", frame.depth_layers)
+    return pass.samples("depth_layers", frame.depth_layers)
         .push(push_of(*frame.recorded, params))
         .fixes("normalization", params.normalization);
 }
@@ -46,7 +45,7 @@ ComputePass read_rays(ComputePass pass, const FrameImages& frame, const MarchPar
 Image upsample(Graph& graph, const FrameImages& frame, const MarchParams& params, const Image& shares) {
     const Shape shape{.extent = frame.extent, .format = Format::rgba16f, .layers = frame.samples};
     Image shafts = graph.create("shafts", shape);
-    read_rays(graph.compute("sun_shafts/upsample.comp"), frame, params)
+    sample_edges(read_rays(graph.compute("sun_shafts/upsample.comp"), frame, params), frame)
         .samples("shares", shares)
         .stores("shafts", shafts)
         .over({shape.extent.width, shape.extent.height, shape.layers});
@@ -54,16 +53,12 @@ Image upsample(Graph& graph, const FrameImages& frame, const MarchParams& params
 }
 
 Image show_lit_share(Graph& graph, FrameImages& frame, const Settings& settings) {
-    const auto params = settings.as<MarchParams>();
     Image picture = graph.create("shown lit share", {.extent = frame.extent, .format = Format::rgba32f});
     if (!frame.shafts) {
         graph.clear(picture, {});
         return picture;
     }
-    graph.compute("sun_shafts/show.comp")
-        .samples("depth_layers", frame.depth_layers)
-        .push(push_of(*frame.recorded, params))
-        .fixes("normalization", params.normalization)
+    read_rays(graph.compute("sun_shafts/show.comp"), frame, settings.as<MarchParams>())
         .samples("shafts", frame.shafts)
         .stores("shown", picture)
         .over(frame.extent);
@@ -90,6 +85,7 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
     const Extent extent{cells(frame.extent.width), cells(frame.extent.height)};
     Image image = graph.create(what.name, {.extent = extent, .format = Format::rgba16f, .layers = what.layers});
     ComputePass march = read_rays(graph.compute(shader.name), frame, params);
+    sample_edges(march, frame);
     if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
     march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
         .stores("shafts", image)

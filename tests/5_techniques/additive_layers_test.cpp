@@ -56,7 +56,7 @@ HostImage color_of(Session& session, std::size_t frame, const std::vector<std::s
 TEST(AdditiveLayers, LookAsInTheChaptersTable) {
     std::vector<Frame> frames;
     for (const Row& row : rows()) frames.push_back(frame_of_sheets(row.covering, row.glowing));
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     for (std::size_t i = 0; i < rows().size(); ++i)
         EXPECT_NEAR(in_double(color_of(*session, i)).at(3, 3).x, rows()[i].seen, rows()[i].tolerance) << rows()[i].name;
 }
@@ -66,7 +66,7 @@ TEST(AdditiveLayers, LookAsInTheChaptersTable) {
 TEST(AdditiveLayers, LetThroughOfTwoHundredThinOnesWhatTheirStorageCan) {
     Frame frame = frame_of_sheets(std::vector(200, sheet(10, glm::vec3(0), .01f)), {});
     frame.background = glm::vec3(1);
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const auto through = [&](std::string set) { return in_double(color_of(*session, 0, {std::move(set)})).at(3, 3).x; };
     EXPECT_GT(through("reveal=r8"), 41.9 / 255);
     EXPECT_LT(through("reveal=r8"), 50.1 / 255);

@@ -57,7 +57,7 @@ Frame with_good_numbers() {
 }
 
 TEST(BadNumbers, LeaveEveryPictureAsItIsWithoutThem) {
-    const auto session = must(Session::open({bad_frame(), without_bad_numbers(), with_good_numbers()}, {.validation = true}));
+    const auto session = session_of({bad_frame(), without_bad_numbers(), with_good_numbers()});
     for (const Technique& technique : techniques()) {
         const std::vector<std::string> uses{std::string(technique.name)};
         const auto pictures = [&](std::size_t frame) {

@@ -28,7 +28,7 @@ Frame stack_of_cards(std::uint32_t count, float alpha) {
 }
 
 Run run_on(Frame frame, std::string technique, std::vector<std::string> sets, std::string output = "color") {
-    const auto session = must(Session::open({std::move(frame)}, {.validation = true}));
+    const auto session = session_of({std::move(frame)});
     return must(session->run({.choices = chosen({std::move(technique)}, std::move(sets)), .outputs = {std::move(output)}}));
 }
 

@@ -76,7 +76,7 @@ TEST_P(Distortion, IsNotDimmedByWhatIsBehind) { EXPECT_LT(largest_error(2, 4, .5
 
 TEST_P(Distortion, CostsNothingWhereNothingDistorts) {
     const auto steps = [&](const std::vector<Card>& cards) {
-        const auto fresh = must(Session::open({stripes_behind(cards)}, {.validation = true}));
+        const auto fresh = session_of({stripes_behind(cards)});
         return must(fresh->run({.choices = chosen({std::string(GetParam())})})).steps.size();
     };
     Card plain = bending_glass(10, 0), bending = bending_glass(10, 2);

@@ -159,7 +159,7 @@ double most_of_a_step(std::uint32_t cells) { return 2.47 * 0x1p-11 + 3.2 * 3 * c
 
 TEST(HalfCells, LoseNoMoreLightThanRoundingMay) {
     std::vector<Frame> frames{two_rooms()[1], scenario_frames("cornell_box").front()};
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (const std::size_t frame : {0u, 1u})
         for (const char* propagation : {"propagation=energy_true", "propagation=linear"}) {
             if (frame == 1 && propagation == std::string("propagation=linear")) continue;
@@ -204,7 +204,7 @@ Frame small_rooms() {
 }
 
 TEST(HalfCells, AreWhatTheModelSaysWithTwoBouncesAndAllOcclusion) {
-    const auto session = must(Session::open({small_rooms()}, {.validation = true}));
+    const auto session = session_of({small_rooms()});
     for (const std::vector<std::string>& sets : {std::vector<std::string>{"cell_storage=half", "bounces=2", "occlusion=both"},
                                                  {"cell_storage=half", "propagation=linear", "damping=2"}}) {
         const Request request = indirect_of(0, sets);
@@ -215,7 +215,7 @@ TEST(HalfCells, AreWhatTheModelSaysWithTwoBouncesAndAllOcclusion) {
 }
 
 TEST(HalfCells, GiveAlmostTheLightOfFloats) {
-    const auto session = must(Session::open({small_rooms()}, {.validation = true}));
+    const auto session = session_of({small_rooms()});
     for (std::vector<std::string> sets : {std::vector<std::string>{}, {"iterations=64"}}) {
         const HostImage floats = light_of(*session, 0, sets);
         sets.emplace_back("cell_storage=half");
@@ -230,7 +230,7 @@ TEST(HalfCells, AreKeptOverFramesLikeFloats) {
     std::vector<Frame> frames = kept_volumes::still_rooms();
     frames.push_back(frames[1]);
     frames.back().lights[0].intensity *= 1.5f;
-    const auto session = kept_volumes::session_of(frames);
+    const auto session = session_of(frames);
     const std::string half = "cell_storage=half";
     std::vector<HostImage> wanted, floats;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -258,7 +258,7 @@ TEST(HalfCells, TakeLightOfAnyBrightness) {
     frames[2].lights[0].intensity = glm::vec3(1e-20f);
     frames[3].lights.push_back(frames[3].lights[0]);
     frames[3].lights[1].intensity = glm::vec3(NAN);
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const std::vector<std::string> sets{"iterations=8", "map_size=32"};
     const std::vector<std::string> twice{"bounces=2", "iterations=8", "map_size=32", "cell_storage=half"};
     const NumberTable usual = energy_of(*session, 0, sets);
@@ -272,7 +272,7 @@ TEST(HalfCells, TakeLightOfAnyBrightness) {
 }
 
 TEST(HalfCells, AreShownByViewsAsFloatsAre) {
-    const auto session = must(Session::open({small_rooms()}, {.validation = true}));
+    const auto session = session_of({small_rooms()});
     for (const std::string view : {"indirect/lpv:cells", "indirect/lpv:injected"}) {
         const auto picture = [&](const std::string& set) {
             Request request = indirect_of(0, {set, "iterations=8", "map_size=32"});

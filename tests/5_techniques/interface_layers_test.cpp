@@ -32,14 +32,14 @@ double seen_by(Session& session, const std::string& technique, std::vector<std::
 }
 
 TEST(InterfaceLayers, AreBlendedInTheirOrderByEveryMethodThatHasOne) {
-    const auto session = must(Session::open({windows()}, {.validation = true}));
+    const auto session = session_of({windows()});
     for (const char* exact :
          {"sorted_lists", "alpha_blend", "depth_peeling", "k_buffer", "multi_layer", "adaptive", "exact_function"})
         EXPECT_NEAR(seen_by(*session, std::string("transparency/") + exact), strictly_ordered, 5e-3) << exact;
 }
 
 TEST(InterfaceLayers, HaveAVoxelSliceEachHoweverItIsRead) {
-    const auto session = must(Session::open({windows()}, {.validation = true}));
+    const auto session = session_of({windows()});
     for (const auto& [splatting, sampling] :
          {std::pair("point", "point"), std::pair("linear", "linear"), std::pair("linear", "bicubic")})
         for (const char* splat : {"splat=overflow_minimum", "splat=multiply"}) {
@@ -53,7 +53,7 @@ TEST(InterfaceLayers, HaveAVoxelSliceEachHoweverItIsRead) {
 TEST(InterfaceLayers, TakeNoSliceFromTheWorld) {
     Frame frame = windows();
     const auto used = [](const Frame& shown) {
-        const auto session = must(Session::open({shown}, {.validation = true}));
+        const auto session = session_of({shown});
         return counted(must(session->run({.choices = chosen({"transparency/voxel"})})), "virtual slices");
     };
     frame.draws.erase(frame.draws.begin() + 2, frame.draws.end());

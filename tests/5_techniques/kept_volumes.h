@@ -51,10 +51,6 @@ inline Lit kept(Session& session, std::size_t frame, std::vector<std::string> se
 /// The picture of a frame whose volumes are lit anew.
 inline HostImage lit_anew(Session& session, std::size_t frame) { return lit(session, frame, {}).indirect; }
 
-inline std::unique_ptr<Session> session_of(std::vector<Frame> frames) {
-    return must(Session::open(std::move(frames), {.validation = true}));
-}
-
 /// Two rooms with the door closed, half open, wide open, seen from one place.
 inline std::vector<Frame> still_rooms() {
     std::vector<Frame> frames = scenario_frames("two_rooms", 1, 3);

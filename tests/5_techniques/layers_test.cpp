@@ -44,7 +44,7 @@ protected:
     static void SetUpTestSuite() {
         std::vector<Frame> frames;
         for (const std::uint32_t count : layer_counts) frames.push_back(frame_of_layers(count));
-        session_ = must(Session::open(std::move(frames), {.validation = true}));
+        session_ = session_of(std::move(frames));
     }
     static void TearDownTestSuite() { session_.reset(); }
 

@@ -32,7 +32,7 @@ class LeaningNormals : public testing::TestWithParam<const Technique*> {};
 
 TEST_P(LeaningNormals, AreLitAsTheModelSays) {
     const Technique& technique = *GetParam();
-    const auto session = must(Session::open(std::vector<Frame>{leaning_card()}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{leaning_card()});
     const Request request{.choices = chosen({std::string(technique.name)})};
     const Accuracy accuracy = must(session->judge(request, Stage::lighting, Against::model));
     expect_within_tolerance(accuracy, technique, request);

@@ -27,7 +27,7 @@ std::unique_ptr<Session> night(const Lens& lens, const std::vector<double>& time
         frames.back().film = {};
         frames.back().time = time;
     }
-    return must(Session::open(std::move(frames), {.validation = true}));
+    return session_of(std::move(frames));
 }
 
 Request wanting(std::vector<std::string> outputs, std::uint32_t frame = 0, const std::vector<std::string>& sets = {}) {
@@ -83,7 +83,7 @@ TEST(LensAndFilm, AConstantPictureGlowsByItsStrength) {
     frames[0].background = glm::vec3(.5f);
     frames[0].lens = {.bloom = .25f, .bloom_threshold = 0};
     frames[0].film = {};
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     for (const glm::dvec4& texel : color_of(*session).texels) ASSERT_EQ(texel.x, .625);
 }
 
@@ -183,7 +183,7 @@ TEST(LensAndFilm, ForcedOnAFrameWithoutThemChangeNothing) {
     auto frames = scenario_frames("lamp_at_night");
     frames[0].lens = {};
     frames[0].film = {};
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     const auto plain = must(session->run(wanting({"color", "display"})));
     Request request = wanting({"color", "display"});
     for (const Feature feature :
@@ -200,7 +200,7 @@ TEST(LensAndFilm, FadesWhatCombiningDeveloped) {
     auto frames = scenario_frames("lamp_at_night");
     frames[0].lens = {};
     frames[0].film = {.fade = 1};
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     for (const glm::dvec4& texel : in_double(must(session->run(wanting({"display"}))).images.at("display")).texels)
         ASSERT_EQ(glm::dvec3(texel), glm::dvec3(0));
 }

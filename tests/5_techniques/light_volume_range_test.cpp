@@ -67,7 +67,7 @@ class LightVolumeRange : public testing::TestWithParam<RangeRow> {};
 TEST_P(LightVolumeRange, IsAsPublished) {
     const RangeRow& row = GetParam();
     const Frame frame = squares_before(row);
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     Request request{
         .choices = chosen({"indirect/lpv"}, {"injection=0", "propagation=clamped", fmt::format("iterations={}", row.iterations),
                                              fmt::format("irradiance={}", row.irradiance)})};

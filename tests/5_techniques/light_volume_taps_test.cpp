@@ -51,7 +51,7 @@ TEST(LightVolumeTaps, AskTheBlockersOfTheirMacroCellAndGetTheBitsOfAskingAll) {
 
 /// Of the box some tiles are near blockers and others are not.
 TEST(LightVolumeTaps, AreTheSameBitsWhereTilesNearNoBlockerHaveAShaderOfTheirOwn) {
-    const auto session = must(Session::open({scenario_frames("cornell_box", 4)[0]}, {.validation = true}));
+    const auto session = session_of({scenario_frames("cornell_box", 4)[0]});
     for (const char* more : {"apply_resolution=half", "damping=2"}) {
         const auto all = indirect_light(*session, {"occlusion=axial", "iterations=4", more}),
                    tiles = indirect_light(*session, {"occlusion=axial", "iterations=4", more, "tap_tiles=on"});
@@ -71,7 +71,7 @@ TEST(LightVolumeTaps, AskNothingWhereNoBlockerIsNear) {
     Frame frame = scenario_frames("two_rooms", 1, 2)[1];
     for (Blocker& blocker : frame.blockers) blocker.center.y += 100;
     for (Portal& portal : frame.portals) portal.center.y += 100;
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const auto far = indirect_light(*session, {}), all = indirect_light(*session, {"macro_cells=off"});
     EXPECT_TRUE(far.images.at("indirect").texels == all.images.at("indirect").texels);
     EXPECT_EQ(count_of(far, "samples near blockers"), 0u);
@@ -82,7 +82,7 @@ TEST(LightVolumeTaps, AskNothingWhereNoBlockerIsNear) {
 /// A blocker's portals are found without asking all of the frame: drivers end loops of more than 65,535 turns.
 TEST(LightVolumeTaps, SeeThroughAThousandWindows) {
     const Frame frame = with_a_thousand_windows();
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const Request request{.choices = chosen({lpv})};
     const Accuracy accuracy = must(session->judge(request, Stage::indirect, Against::model));
     expect_within_tolerance(accuracy, *must(find_technique(lpv)), request);
@@ -102,7 +102,7 @@ double largest(const ReferenceImage& picture) {
 }
 
 TEST(LightVolumeTaps, AreSeenByTheBlockersNearTheirMacroCell) {
-    const auto session = must(Session::open({scenario_frames("two_rooms", 1, 2)[1]}, {.validation = true}));
+    const auto session = session_of({scenario_frames("two_rooms", 1, 2)[1]});
     const ReferenceImage near = view_of(*session, "macro-cells"), all = view_of(*session, "macro-cells", {"macro_cells=off"});
     EXPECT_EQ(largest(all), 7);
     EXPECT_LT(largest(near), 7) << "walls on both ends are never near the same cells";
@@ -116,7 +116,7 @@ TEST(LightVolumeTaps, AreOfTheGridThatTheVolumeViewNames) {
     LightVolume left = frame.light_volumes[0];
     left.center.x = -4, left.half_extent = {2, 2, 2.8f}, left.cells = {5, 5, 7};
     frame.light_volumes.insert(frame.light_volumes.begin(), left);
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const ReferenceImage picture = view_of(*session, "volume");
     std::size_t first = 0, second = 0, blended = 0;
     for (const glm::dvec4& texel : picture.texels) {
@@ -164,7 +164,7 @@ TEST(LightVolumeTaps, AreReadByAQuarterOfThePixelsWithLittleError) {
 
 /// What a second reading behind the surface would cost is not there with an exponent of 0: as many ways are tested as without it.
 TEST(LightVolumeTaps, AreDampedOnlyWhereThatIsAskedFor) {
-    const auto session = must(Session::open({scenario_frames("two_rooms", 1, 2)[1]}, {.validation = true}));
+    const auto session = session_of({scenario_frames("two_rooms", 1, 2)[1]});
     const auto plain = indirect_light(*session, {}), off = indirect_light(*session, {"damping=0"}),
                least = indirect_light(*session, {"damping=1e-6"});
     EXPECT_TRUE(plain.images.at("indirect").texels == off.images.at("indirect").texels);
@@ -188,7 +188,7 @@ TEST(LightVolumeTaps, AreWhatTheModelSaysAtHalfResolution) {
 }
 
 TEST(LightVolumeTaps, AreWhatTheModelSaysWithDamping) {
-    const auto session = must(Session::open({scenario_frames("two_rooms", 1, 2)[1]}, {.validation = true}));
+    const auto session = session_of({scenario_frames("two_rooms", 1, 2)[1]});
     expect_what_the_model_says(*session, {"damping=2"});
     expect_what_the_model_says(*session, {"apply_resolution=half", "taps=all", "damping=0.5"});
 }
@@ -196,7 +196,7 @@ TEST(LightVolumeTaps, AreWhatTheModelSaysWithDamping) {
 /// Floors on both sides of the wall are closer than neighbors at half resolution may be.
 TEST(LightVolumeTaps, CrossNoWallAtHalfResolution) {
     const Frame frame = at_240(scenario_frames("two_rooms", 1, 2)[0]);
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const auto run = indirect_light(*session, {"apply_resolution=half"});
     std::size_t dark = 0, lit = 0, leaking = 0;
     for (std::uint32_t y = 0; y < run.height; ++y)

@@ -119,7 +119,7 @@ Frame patch_from_the_front() {
 
 TEST(LightVolumeViews, OfOneInjectedLobeShowItsCellAlone) {
     const Frame frame = patch_from_the_front();
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     for (const char* iterations : {"1", "8"}) {
         const auto run =
             must(session->run(request_of_view("injected", {"injection=0", fmt::format("iterations={}", iterations)})));
@@ -135,7 +135,7 @@ TEST(LightVolumeViews, OfOneInjectedLobeShowItsCellAlone) {
 // docs/algorithms/lighting.md T5.5: what a lobe of a watt towards +z sends to its neighbors.
 TEST(LightVolumeViews, OfCellsAfterOneStepShowWhatTheNeighborsHaveTakenBesides) {
     const Frame frame = patch_from_the_front();
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const auto run = must(session->run(request_of_view("cells", {"injection=0", "iterations=1", "propagation=linear"})));
     const double flux = injected_flux(run);
     std::vector<LitCell> cells{{.light = {.2820948, 0, 0, .3257350}},
@@ -174,7 +174,7 @@ TEST(LightVolumeViews, OfAxialOcclusionShowWhatBlockersTakeAtTheFacesOfASurfaces
     std::vector<Frame> frames = scenario_frames("two_rooms", 1, 2);
     // The portal's edge is on the way between the middles of two cells, where rounding decides.
     for (Frame& frame : frames) frame.portals.front().center.z -= .03;
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (const std::size_t index : {0u, 1u}) {
         Request request = request_of_view("axial occlusion", {});
         request.variant.frame = index;
@@ -206,7 +206,7 @@ TEST(LightVolumeViews, OfAxialOcclusionShowWhatBlockersTakeAtTheFacesOfASurfaces
 }
 
 TEST(LightVolumeViews, OfAxialOcclusionAreBlackWithoutIt) {
-    const auto session = must(Session::open(scenario_frames("two_rooms"), {.validation = true}));
+    const auto session = session_of(scenario_frames("two_rooms"));
     const auto run = must(session->run(request_of_view("axial occlusion", {"occlusion=none"})));
     for (const glm::dvec4& texel : in_double(view_picture(run, "axial occlusion")).texels)
         EXPECT_EQ(glm::dvec3(texel), glm::dvec3(0));

@@ -115,7 +115,7 @@ Session& session_of_hard_volumes() {
     static const std::unique_ptr<Session> session = [] {
         std::vector<Frame> frames;
         for (const HardVolumes& hard : hard_volumes()) frames.push_back(hard.frame);
-        return must(Session::open(std::move(frames), {.validation = true}));
+        return session_of(std::move(frames));
     }();
     return *session;
 }
@@ -156,7 +156,7 @@ TEST(LightVolumes, AreDarkenedByNoDark) {
     with_dark.lights.push_back(shade);
     dark.lights = {shade};
     half_dark.lights[0].intensity.x *= -1;
-    const auto session = must(Session::open({lit, with_dark, dark, half_dark}, {.validation = true}));
+    const auto session = session_of({lit, with_dark, dark, half_dark});
     std::vector<HostImage> images;
     for (std::size_t i = 0; i < 4; ++i) images.push_back(must(session->run(indirect_of(i))).images.at("indirect"));
     EXPECT_TRUE(images[1].texels == images[0].texels);
@@ -205,7 +205,7 @@ TEST(LightVolumes, PassNoSeamBetweenBlockersThatTouch) {
     const std::vector<double> turns = {.3, glm::radians(45.), 1.2};
     std::vector<Frame> frames = {straight};
     for (const double yaw : turns) frames.push_back(turned(straight, yaw));
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (std::size_t i = 0; i < frames.size(); ++i)
         expect_dark_behind_the_door(straight, must(session->run(indirect_of(i))),
                                     i == 0 ? "straight" : std::to_string(turns[i - 1]));
@@ -224,7 +224,7 @@ TEST(LightVolumes, PassNoWallThatMiddlesOfCellsLieOn) {
     Frame straight = plain[0];
     straight.light_volumes[0].center.x = 0.2;  // middles at x = 0
     const std::vector<Frame> frames = {straight, on_the_plane(plain[0]), on_the_plane(plain[1])};
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (const char* iterations : {"iterations=16", "iterations=64"})
         for (std::size_t i = 0; i < 2; ++i)
             expect_dark_behind_the_door(plain[0], must(session->run(indirect_of(i, {iterations}))),
@@ -243,7 +243,7 @@ TEST(LightVolumes, PassNoSeamThatMiddlesOfCellsLieOn) {
         frames.push_back(frames[i]);
         for (std::size_t k = 0; k < frames.back().blockers.size(); k += 2) frames.back().blockers[k].u *= -1.f;
     }
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const char* const names[] = {"straight", "oblique", "straight, facing either way", "oblique, facing either way"};
     for (std::size_t i = 0; i < frames.size(); ++i)
         expect_dark_behind_the_door(plain, must(session->run(indirect_of(i))), names[i]);
@@ -252,7 +252,7 @@ TEST(LightVolumes, PassNoSeamThatMiddlesOfCellsLieOn) {
 // Of cells of .2 m borders lie .1 m above the floor of the rooms and below their ceiling. When rounding chose between two cells,
 // the device was .02 away from the model, .5 at worst.
 TEST(LightVolumes, GiveAllLightThatAFloorSendsOntoABorderToOneCell) {
-    const auto session = must(Session::open({two_rooms()[1]}, {.validation = true}));
+    const auto session = session_of({two_rooms()[1]});
     const Request request = indirect_of(0, {"cell_scale=1/2", "iterations=2"});
     const Accuracy accuracy = must(session->judge(request, Stage::indirect, Against::model));
     EXPECT_LT(accuracy.model_rmse, 5e-3);
@@ -264,7 +264,7 @@ TEST(LightVolumes, SayWhichPortalsAreTooSmallForTheirCells) {
     Frame wide = two_rooms()[1], narrow = wide, closed = wide;
     narrow.portals[0].half_u = .024f;  // cells of .4 m: 8 ways, .05 m apart
     closed.portals[0].half_u = 0;
-    const auto session = must(Session::open({wide, narrow, closed}, {.validation = true}));
+    const auto session = session_of({wide, narrow, closed});
     const auto notes = [&](std::size_t frame, std::vector<std::string> sets = {}) {
         return must(session->run(indirect_of(frame, sets))).notes;
     };
@@ -329,7 +329,7 @@ TEST(LightVolumes, TakeNothingOfALightThatIsNoNumber) {
         frame.lights.insert(frame.lights.begin(), light);
         frames.push_back(std::move(frame));
     }
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const std::vector<std::string> sets = {"iterations=4", "map_size=32"};
     const HostImage without = must(session->run(indirect_of(0, sets))).images.at("indirect");
     EXPECT_FALSE(is_black(without));
@@ -369,7 +369,7 @@ TEST(LightVolumes, TurnAndMirrorWithTheScene) {
         volume.cells = glm::uvec3(glm::abs(by * glm::dvec3(volume.cells)) + .5);
         frames.push_back(std::move(frame));
     }
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const HostImage here = must(session->run(indirect_of(0))).images.at("indirect");
     for (std::size_t i = 1; i < frames.size(); ++i) {
         const bool is_mirrored = i + 1 == frames.size();
@@ -393,7 +393,7 @@ void expect_a_dark_store_room(std::uint32_t frames, std::uint32_t begin) {
         frame.view.origin = {-7.6 + 2 * way, 1.4, -7.5 + 1.9 * way};
         walk.push_back(std::move(frame));
     }
-    const auto session = must(Session::open(walk, {.validation = true}));
+    const auto session = session_of(walk);
     for (std::uint32_t i = 0; i < frames; ++i) {
         const Run run = must(session->run(indirect_of(i, {"map_size=64"})));
         EXPECT_TRUE(is_black(run.images.at("indirect"))) << "frame " << begin + i;
@@ -421,7 +421,7 @@ TEST(LightVolumes, LeaveARoomDarkInCascadesThatFollowTheEye) {
                                     .cascades = 3,
                                     .iterations = 12}};
     }
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (std::size_t i = 0; i < frames.size(); ++i)
         expect_dark_behind_the_door(frames[i], must(session->run(indirect_of(i))), fmt::format("frame {}", i));
 }

@@ -20,7 +20,7 @@ constexpr double brightest_albedo = .78;  // of both scenarios
 
 TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
     const std::vector<Frame> frames = two_rooms();
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const std::vector<std::vector<std::string>> settings{{"propagation=linear", "iterations=16"},
                                                          {"propagation=linear", "iterations=64"},
                                                          {"propagation=clamped", "iterations=16"},
@@ -43,7 +43,7 @@ TEST(LightVolumes, LeaveARoomBehindAClosedDoorExactlyDark) {
 TEST(LightVolumes, LeaveItDarkBehindObliqueWallsToo) {
     const std::vector<Frame> frames = two_rooms();
     for (const double yaw : {.3, glm::radians(45.)}) {
-        const auto session = must(Session::open({turned(frames[0], yaw), turned(frames[1], yaw)}, {.validation = true}));
+        const auto session = session_of({turned(frames[0], yaw), turned(frames[1], yaw)});
         // Where samples lie is asked of the rooms before they were turned: the eye turned with them.
         const Rooms closed = rooms_of(frames[0], must(session->run(indirect_of(0)))),
                     open = rooms_of(frames[1], must(session->run(indirect_of(1))));
@@ -56,7 +56,7 @@ TEST(LightVolumes, LeaveItDarkBehindObliqueWallsToo) {
 
 TEST(LightVolumes, LeakWhereNoBlockerIsAskedOrEveryTapCounts) {
     const std::vector<Frame> frames = two_rooms();
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     EXPECT_GT(mean(rooms_of(frames[0], must(session->run(indirect_of(0, {"occlusion=none"})))).dark), 1e-3);
     EXPECT_GT(mean(rooms_of(frames[0], must(session->run(indirect_of(0, {"taps=all"})))).dark), 1e-3);
 }
@@ -79,7 +79,7 @@ TEST(LightVolumes, LeakAsMuchAsIsDocumented) {
     };
     for (const auto& [yaw, leaks] : {TurnedLeaks{0, rows(.0619, .00674)}, TurnedLeaks{.3, rows(.0563, .00182)},
                                      TurnedLeaks{glm::radians(45.), rows(.0550, .00093)}}) {
-        const auto session = must(Session::open({turned(closed, yaw)}, {.validation = true}));
+        const auto session = session_of({turned(closed, yaw)});
         for (const Leak& leak : leaks) {
             const std::vector<std::string> sets{fmt::format("occlusion={}", leak.occlusion), fmt::format("taps={}", leak.taps)};
             const Rooms rooms = rooms_of(closed, must(session->run(indirect_of(0, sets))));
@@ -97,7 +97,7 @@ NumberTable table_of(Session& session, const std::string& name, std::size_t fram
 
 TEST(LightVolumes, LoseNoEnergyButAtBlockersAndOverTheBorder) {
     // Closed by blockers, and by none.
-    const auto session = must(Session::open({two_rooms()[1], scenario_frames("cornell_box").front()}, {.validation = true}));
+    const auto session = session_of({two_rooms()[1], scenario_frames("cornell_box").front()});
     for (const std::size_t frame : {0, 1})
         for (const char* propagation : {"linear", "energy_true"})
             for (const char* faces : {"centre", "exact"}) {
@@ -133,14 +133,14 @@ TEST(LightVolumes, BounceTwiceAsTheirModelSays) {
 TEST(LightVolumes, BounceTwiceTheSameWithoutVertexNormals) {
     std::vector<Frame> frames{scenario_frames("cornell_box").front(), scenario_frames("cornell_box").front()};
     for (Mesh& mesh : frames[1].meshes) mesh.normals.clear(), mesh.tangents.clear();
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const auto energy = [&](std::size_t frame) { return table_of(*session, "bounces", frame, {"bounces=2"}).rows[1][1]; };
     EXPECT_NEAR(energy(1) / energy(0), 1, 1e-3);
 }
 
 // docs/algorithms/lighting.md N11: a loop of bounces ends where each brings less than the one before.
 TEST(LightVolumes, ReflectNoMoreTheSecondTimeThanTheirSurfacesMay) {
-    const auto session = must(Session::open({two_rooms()[1], scenario_frames("cornell_box").front()}, {.validation = true}));
+    const auto session = session_of({two_rooms()[1], scenario_frames("cornell_box").front()});
     for (const std::size_t frame : {0, 1}) {
         const NumberTable table = table_of(*session, "bounces", frame, {"bounces=2"});
         ASSERT_EQ(table.rows.size(), 2u);
@@ -152,7 +152,7 @@ TEST(LightVolumes, ReflectNoMoreTheSecondTimeThanTheirSurfacesMay) {
 TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
     std::vector<Frame> frames{two_rooms()[1], two_rooms()[1]};
     for (Light& light : frames[1].lights) light.intensity *= 8;  // exact
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (const char* storage : {"cell_storage=float", "cell_storage=half"}) {
         const std::vector<std::string> sets{"bounces=2", "occlusion=both", storage};  // in whatever fixed point
         const auto dim = must(session->run(indirect_of(0, sets))), bright = must(session->run(indirect_of(1, sets)));
@@ -170,7 +170,7 @@ TEST(LightVolumes, GrowWithTheirLightsByAnyPowerOfTwoToTheBit) {
 }
 
 TEST(LightVolumes, AreTheSameInEveryRun) {
-    const auto session = must(Session::open(two_rooms(), {.validation = true}));
+    const auto session = session_of(two_rooms());
     const std::vector<std::string> sets{"bounces=2", "occlusion=both"};
     const auto first = must(session->run(indirect_of(1, sets)));
     session->forget_memo();
@@ -188,7 +188,7 @@ TEST(LightVolumes, AreTheSameTenKilometresAway) {
     for (Blocker& blocker : far.blockers) blocker.center += away;
     for (Portal& portal : far.portals) portal.center += away;
     for (LightVolume& volume : far.light_volumes) volume.center += away;
-    const auto session = must(Session::open({near, far}, {.validation = true}));
+    const auto session = session_of({near, far});
     const auto here = must(session->run(indirect_of(0))), there = must(session->run(indirect_of(1)));
     double worst = 0, most = 0;
     for (std::uint32_t y = 0; y < here.height; ++y)

@@ -94,7 +94,7 @@ private:
 };
 
 TEST(LitGlass, IsExactlyDarkBehindAClosedDoorAndNotBehindAnOpenOne) {
-    const auto session = must(Session::open(rooms(), {.validation = true}));
+    const auto session = session_of(rooms());
     const Bounced closed(*session, 0, "transparency/sorted_lists"), open(*session, 1, "transparency/sorted_lists");
     for (const glm::dvec3& dark : {dark_pane, dark_edge, dark_puff}) {
         EXPECT_EQ(closed.at(dark), glm::dvec3(0));
@@ -137,7 +137,7 @@ void expect_alike(Session& session, std::size_t glass, std::size_t opaque, const
 TEST(LitGlass, GetsWhatAnOpaqueSurfaceInItsPlaceGets) {
     std::vector<Frame> frames{rooms()[1], rooms({.mode = AlphaMode::opaque})[1]};
     for (int i = 0; i < 2; ++i) add_volumes(frames.emplace_back(frames[std::size_t(i)]));
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     expect_alike(*session, 0, 1, "irradiance=cell", 1);
     expect_alike(*session, 0, 1, "irradiance=face", 1);
     expect_alike(*session, 2, 3, "irradiance=cell", 3);
@@ -163,7 +163,7 @@ double total_difference(const HostImage& a, const HostImage& b) {
 
 // 70 blockers take three words of a list, so that its last texel is half empty.
 TEST(LitGlass, AsksTheBlockersNearItsMacroCellAndGetsTheBitsOfAskingAll) {
-    const auto session = must(Session::open({glass_among(70)}, {.validation = true}));
+    const auto session = session_of({glass_among(70)});
     const auto color = [&](const std::string& set) {
         const Request request = request_of(0, {"indirect/lpv", "transparency/alpha_blend"}, {"iterations=8", "map_size=32", set});
         return must(session->run(request)).images.at("color");
@@ -177,7 +177,7 @@ TEST(LitGlass, AsksTheBlockersNearItsMacroCellAndGetsTheBitsOfAskingAll) {
 TEST(LitGlass, IsLitThroughAThousandWindows) {
     Frame frame = with_a_thousand_windows();
     add_panes_and_puffs(frame, {.alpha = .6f});
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const Request request = request_of(0, {"indirect/lpv", "transparency/sorted_lists"});
     const Accuracy accuracy = must(session->judge(request, Stage::transparency, Against::model));
     expect_within_tolerance(accuracy, *must(find_technique("transparency/sorted_lists")), request);
@@ -200,7 +200,7 @@ Frame glass_in_dust(std::uint32_t grains) {
 
 // Each blocker that is near takes up to 42 turns of a fragment's loops.
 TEST(ExhaustiveLitGlass, AmongManyBlockersIsRightOrRefused) {
-    const auto session = must(Session::open({glass_in_dust(0), glass_in_dust(1540), glass_in_dust(1560)}, {.validation = true}));
+    const auto session = session_of({glass_in_dust(0), glass_in_dust(1540), glass_in_dust(1560)});
     const auto color = [&](std::size_t frame) {
         return session->run(request_of(frame, {"indirect/lpv", "transparency/sorted_lists"}, {"iterations=8"}));
     };
@@ -231,7 +231,7 @@ Frame rooms_in_cascades(std::uint32_t cells, std::uint32_t cascades) {
 
 // Nothing is allocated before a frame is refused.
 TEST(LitGlass, IsRefusedWhereTheDeviceCannotHoldItsVolumes) {
-    const auto session = must(Session::open({rooms_in_cascades(200, 1), rooms_in_cascades(256, 8)}, {.validation = true}));
+    const auto session = session_of({rooms_in_cascades(200, 1), rooms_in_cascades(256, 8)});
     if (session->device().max_buffer_bytes > 256u << 20 || session->device().max_image_extent > 65'536)
         GTEST_SKIP() << "this device holds 8 million cells";
     const auto sentence_for = [&](std::size_t frame) {
@@ -252,7 +252,7 @@ double difference_from_truth(const Accuracy& accuracy) {
 
 TEST_P(LitGlassBy, IsWhatModelAndTruthSay) {
     const Technique& technique = *GetParam();
-    static const auto session = must(Session::open(rooms({.alpha = .6f}), {.validation = true}));
+    static const auto session = session_of(rooms({.alpha = .6f}));
     const Request request = request_of(1, {"indirect/lpv", std::string(technique.name)});
     const Accuracy accuracy = must(session->judge(request, Stage::transparency, Against::model_and_truth));
     if (!accuracy.not_supported.empty()) GTEST_SKIP() << accuracy.not_supported;
@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, LitGlassBy, testing::ValuesIn(techniques_of
                          [](const auto& tested) { return as_identifier(std::string(tested.param->name)); });
 
 TEST(LitGlass, KeepsItsLightWhereTheTruthTakesTheOpaqueSurfaces) {
-    const auto session = must(Session::open(rooms(), {.validation = true}));
+    const auto session = session_of(rooms());
     const Request request = request_of(1, {"indirect/lpv"});
     const Frame frame = must(session->frame(1));
     const ImageSet black{{"indirect", ReferenceImage(frame.view.width, frame.view.height)}};

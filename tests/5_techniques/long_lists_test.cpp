@@ -49,7 +49,7 @@ void expect_right(std::size_t layers) {
                               {"transparency/multi_layer", ""},
                               {"transparency/multi_layer", "buckets=8"},
                               {"transparency/moments", "storage=normalized"}};
-    const auto session = must(Session::open({two_stacks(layers)}, {.validation = true}));
+    const auto session = session_of({two_stacks(layers)});
     for (const LongCase& c : cases) {
         SCOPED_TRACE(fmt::format("{} {} at {} layers", c.technique, c.set, layers));
         const ChoiceChanges choices = c.set.empty() ? chosen({c.technique}) : chosen({c.technique}, {c.set});

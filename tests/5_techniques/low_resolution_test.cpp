@@ -67,7 +67,7 @@ TEST_P(LowResolution, ShadesAQuarterOfTheFragments) {
         Frame frame = low_resolution_smoke(96, 54, 1);
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
         std::erase_if(frame.draws, [&](const Draw& draw) { return is_transparent(frame.materials[draw.material].alpha_mode); });
-        const auto session = must(Session::open({frame}, {.validation = true}));
+        const auto session = session_of({frame});
         return double(counted(must(session->run({.choices = chosen({std::string(method.technique)})})), method.counter));
     };
     EXPECT_NEAR(fragments(Resolution::low) / fragments(Resolution::full), .25, .03);
@@ -85,7 +85,7 @@ TEST(LowResolutionError, OfAnExactFunctionIsThatOfFilteringSmoke) {
     const auto error = [&](Resolution resolution) {
         Frame frame = low_resolution_smoke(160, 90, 1);
         for (Emitter& emitter : frame.emitters) emitter.resolution = resolution;
-        const auto session = must(Session::open({frame}, {.validation = true}));
+        const auto session = session_of({frame});
         return must(session->judge({.choices = chosen({"transparency/exact_function"}, {"accumulation=single"})},
                                    Stage::transparency, Against::truth))
             .method.front()

@@ -85,7 +85,7 @@ glm::uvec2 corner_of(std::uint32_t number) { return {number % (edge / tile) * ti
 TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
     constexpr std::uint32_t band_methods[] = {masked_a2c_1, masked_a2c_2, masked_a2c_or, masked_full_step, masked_unbiased};
     for (const std::uint32_t samples : {1u, 4u}) {
-        const auto session = must(Session::open({sixteenths(samples)}, {.validation = true}));
+        const auto session = session_of({sixteenths(samples)});
         for (const std::uint32_t method : band_methods) {
             const Masks got = masks_of(*session, with(method));
             for (std::uint32_t k = 0; k <= 16; ++k)
@@ -99,7 +99,7 @@ TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
 }
 
 TEST(MaskedSurfaces, CoverSixteenthsOnAverageAsTheChapterSays) {
-    const auto session = must(Session::open({sixteenths(4)}, {.validation = true}));
+    const auto session = session_of({sixteenths(4)});
     struct Row {
         std::uint32_t method, k;
         double coverage;
@@ -127,7 +127,7 @@ TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMethod) {
         for (Card& card : same) card.alpha_mode = mode;
         frames.push_back(frame_of(same));
     }
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     const std::vector<std::uint32_t> solid = masks_of(*session, with(masked_clip)).of;
     EXPECT_GT(std::ranges::count(solid, 15u), 100);
     for (std::uint32_t method = 0; method < methods().size(); ++method) {
@@ -203,7 +203,7 @@ Frame minified_chessboard(float cutoff) {
 }
 
 TEST(MaskedSurfaces, OfAMinifiedChessboardVanishOrGrowSolidWhereTheyAreTestedAndFadeInBands) {
-    const auto session = must(Session::open({minified_chessboard(200.f / 255), minified_chessboard(.5f)}, {.validation = true}));
+    const auto session = session_of({minified_chessboard(200.f / 255), minified_chessboard(.5f)});
     struct Row {
         std::uint32_t method;
         double above, at_half;  // with a cutoff of 200 / 255, and of .5
@@ -227,7 +227,7 @@ TEST(MaskedSurfaces, OfAMinifiedChessboardVanishOrGrowSolidWhereTheyAreTestedAnd
 TEST(MaskedSurfaces, OverEachOtherHideMoreWhereTheirPatternsDiffer) {
     const std::vector<Card> two{{.center = {0, 0, 2}, .half = 3, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask},
                                 {.center = {0, 0, 3}, .half = 4, .color = {1, 1, 1, .5f}, .alpha_mode = AlphaMode::mask}};
-    const auto session = must(Session::open({frame_of(two)}, {.validation = true}));
+    const auto session = session_of({frame_of(two)});
     const auto coverage = [&](std::uint32_t method) { return masks_of(*session, with(method)).coverage({0, 0}, {edge, edge}); };
     EXPECT_EQ(coverage(masked_a2c_1), .5);
     EXPECT_EQ(coverage(masked_a2c_2), .5);
@@ -237,7 +237,7 @@ TEST(MaskedSurfaces, OverEachOtherHideMoreWhereTheirPatternsDiffer) {
 
 /// The device's table; what Vulkan says of it is in tests/6_replay/executor_raster_test.cpp.
 TEST(MaskedSurfaces, OfConstantAlphaByHardwareAreTheDevicesTable) {
-    const auto session = must(Session::open({sixteenths(4)}, {.validation = true}));
+    const auto session = session_of({sixteenths(4)});
     const Masks got = masks_of(*session, with(masked_hardware));
     double last = 0;
     std::string table;

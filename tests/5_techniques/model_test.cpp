@@ -122,7 +122,7 @@ TEST_P(TwoPanes, AreWhatTheModelSaysAtTheDefaults) {
     const Technique& technique = *GetParam();
     const std::vector<Card> panes{{.center = {0, 0, 2}, .half = 1.5f, .color = {.8f, .3f, .1f, .5f}},
                                   {.center = {.5, 0, 3}, .half = 2, .color = {.1f, .4f, .9f, .5f}}};
-    const auto session = must(Session::open(std::vector<Frame>{frame_of_cards(panes, 16)}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{frame_of_cards(panes, 16)});
     const Request request{.choices = chosen({std::string(technique.name)})};
     const Accuracy accuracy = must(session->judge(request, technique.stage, Against::model));
     expect_within_tolerance(accuracy, technique, request);

@@ -15,7 +15,7 @@ TEST_P(MomentsBias, MixesInAsMuchAsTheModelAtTwentyTimesThePublished) {
     const std::vector<Card> panes{{.center = {0, 0, 2}, .half = 1.5f, .color = {.8f, .3f, .1f, .5f}},
                                   {.center = {0, 0, 3}, .half = 2, .color = {.1f, .4f, .9f, .5f}},
                                   {.center = {0, 0, 5}, .half = 4, .color = {.9f, .9f, .2f, .5f}}};
-    const auto session = must(Session::open(std::vector<Frame>{frame_of_cards(panes, 16)}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{frame_of_cards(panes, 16)});
     const Technique& moments = *must(find_technique("transparency/moments"));
     const auto error_at = [&](const std::string& bias) {
         const Request request{.choices = chosen({"transparency/moments"}, {GetParam(), "storage=half", "bias=" + bias})};

@@ -52,7 +52,7 @@ TEST(Motion, IsAnAverageOfWhatIsSeen) {
     for (const std::uint32_t samples : {1u, 4u}) {
         std::vector<Frame> frames{pane_over_wall(4)};
         frames[0].view.samples = samples;
-        const auto session = must(Session::open(std::move(frames), {.validation = true}));
+        const auto session = session_of(std::move(frames));
         for (const std::string& technique : techniques) {
             const glm::dvec4 seen = device_motion(*session, technique).at(30, 33);
             EXPECT_NEAR(seen.x, .5 * 4 + .5 * 1, 2e-3) << technique;
@@ -63,7 +63,7 @@ TEST(Motion, IsAnAverageOfWhatIsSeen) {
 }
 
 TEST(Motion, IsComputedForNobodyWhoDoesNotAsk) {
-    const auto session = must(Session::open({pane_over_wall(4)}, {.validation = true}));
+    const auto session = session_of({pane_over_wall(4)});
     for (const std::string& technique : with_motion()) {
         const auto run = must(session->run({.choices = chosen({technique}), .outputs = {"color"}}));
         for (const StepRecord& step : run.steps) EXPECT_EQ(step.name.find("motion"), std::string::npos) << technique;
@@ -120,7 +120,7 @@ Frame moving_room() {
 
 TEST(Motion, OfTheExactFunctionIsWhatTheExactListsSay) {
     const Frame frame = moving_room();
-    const auto session = must(Session::open({frame}, {.validation = true}));
+    const auto session = session_of({frame});
     const std::string exact = "transparency/exact_function";
     const ReferenceImage got = device_motion(*session, exact, {"accumulation=single"});
     const FragmentLists& lists = *must(session->transparent_fragments({.choices = chosen({exact})}));

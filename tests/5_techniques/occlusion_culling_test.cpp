@@ -54,7 +54,7 @@ std::vector<Frame> city(std::uint32_t count, const ScenarioOptions& options = {}
 TEST(OcclusionCulling, HidesNoVisibleDrawAlongAPathThroughACityAndAnswersAsIfItHadSeenNoFrameBefore) {
     constexpr std::uint32_t count = 16;  // 64 were run once: they take a minute
     const std::vector<Frame> frames = city(count);
-    const auto warm = must(Session::open(frames, {.validation = true})), cold = must(Session::open(frames, {.validation = true}));
+    const auto warm = session_of(frames), cold = session_of(frames);
     std::uint64_t newly = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto run = must(warm->run(culled(i)));
@@ -125,7 +125,7 @@ TEST(OcclusionCulling, BuildsEveryLevelOfThePyramidFromTheDepthTheGBufferHas) {
     for (const std::uint32_t samples : {1u, 4u})
         for (const auto& [width, height] : {std::pair{53u, 31u}, {160u, 90u}, {1u, 9u}}) {
             const auto frames = city(1, {.width = width, .height = height, .samples = samples});
-            const auto session = must(Session::open(frames, {.validation = true}));
+            const auto session = session_of(frames);
             ReferenceImage wanted;
             for (std::uint32_t level = 0; level == 0 || wanted.width > 1 || wanted.height > 1; ++level) {
                 Request request = culled(0, {fmt::format("level={}", level)});
@@ -158,7 +158,7 @@ TEST(OcclusionCulling, DrawsNothingThatIsBehindTheEye) {
 TEST(OcclusionCulling, WorksOnAPictureOfOnePixel) {
     for (const std::uint32_t samples : {1u, 4u}) {
         const auto frames = city(1, {.width = 1, .height = 1, .samples = samples});
-        const auto session = must(Session::open(frames, {.validation = true}));
+        const auto session = session_of(frames);
         for (const char* set : settings) {
             const auto run = must(session->run(culled(0, {set})));
             EXPECT_EQ(judged(run, frames[0])[0].value, 0);

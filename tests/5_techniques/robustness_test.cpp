@@ -69,7 +69,7 @@ Session& session_of_hard_frames() {
             frames.push_back(hard.frame());
             frames.push_back(hard.looks_like ? hard.looks_like() : hard.frame());
         }
-        return must(Session::open(std::move(frames), {.validation = true}));
+        return session_of(std::move(frames));
     }();
     return *session;
 }

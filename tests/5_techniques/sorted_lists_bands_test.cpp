@@ -66,7 +66,7 @@ Session& odd_rows() {
         for (Frame& frame : frames) frame.view.width = 121, frame.view.height = 69;
         frames.push_back(frames.back());  // smoke at half resolution among panes at full
         for (Emitter& emitter : frames.back().emitters) emitter.resolution = Resolution::low;
-        return must(Session::open(std::move(frames), {.validation = true}));
+        return session_of(std::move(frames));
     }();
     return *session;
 }

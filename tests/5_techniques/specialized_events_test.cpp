@@ -80,7 +80,7 @@ Frame glass_alone(std::uint32_t samples) {
 }
 
 void expect_same_bits(const Frame& alone, const Frame& with_more) {
-    const auto session = must(Session::open({alone, with_more}, {.validation = true}));
+    const auto session = session_of({alone, with_more});
     for (const char* technique : {"transparency/alpha_blend", "transparency/sorted_lists"}) {
         Request first{.choices = chosen({technique})}, second{.variant = {.frame = 1}, .choices = chosen({technique})};
         first.outputs = second.outputs = {"color"};
@@ -159,7 +159,7 @@ TEST(SpecializedSurfaces, CastTheShadowsOfAFrameWithAllKinds) {
     Frame whole = alone, more = alone;
     for (Material& material : whole.materials) material.base_color_texture.texture = no_index;
     add_unseen_variety(more, AlphaMode::opaque);
-    const auto session = must(Session::open({alone, more, whole}, {.validation = true}));
+    const auto session = session_of({alone, more, whole});
     std::vector<HostImage> visible;
     for (const std::size_t frame : {0, 1, 2})
         visible.push_back(
@@ -175,7 +175,7 @@ TEST(SpecializedSurfaces, OfPlainMaterialsAreThoseOfAFrameWithAllKinds) {
             alone.view.width = 96, alone.view.height = 54;
             Frame more = alone;
             add_unseen_variety(more, mode);
-            const auto session = must(Session::open({alone, more}, {.validation = true}));
+            const auto session = session_of({alone, more});
             Request first{.outputs = {"gbuffer0", "gbuffer1", "emission", "color"}}, second = first;
             second.variant.frame = 1;
             const auto a = must(session->run(first)), b = must(session->run(second));

@@ -93,7 +93,7 @@ TEST(AmbientOcclusion, OfATruthThatTakesItsPlaceReachesThePictureWithoutATechniq
 
 TEST(AmbientOcclusion, OfAPlaneInTheGBufferIsExactly1) {
     const auto deviating_with = [](std::uint32_t samples, const std::vector<std::vector<std::string>>& kinds) {
-        const auto session = must(Session::open(std::vector<Frame>{ground(samples)}, {.validation = true}));
+        const auto session = session_of(std::vector<Frame>{ground(samples)});
         std::size_t texels = 0;
         for (const std::vector<std::string>& sets : kinds) texels += deviating(occlusion_of(*session, with_ssao(sets))).texels;
         return texels;
@@ -106,7 +106,7 @@ TEST(AmbientOcclusion, OfAPlaneInTheGBufferIsExactly1) {
 }
 
 TEST(AmbientOcclusion, OfAPlaneInACoarserGBufferIs1WithItsErrorsAndBandsWithout) {
-    const auto session = must(Session::open(std::vector<Frame>{ground()}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{ground()});
     const auto packed = [&](std::vector<std::string> sets) {
         return deviating(occlusion_of(*session, with_ssao(std::move(sets), {"gbuffer/packed"})));
     };
@@ -117,7 +117,7 @@ TEST(AmbientOcclusion, OfAPlaneInACoarserGBufferIs1WithItsErrorsAndBandsWithout)
 }
 
 TEST(AmbientOcclusion, OfXRayBandsOnAPlaneByTheStepsOfDepth) {
-    const auto session = must(Session::open(std::vector<Frame>{ground()}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{ground()});
     const Deviating bands = deviating(occlusion_of(*session, with_ssao({"ao_form=xray", "ao_blur=off"})));
     testing::Test::RecordProperty("bands", fmt::format("{} texels below 1, the least {:.4f}", bands.texels, bands.least));
     EXPECT_GT(bands.texels, 0u);
@@ -127,7 +127,7 @@ TEST(AmbientOcclusion, OfXRayBandsOnAPlaneByTheStepsOfDepth) {
 TEST(AmbientOcclusion, IsTheSameInEveryRunAndHashedNoiseIsOfTheFrame) {
     std::vector<Frame> frames{scenario_frames("corners").front(), scenario_frames("corners").front()};
     frames[1].index = 1;
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     const auto texels = [&](std::size_t frame, std::vector<std::string> sets) {
         Request request = with_ssao(std::move(sets));
         request.variant.frame = frame;
@@ -146,7 +146,7 @@ TEST(AmbientOcclusion, IsTheSameTenKilometersFromTheOrigin) {
     const glm::dvec3 away(8192, 0, -8192);
     frames[1].view.origin += away;
     for (Draw& draw : frames[1].draws) draw.to_world[3] += glm::dvec4(away, 0);
-    const auto session = must(Session::open(std::move(frames), {.validation = true}));
+    const auto session = session_of(std::move(frames));
     Request request = with_ssao();
     const ReferenceImage here = occlusion_of(*session, request);
     request.variant.frame = 1;

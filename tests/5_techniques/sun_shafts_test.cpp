@@ -48,7 +48,7 @@ Frame under_a_roof(ShadowUse shadow) {
 }
 
 ReferenceImage shafts_of(const Frame& frame, const std::vector<std::string>& sets) {
-    const auto session = must(Session::open(std::vector<Frame>{frame}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{frame});
     const Request request{.choices = chosen({"sun_shafts/ray_march"}, sets), .outputs = {"shafts"}};
     return in_double(must(session->run(request)).images.at("shafts"));
 }
@@ -94,7 +94,7 @@ TEST(SunShafts, OfAirThatIsLitThroughoutAre1AndUnderARoofExactly0) {
 TEST(SunShafts, AreAddedToTheColorAndNowhereWithoutTheStage) {
     Frame dark = scenario_frames("beams").front();
     dark.sun.shafts = false;
-    const auto session = must(Session::open(std::vector<Frame>{scenario_frames("beams").front(), dark}, {.validation = true}));
+    const auto session = session_of(std::vector<Frame>{scenario_frames("beams").front(), dark});
     Request request{.outputs = {"color", "shafts"}};
     const auto lit = must(session->run(request));
     request.variant.frame = 1;

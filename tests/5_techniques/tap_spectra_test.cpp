@@ -124,7 +124,7 @@ struct Scene {
 TEST(TapSpectra, HaveTheBitInTilesWhoseSurfacesReadLightNearABlocker) {
     for (const Scene& scene : {Scene{"two_rooms", {}, false}, Scene{"cornell_box", {"occlusion=axial"}, true}}) {
         const Frame frame = scenario_frame(scene.name);
-        const auto session = must(Session::open({frame}, {.validation = true}));
+        const auto session = session_of({frame});
         const auto run = run_of(*session, {"indirect/lpv", "lighting/tiled"}, scene.sets);
         const HostImage& shown = run.images.at("lighting/tiled:spectrum");
         const std::vector<Need> needs = needs_of_tiles(frame, run.images.at("surface_normal"));
@@ -148,7 +148,7 @@ TEST(TapSpectra, HaveTheBitInTilesWhoseSurfacesReadLightNearABlocker) {
 }
 
 TEST(TapSpectra, LackTheBitWhereNoTapIsAsked) {
-    const auto session = must(Session::open({scenario_frame("two_rooms")}, {.validation = true}));
+    const auto session = session_of({scenario_frame("two_rooms")});
     EXPECT_GT(tiles_with_taps(run_of(*session, {"indirect/lpv", "lighting/tiled"}, {"iterations=1"})), 0u);
     EXPECT_EQ(tiles_with_taps(run_of(*session, {"indirect/lpv", "lighting/tiled"}, {"iterations=1", "taps=all"})), 0u);
     EXPECT_EQ(tiles_with_taps(run_of(*session, {"indirect/lpv", "lighting/tiled"}, {"iterations=1", "occlusion=none"})), 0u);
@@ -156,7 +156,7 @@ TEST(TapSpectra, LackTheBitWhereNoTapIsAsked) {
 }
 
 TEST(TapSpectra, ArePricedAndServedByModes) {
-    const auto session = must(Session::open({scenario_frame("cornell_box")}, {.validation = true}));
+    const auto session = session_of({scenario_frame("cornell_box")});
     const Technique& technique = *must(technique_of_spectra({}));
     const Request base{.choices = chosen({"indirect/lpv"}, {"occlusion=axial"})};
     const GatheredFrames gathered = must(gather_spectra(*session, technique, base, std::array{std::size_t{0}}));

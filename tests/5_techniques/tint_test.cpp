@@ -38,7 +38,7 @@ void expect_near(glm::dvec3 got, glm::dvec3 wanted, double slack) {
 }
 
 TEST(TintOnTheDevice, IsTheChaptersOfASingleGlassOverAnExactBackground) {
-    const auto session = must(Session::open({green_glass(0), green_glass(1)}, {.validation = true}));
+    const auto session = session_of({green_glass(0), green_glass(1)});
     expect_near(seen(*session, 0, "tint=skew"), {.0318, .1272, .0318}, 5e-5);
     expect_near(seen(*session, 0, "tint=corrected"), glm::dvec3(.1), 1e-6);
     for (const char* tint : {"tint=total", "tint=skew", "tint=corrected"})

@@ -78,7 +78,7 @@ std::unique_ptr<Session> dense_smoke(std::uint32_t samples) {
         emitter.soft_depth_fade = 0;
         for (Particle& particle : emitter.particles) particle.alpha = 1 - std::pow(1 - particle.alpha, 24.f);
     }
-    return must(Session::open({frame}, {.validation = true}));
+    return session_of({frame});
 }
 
 TEST(VoxelCulling, LeavesUnshadedWhatDenseSmokeHides) {

@@ -42,10 +42,6 @@ Volume volume_of(Session& session, std::size_t frame, const std::string& hystere
     return {counted(run, "halvings"), counted(run, "halvings held"), run.images.at("color").texels};
 }
 
-std::unique_ptr<Session> session_of(std::vector<Frame> frames) {
-    return must(Session::open(std::move(frames), {.validation = true}));
-}
-
 TEST(VoxelHysteresis, HoldsWhatIsCoarserForSoManyFrames) {
     const auto session = session_of({few, many});
     const Volume thin = volume_of(*session, 0, "0"), thick = volume_of(*session, 1, "0");

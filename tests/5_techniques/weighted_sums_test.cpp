@@ -25,7 +25,7 @@ Frame glowing_card(double depth) {
 
 /// Red, green, blue and coverage, each times the weight.
 glm::dvec4 sum_of(double depth, const std::string& weight) {
-    const auto session = must(Session::open({glowing_card(depth)}, {.validation = true}));
+    const auto session = session_of({glowing_card(depth)});
     const Request request{.choices = chosen({"transparency/weighted"}, {"weight=" + weight})};
     glm::dvec4 sum(0);
     for (const StepImages& step : must(session->step_images(request, Stage::transparency)))

@@ -30,10 +30,6 @@ Frame dry_shelter(std::uint32_t samples = 1) {
     return frame;
 }
 
-std::unique_ptr<Session> session_on(std::vector<Frame> frames) {
-    return must(Session::open(std::move(frames), {.validation = true}));
-}
-
 std::size_t rain_steps(const Run& run) {
     return std::size_t(std::ranges::count_if(run.steps, [](const StepRecord& step) { return step.scope.stage == Stage::rain; }));
 }
@@ -112,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Exhaustive, WetLayout, testing::ValuesIn(all_layouts())
 // --- what stays dry ---------------------------------------------------------------------------------------------------------
 
 TEST(WetSurfaces, CostNothingInDryWeatherAndNothingWhereTheyAreForced) {
-    const auto session = session_on({dry_shelter()});
+    const auto session = session_of({dry_shelter()});
     Request request{.outputs = {"gbuffer0", "gbuffer1", "display"}};
     const auto dry = must(session->run(request));
     EXPECT_EQ(rain_steps(dry), 0u);
@@ -132,7 +128,7 @@ std::vector<bool> differing(const HostImage& a, const HostImage& b) {
 }
 
 TEST(WetSurfaces, LeaveCeilingsAndShelteredOnesAsTheyAreToTheBit) {  // T-RN-3, T-RN-6
-    const auto session = session_on({shelter(4), dry_shelter(4)});
+    const auto session = session_of({shelter(4), dry_shelter(4)});
     Request request{.outputs = {"gbuffer0", "gbuffer1", "surface_normal", "surface_color"}};
     const auto wet = must(session->run(request));
     request.variant.frame = 1;
@@ -159,7 +155,7 @@ TEST(WetSurfaces, LeaveCeilingsAndShelteredOnesAsTheyAreToTheBit) {  // T-RN-3, 
 }
 
 TEST(WetSurfaces, WithoutWavesKeepTheirNormals) {  // T-RN-4
-    const auto session = session_on({shelter(), dry_shelter()});
+    const auto session = session_of({shelter(), dry_shelter()});
     Request request{.choices = chosen({}, {"ripple_height=0", "flow_height=0", "puddles=0"}), .outputs = {"surface_normal"}};
     const ReferenceImage wet = in_double(must(session->run(request)).images.at("surface_normal"));
     request = {.outputs = {"surface_normal"}};
@@ -172,7 +168,7 @@ TEST(WetSurfaces, WithoutWavesKeepTheirNormals) {  // T-RN-4
 // --- other stages -----------------------------------------------------------------------------------------------------------
 
 TEST(WetSurfaces, AreNotWhatEarlierStagesAreJudgedBy) {
-    const auto session = session_on({shelter(4), dry_shelter(4)});
+    const auto session = session_of({shelter(4), dry_shelter(4)});
     for (const Stage stage : {Stage::gbuffer, Stage::edges}) {
         Request request;
         const Accuracy wet = must(session->judge(request, stage, Against::model_and_truth));
@@ -185,7 +181,7 @@ TEST(WetSurfaces, AreNotWhatEarlierStagesAreJudgedBy) {
 }
 
 TEST(WetSurfaces, AreWhatLaterStagesShade) {
-    const auto session = session_on({shelter(), dry_shelter()});
+    const auto session = session_of({shelter(), dry_shelter()});
     Request request{.outputs = {"light"}};
     const ReferenceImage wet = in_double(must(session->run(request)).images.at("light"));
     const Accuracy accuracy = must(session->judge(request, Stage::lighting, Against::model));
@@ -199,7 +195,7 @@ TEST(WetSurfaces, AreWhatLaterStagesShade) {
 }
 
 TEST(WetSurfaces, OfATruthThatTakesItsPlaceReachThePicture) {
-    const auto session = session_on({shelter()});
+    const auto session = session_of({shelter()});
     Request request{.outputs = {"surface_color", "display"}};
     const ImageSet truth = must(session->truth(request, Stage::rain));
     const auto given = must(session->run_from(request, Stage::rain, truth));
@@ -219,7 +215,7 @@ TEST(WetSurfaces, DoNotKnowParticles) {
     Emitter smoke{.name = "smoke"};
     for (int i = 0; i < 20; ++i) smoke.particles.push_back({.center = {.1 * i - 1, 3.2, .5}, .size = .6f, .alpha = .5f});
     smoky.emitters.push_back(smoke);
-    const auto session = session_on({shelter(), smoky});
+    const auto session = session_of({shelter(), smoky});
     Request request{.outputs = {"surface_color", "surface_normal"}};
     const auto clear = must(session->run(request));
     request.variant.frame = 1;
@@ -239,7 +235,7 @@ TEST(WetSurfaces, AgreeWithTheModelTenKilometersAwayAfterAMonth) {
         draw.previous_to_world[3] += glm::dvec4(away, 0);
     }
     far.time += 30 * 86'400.;
-    const auto session = session_on({far});
+    const auto session = session_of({far});
     const Technique& wetness = *techniques_of(Stage::rain).front();
     const Request request{.choices = chosen({}, {"ripple_filter=off"})};
     expect_within_tolerance(must(session->judge(request, Stage::rain, Against::model)), wetness, request);

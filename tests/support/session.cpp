@@ -21,14 +21,18 @@ std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samp
 }
 
 std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32_t samples, std::uint32_t count) {
-    return must(Session::open(scenario_frames(scenario, samples, count), {.validation = true}));
+    return session_of(scenario_frames(scenario, samples, count));
+}
+
+std::unique_ptr<Session> session_of(std::vector<Frame> frames) {
+    return must(Session::open(std::move(frames), {.validation = true}));
 }
 
 Session& session_of_scenarios() {
     static const std::unique_ptr<Session> session = [] {
         std::vector<Frame> frames;
         for (const Scenario& scenario : scenarios()) frames.push_back(scenario_frames(scenario.name).front());
-        return must(Session::open(std::move(frames), {.validation = true}));
+        return session_of(std::move(frames));
     }();
     return *session;
 }

@@ -17,6 +17,9 @@ std::vector<Frame> scenario_frames(std::string_view scenario, std::uint32_t samp
 /// A session over a scenario. No device is a failure, not a skip.
 std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32_t samples = 1, std::uint32_t count = 1);
 
+/// With validation.
+std::unique_ptr<Session> session_of(std::vector<Frame> frames);
+
 /// One session that serves every scenario: the device and its pipelines are made once per program, which is most of what a small
 /// test costs. Frames and techniques are chosen by the request; on_scenario() makes one, at 160 pixels across or less.
 Session& session_of_scenarios();

@@ -49,10 +49,12 @@ public:
         const float height = ImGui::GetContentRegionAvail().y;
         ImGui::BeginChild("gallery", {0, chosen.view ? height * .46f : 0});
         if (groups_.empty()) services.widgets.text("state", "no technique in use has views of its inside", &palette().dim);
-        for (const bool is_run : {true, false})  // what is left out has no pictures, and comes last
+        const auto is_skipped = [&](const Group& group) {
+            return std::ranges::count(replay->skipped, group.technique->stage, &SkippedStage::stage) > 0;
+        };
+        for (const bool without_pictures : {false, true})
             for (Group& group : groups_)
-                if (!std::ranges::count(replay->skipped, group.technique->stage, &SkippedStage::stage) == is_run)
-                    draw_group(model, services, *replay, group);
+                if (is_skipped(group) == without_pictures) draw_group(model, services, *replay, group);
         ImGui::EndChild();
         if (!chosen.view) return;
         ImGui::Separator();

@@ -22,10 +22,5 @@ float pack_depth(float z) {
 }
 
 GBufferWords pack_octahedral(MaterialPoint m) {
-    GBufferWords words;
-    words.g0 = vec4(pack_octahedral_normal(m.normal), pack_depth(m.position.z),
-                    pack_material(m.occlusion, m.metallic, m.lighting_model));
-    words.g1 = pack_color(m.base_color, m.roughness);
-    words.g2 = vec4(0.0);
-    return words;
+    return coded_words(pack_octahedral_normal(m.normal), pack_depth(m.position.z), m);
 }

@@ -9,10 +9,5 @@ vec2 pack_packed_normal(vec3 n) {
 }
 
 GBufferWords pack_packed(MaterialPoint m) {
-    GBufferWords words;
-    words.g0 = vec4(pack_packed_normal(m.normal), pack_half_depth(m.position.z),
-                    pack_material(m.occlusion, m.metallic, m.lighting_model));
-    words.g1 = pack_color(m.base_color, m.roughness);
-    words.g2 = vec4(0.0);
-    return words;
+    return coded_words(pack_packed_normal(m.normal), pack_half_depth(m.position.z), m);
 }

@@ -13,22 +13,25 @@ constexpr double nothing = 1e9;
 // Positions snap to 1/256 texel in x and y when the device rasterizes.
 constexpr double snap = 1.5 / 256;
 
-Frame with_casters(Frame frame, std::uint32_t casters) {
-    if (casters == casters_fixed)
-        for (Draw& draw : frame.draws) draw.casts_shadow = draw.casts_shadow && draw.mobility == Mobility::fixed;
-    return frame;
-}
-
-Frame without_holes(Frame frame) {
+/// The casters that count, masked ones without their holes.
+Frame with_solid_casters(Frame frame, std::uint32_t casters) {
+    for (Draw& draw : frame.draws)
+        draw.casts_shadow = draw.casts_shadow && (casters == casters_all || draw.mobility == Mobility::fixed);
     for (Material& material : frame.materials)
         if (material.alpha_mode == AlphaMode::mask) material.alpha_mode = AlphaMode::opaque;
     return frame;
 }
 
-Frame without_masked_casters(Frame frame) {
-    for (Draw& draw : frame.draws)
-        draw.casts_shadow = draw.casts_shadow && frame.materials[draw.material].alpha_mode != AlphaMode::mask;
-    return frame;
+/// Nothing where no caster is masked.
+std::optional<Frame> without_masked_casters(const Frame& recorded, const Frame& solid) {
+    const auto has_holes = [&](const Draw& draw) {
+        return draw.casts_shadow && recorded.materials[draw.material].alpha_mode == AlphaMode::mask;
+    };
+    if (std::ranges::none_of(solid.draws, has_holes)) return std::nullopt;
+    Frame open = solid;
+    for (Draw& draw : open.draws)
+        if (has_holes(draw)) draw.casts_shadow = false;
+    return open;
 }
 
 /// Radius and depth of the smallest sphere on the view axis around the corners of the view at the reach and the eye.
@@ -44,11 +47,11 @@ glm::dvec2 sphere_around_view(const View& view, double reach) {
 }  // namespace
 
 TracedMap::TracedMap(const Frame& frame, const WetnessParams& params)
-    : solid_(without_holes(with_casters(frame, params.casters))),
-      open_(without_masked_casters(with_casters(frame, params.casters))),
+    : solid_(with_solid_casters(frame, params.casters)),
       through_solid_(solid_, RayMask::shadow_casters),
-      through_open_(open_, RayMask::shadow_casters),
+      open_(without_masked_casters(frame, solid_)),
       size_(64u << params.map_size) {
+    if (open_) through_open_.emplace(*open_, RayMask::shadow_casters);
     const View& view = frame.view;
     const glm::dvec2 sphere = sphere_around_view(view, double(params.reach));
     const double margin = std::min(2 * double(params.radius) + 3, size_ / 4.0);
@@ -80,11 +83,13 @@ const TracedMap::Depths& TracedMap::depths(glm::ivec2 texel) const {
     for (const glm::dvec2 aside :
          {glm::dvec2(0, 0), glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
         const glm::dvec2 at = corner_ + (glm::dvec2(texel) + 0.5 + aside * snap) * texel_;
-        for (const RayScene* scene : {&through_solid_, &through_open_}) {
-            const auto hit = scene->closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
+        const auto see = [&](const RayScene& scene) {
+            const auto hit = scene.closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
             const double depth = hit ? hit->distance - above : nothing;
             seen = {std::min(seen.least, depth), std::max(seen.most, depth)};
-        }
+        };
+        see(through_solid_);
+        if (through_open_) see(*through_open_);
     }
     return found->second = seen;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 
 #include <glm/glm.hpp>
@@ -38,8 +39,9 @@ private:
     const Depths& depths(glm::ivec2 texel) const;
 
     Frame solid_;  ///< with the casters that count, none with holes
-    Frame open_;   ///< without those that have holes
-    RayScene through_solid_, through_open_;
+    RayScene through_solid_;
+    std::optional<Frame> open_;  ///< without those that have holes; none where all are solid
+    std::optional<RayScene> through_open_;
     std::uint32_t size_;
     double texel_ = 0;
     glm::dvec3 u_, v_, along_;  ///< view space

@@ -151,7 +151,7 @@ uvec4 are_lit(MapPoint p, ivec2 texel) {
     return uvec4(greaterThanEqual(receiver, quad_depths(p, texel)));
 }
 
-// As fixed_kernel_from, by (N / 2)^2 gathers.
+// As fixed_kernel, by (N / 2)^2 gathers, beginning with the row `y`.
 float gathered_kernel_from(int y, MapPoint p) {
     const KernelPlace k = kernel_place(p.u);
     uint sum = 0u;

@@ -59,7 +59,7 @@ Session& scenes() {
         PixelTriangle glowing = right_of(extent, 20.5, 3.9999, wall.color);  // the depth is stored in steps of 1.9e-4 of itself
         glowing.emissive = red;
         add({wall, glowing});
-        return must(Session::open(std::move(frames), {.validation = true}));
+        return session_of(std::move(frames));
     }();
     return *session;
 }
@@ -233,7 +233,7 @@ TEST(EdgesTruth, IsWhatTheTrianglesUnderTheSamplesSay) {
     std::vector<Frame> frames;
     for (const std::string_view scenario : info(Stage::edges).scenarios)
         frames.push_back(must(find_scenario(scenario))->build(0, {.width = 96, .height = 54, .samples = 4}));
-    const auto session = must(Session::open(frames, {.validation = true}));
+    const auto session = session_of(frames);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::string_view scenario = info(Stage::edges).scenarios[i];
         const ReferenceImage truth = must(session->truth({.variant = {.frame = i}}, Stage::edges)).at("edges");
