@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds Strata on Debian 12 and runs it. Installs what is missing with apt.
 #   ./build.sh          set up and build build/strata
-#   ./build.sh demo     record a scenario, replay it with several techniques, print error against time at default settings
+#   ./build.sh demo     record a scenario, replay it with five techniques, print their errors against their times
 #   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and choices
 #   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers;
 #                       ./build.sh sanitize all: every test that needs no device
@@ -50,15 +50,15 @@ build() {
 }
 
 demo() {
-    local out=out/demo
+    local out=out/demo methods=(alpha_blend sorted_lists exact_function moments wavelet) method
     mkdir -p "$out"
     build/strata record night_market --size 160x90 -o "$out/market.strata"
     build/strata info "$out/market.strata"
-    for technique in $(build/strata list transparency --names); do
-        build/strata replay "$out/market.strata" --use "$technique" -o "$out/${technique#*/}"
+    for method in "${methods[@]}"; do
+        build/strata replay "$out/market.strata" --use "transparency/$method" -o "$out/$method"
     done
-    build/strata report "$out/market.strata" --stage transparency --defaults
-    echo "each technique is measured at its default settings; to include their other settings: build/strata report $out/market.strata --stage transparency"
+    build/strata report "$out/market.strata" --stage transparency --methods "$(IFS=,; echo "${methods[*]}")"
+    echo "all techniques of the stage at all their settings: build/strata report $out/market.strata --stage transparency"
     echo "images:"
     find "$out" -name '*.png' -o -name '*.exr' | sort
 }

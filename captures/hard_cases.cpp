@@ -116,7 +116,7 @@ std::vector<Frame> coincident(std::vector<std::pair<float, float>> color_and_alp
 std::vector<Frame> three_coincident() { return coincident({{1, .5f}, {.5f, .5f}, {0, .5f}}); }
 std::vector<Frame> two_unequal_coincident() { return coincident({{1, .9f}, {0, .1f}}); }
 
-/// Nineteen good particles, and a bad one in the second frame.
+/// Nineteen good particles, and a bad one beside them in each frame after the first.
 std::vector<Frame> one_bad_particle() {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     Emitter emitter{.name = "smoke"};
@@ -127,7 +127,10 @@ std::vector<Frame> one_bad_particle() {
             {.center = {0, 0, 3.03 + .1 * i}, .size = 9, .color = glm::vec3(float(i) / 19), .alpha = .1f});
     const Particle bad[] = {{.center = {0, 0, 4}, .size = 9, .alpha = nan},
                             {.center = {0, 0, 4}, .size = 9, .color = glm::vec3(nan), .alpha = 0},
-                            {.center = {0, 0, 4}, .size = 9, .alpha = -infinite}};
+                            {.center = {0, 0, 4}, .size = 9, .alpha = -infinite},
+                            {.center = {0, 0, 4}, .size = 9, .alpha = .5f, .depth_offset = nan},
+                            {.center = {0, 0, 4}, .size = 9, .alpha = .5f, .depth_offset = infinite},
+                            {.center = {0, 0, 4}, .size = 9, .alpha = .5f, .depth_offset = -infinite}};
     std::vector<Frame> frames(1 + std::size(bad), frame_of({}, glm::vec3(.2f)));
     for (std::size_t i = 0; i < frames.size(); ++i) {
         frames[i].emitters.push_back(emitter);

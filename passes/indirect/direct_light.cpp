@@ -18,9 +18,8 @@ using std::numbers::pi;
 // Metres between a ray's ends and the surfaces they belong to. Hits are exact to 1e-12 of their distance.
 constexpr double ray_gap = 1e-5;
 constexpr double endless = 1e9;  // metres to the sun
-// Metres: the inverse square law ends here, and the share of a square spot's half width over which it fades
-// (docs/algorithms/lighting.md 0.3 and 0.4).
-constexpr double nearest_light = 0.01, square_feather = 0.1;
+// Metres: the inverse square law ends here (docs/algorithms/lighting.md 0.3).
+constexpr double nearest_light = 0.01;
 
 /// What a place of a light sends to a surface that faces it: irradiance, and where it comes from as light_point() says it.
 struct Sent {
@@ -38,27 +37,11 @@ dvec2 on_disc(const dvec2& place) {
     return radius * dvec2(std::cos(angle), std::sin(angle));
 }
 
-double round_cone(const PlacedLight& at, const dvec3& to_light) {
-    const double outer = std::cos(double(at.light->outer_angle)), inner = std::cos(double(at.light->inner_angle));
-    const double t = std::clamp((-glm::dot(to_light, at.direction) - outer) / std::max(inner - outer, 1e-4), 0.0, 1.0);
-    return t * t;
-}
-
-/// Where a point lies in what a spot throws, 1 at the edges; only before the light.
-dvec2 place_in_spot(const PlacedLight& at) {
-    const double u = std::tan(double(at.light->outer_angle));
-    const bool is_square = at.light->type == LightType::square_spot;
-    const double v = is_square ? std::tan(double(at.light->inner_angle)) : u;
-    const double depth = -glm::dot(at.offset, at.direction);
-    return {-glm::dot(at.offset, at.axis_u) / (depth * u), -glm::dot(at.offset, at.axis_v) / (depth * v)};
-}
-
 dvec3 spot_share(const PlacedLight& at, const dvec3& to_light) {
     if (glm::dot(to_light, at.direction) >= 0) return dvec3(0);
-    const dvec2 place = place_in_spot(at);
-    const double cone = at.light->type == LightType::round_spot
-                            ? round_cone(at, to_light)
-                            : square_edge(std::abs(place.x), square_feather) * square_edge(std::abs(place.y), square_feather);
+    const dvec2 place = place_in_spot(*at.light, away(at));
+    const double cone = at.light->type == LightType::round_spot ? round_spot_share(*at.light, -glm::dot(to_light, at.direction))
+                                                                : square_spot_share(place);
     if (cone == 0 || at.light->texture == no_index) return dvec3(cone);
     if (std::abs(place.x) > 1 || std::abs(place.y) > 1) return dvec3(0);
     return cone * dvec3(bilinear(at.frame->textures[at.light->texture], 0, {0.5 * (1 + place.x), 0.5 * (1 - place.y)}));
@@ -153,11 +136,11 @@ dvec4 soft_source(const Frame& frame, const PlacedLight& at, const dvec4& from, 
         const auto [u, v] = perpendiculars(-at.direction);
         return from + dvec4(std::tan(double(frame.sun.angular_radius)) * (u * q.x + v * q.y), 0);
     }
-    const bool is_spot = at.light->type == LightType::round_spot || at.light->type == LightType::square_spot;
+    const bool spot = is_spot(*at.light);
     const double distance = glm::length(at.offset), radius = double(at.light->source_radius);
     if (distance <= radius) return from;
-    const auto [u, v] = perpendiculars(is_spot ? at.direction : at.offset / distance);
-    const double seen = is_spot ? radius : radius / std::sqrt(1 - radius * radius / (distance * distance));
+    const auto [u, v] = perpendiculars(spot ? at.direction : at.offset / distance);
+    const double seen = spot ? radius : radius / std::sqrt(1 - radius * radius / (distance * distance));
     return from + dvec4(seen * (u * q.x + v * q.y), 0);
 }
 

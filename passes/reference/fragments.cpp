@@ -113,6 +113,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
     } else {
         const Emitter& emitter = frame.emitters[point.draw - frame.draws.size()];
         const Particle& particle = emitter.particles[point.triangle / 2];
+        if (!std::isfinite(particle.depth_offset)) return std::nullopt;  // it is at no depth
         const double room = double(frame.view.near) / opaque_depth - z;
         const bool soft = emitter.soft_depth_fade > 0 && opaque_depth > 0;
         const double fade = soft ? std::clamp(room / double(emitter.soft_depth_fade), 0.0, 1.0) : 1.0;

@@ -14,12 +14,8 @@ namespace {
 constexpr double nearest_light = 0.01;
 // Share of a square spot's half width over which it fades (docs/algorithms/lighting.md 0.4, f).
 constexpr double square_feather = 0.1;
-
-double round_cone(const PlacedLight& at, const glm::dvec3& to_light) {
-    const double outer = std::cos(double(at.light->outer_angle)), inner = std::cos(double(at.light->inner_angle));
-    const double t = std::clamp((glm::dot(-to_light, at.direction) - outer) / std::max(inner - outer, 1e-4), 0.0, 1.0);
-    return t * t;
-}
+// Least difference of the cosines of a round spot's angles.
+constexpr double least_cone = 1e-4;
 
 // Tangents of the half angles of what a spot throws: a square one has its own for u and v.
 glm::dvec2 spread(const Light& light) {
@@ -27,16 +23,10 @@ glm::dvec2 spread(const Light& light) {
     return {u, light.type == LightType::square_spot ? std::tan(double(light.inner_angle)) : u};
 }
 
-// Where the surface is in the spot's picture plane: +-1 at its edges. Only before the light.
-glm::dvec2 place_in_spot(const PlacedLight& at) {
-    const glm::dvec3 x = -at.offset;
-    return glm::dvec2(glm::dot(x, at.axis_u), glm::dot(x, at.axis_v)) / (glm::dot(x, at.direction) * spread(*at.light));
-}
-
-double square_cone(const PlacedLight& at) {
-    if (glm::dot(-at.offset, at.direction) <= 0) return 0;
-    const glm::dvec2 s = place_in_spot(at);
-    return square_edge(std::abs(s.x), square_feather) * square_edge(std::abs(s.y), square_feather);
+double spot_share(const PlacedLight& at, const glm::dvec3& to_light) {
+    if (at.light->type == LightType::round_spot) return round_spot_share(*at.light, glm::dot(-to_light, at.direction));
+    if (glm::dot(-to_light, at.direction) <= 0) return 0;
+    return square_spot_share(place_in_spot(*at.light, away(at)));
 }
 
 // Bilinear in one mip with black around: taps outside count nothing.
@@ -62,7 +52,7 @@ glm::dvec3 thrown_color(const PlacedLight& at, const SurfacePoint& surface) {
     const glm::dvec2 width = 2 * glm::dot(-at.offset, at.direction) * spread(*at.light);
     const glm::dvec2 covered = glm::dvec2(texture.width, texture.height) * pixel / width;
     const double lod = std::clamp(std::log2(std::max(covered.x, covered.y)), 0.0, double(texture.mips - 1));
-    const glm::dvec2 place = place_in_spot(at), uv(0.5 * (1 + place.x), 0.5 * (1 - place.y));
+    const glm::dvec2 place = place_in_spot(*at.light, away(at)), uv(0.5 * (1 + place.x), 0.5 * (1 - place.y));
     const auto mip = static_cast<std::uint32_t>(lod);
     const glm::dvec3 fine = bordered(texture, mip, uv);
     return lod == mip ? fine : glm::mix(fine, bordered(texture, mip + 1, uv), lod - mip);
@@ -81,9 +71,8 @@ Incident incident(const PlacedLight& at, const SurfacePoint& surface) {
     const glm::dvec3 to_light = at.offset / distance;
     const double squared = std::max(distance * distance, nearest_light * nearest_light);
     glm::dvec3 share(range_window(distance, double(at.light->range)) / squared);
-    const bool square = at.light->type == LightType::square_spot;
-    if (square || at.light->type == LightType::round_spot) {
-        share *= square ? square_cone(at) : round_cone(at, to_light);
+    if (is_spot(*at.light)) {
+        share *= spot_share(at, to_light);
         if (share != glm::dvec3(0) && at.light->texture != no_index) share *= thrown_color(at, surface);
     }
     return {to_light, intensity * share};
@@ -122,14 +111,32 @@ double square_edge(double s, double feather) {
     return 1 - t * t * (3 - 2 * t);
 }
 
+glm::dvec2 place_in_spot(const Light& light, const glm::dvec3& away) { return glm::dvec2(away) / (away.z * spread(light)); }
+
+double square_spot_share(const glm::dvec2& place) {
+    return square_edge(std::abs(place.x), square_feather) * square_edge(std::abs(place.y), square_feather);
+}
+
+double round_spot_share(const Light& light, double cosine) {
+    const double outer = std::cos(double(light.outer_angle)), inner = std::cos(double(light.inner_angle));
+    const double t = std::clamp((cosine - outer) / std::max(inner - outer, least_cone), 0.0, 1.0);
+    return t * t;
+}
+
 PlacedLight placed(const Frame& frame, const SurfacePoint& surface, const Light& light) {
     const glm::dvec3 direction = frame.view.to_view * glm::dvec3(light.direction);
     const glm::dvec3 axis_u = frame.view.to_view * glm::dvec3(light.axis_u);
     return {&frame, &light, to_view(frame, light.position) - surface.position, direction, axis_u, glm::cross(direction, axis_u)};
 }
 
+bool is_spot(const Light& light) { return light.type == LightType::round_spot || light.type == LightType::square_spot; }
+
 bool is_area(LightType type) {
     return type == LightType::tube || type == LightType::sphere || type == LightType::disc || type == LightType::rectangle;
+}
+
+glm::dvec3 away(const PlacedLight& at) {
+    return {-glm::dot(at.offset, at.axis_u), -glm::dot(at.offset, at.axis_v), -glm::dot(at.offset, at.direction)};
 }
 
 bool is_behind(const PlacedLight& at) {

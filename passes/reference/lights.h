@@ -36,4 +36,14 @@ double range_window(double distance, double range);
 /// feather everything up to the edge is lit.
 double square_edge(double s, double feather);
 
+/// Place in the picture that a spot throws, +-1 at its edges, of a direction in the axes (u, v, along) of the light with
+/// along > 0; any length.
+glm::dvec2 place_in_spot(const Light&, const glm::dvec3& away);
+
+/// Share of a square spot's light at such a place, its picture left out: 1 within, 0 beyond the edges.
+double square_spot_share(const glm::dvec2& place);
+
+/// The same of a round spot, by the cosine of the angle from its axis.
+double round_spot_share(const Light&, double cosine);
+
 }  // namespace strata

@@ -81,7 +81,8 @@ DepthRange world_depth_range(const Frame& frame) {
         if (layer_of(frame, draw) > 0) continue;
         if (const Emitter* emitter = emitter_of(frame, draw)) {
             for (const Particle& particle : emitter->particles)
-                if (const double z = to_view(frame, particle.center).z; z > near) reach(z - double(particle.depth_offset));
+                if (const double z = to_view(frame, particle.center).z; z > near && std::isfinite(particle.depth_offset))
+                    reach(z - double(particle.depth_offset));
             continue;
         }
         const DrawSpace space = draw_space(frame, draw);
@@ -110,8 +111,10 @@ std::vector<std::uint32_t> painters_order(const Frame& frame) {
 
 std::vector<std::uint32_t> painters_order(const Frame& frame, const Emitter& emitter) {
     std::vector<double> keys;
-    for (const Particle& particle : emitter.particles)
-        keys.push_back(emitter.layer > 0 ? 0 : double(particle.depth_offset) - to_view(frame, particle.center).z);
+    for (const Particle& particle : emitter.particles) {
+        const double offset = std::isfinite(particle.depth_offset) ? double(particle.depth_offset) : 0;
+        keys.push_back(emitter.layer > 0 ? 0 : offset - to_view(frame, particle.center).z);
+    }
     return in_ascending_order(keys);
 }
 

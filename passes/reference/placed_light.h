@@ -17,6 +17,10 @@ struct PlacedLight {
 
 PlacedLight placed(const Frame&, const SurfacePoint&, const Light&);
 
+/// The direction from the light towards the surface in its axes (u, v, along), as long as the way.
+glm::dvec3 away(const PlacedLight&);
+
+bool is_spot(const Light&);
 bool is_area(LightType);
 /// Whether a disc or rectangle turns its back.
 bool is_behind(const PlacedLight&);

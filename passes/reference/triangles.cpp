@@ -38,7 +38,7 @@ Attributes particle_attributes(const Particle& particle, std::uint32_t half, con
     result.uv[1] = result.uv[0];
     result.color = glm::dvec4(particle.color, particle.alpha);
     result.emissive = particle.emissive;
-    result.depth_offset = particle.depth_offset;
+    result.depth_offset = std::isfinite(particle.depth_offset) ? double(particle.depth_offset) : 0;
     return result;
 }
 

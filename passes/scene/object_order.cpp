@@ -1,6 +1,7 @@
 #include "passes/scene/object_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -63,9 +64,12 @@ std::vector<std::uint32_t> back_to_front_draws(const Frame& frame) {
 }
 
 std::vector<std::uint32_t> back_to_front_particles(const Frame& frame, const Emitter& emitter) {
+    const auto depth_of = [&](const Particle& particle) {
+        const double center = view_depth(frame, particle.center);
+        return std::isfinite(particle.depth_offset) ? center - double(particle.depth_offset) : center;
+    };
     std::vector<double> depths;
-    for (const Particle& particle : emitter.particles)
-        depths.push_back(emitter.layer > 0 ? 0 : view_depth(frame, particle.center) - double(particle.depth_offset));
+    for (const Particle& particle : emitter.particles) depths.push_back(emitter.layer > 0 ? 0 : depth_of(particle));
     std::vector<std::uint32_t> order(depths.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return depths[a] > depths[b]; });

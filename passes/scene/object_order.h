@@ -14,7 +14,8 @@ namespace strata {
 /// transformed; an emitter's is that of the box of its particles' centers.
 std::vector<std::uint32_t> back_to_front_draws(const Frame&);
 
-/// Indices into Emitter::particles, in the world by descending view z of center minus depth_offset, then ascending index.
+/// Indices into Emitter::particles, in the world by descending view z of center minus depth_offset (which counts as 0 where it is
+/// not finite: such a particle does not show), then ascending index.
 std::vector<std::uint32_t> back_to_front_particles(const Frame&, const Emitter&);
 
 }  // namespace strata

@@ -1,6 +1,7 @@
 #include "passes/scene/transparent_depths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "passes/scene/view_space.h"
@@ -28,7 +29,7 @@ void take_particles(Range& range, const Frame& frame, const Emitter& emitter) {
     const double near = double(frame.view.near);
     for (const Particle& particle : emitter.particles) {
         const double z = in_view_space(frame.view, particle.center).z;
-        if (z > near) range.take(z - double(particle.depth_offset), near);
+        if (z > near && std::isfinite(particle.depth_offset)) range.take(z - double(particle.depth_offset), near);
     }
 }
 
@@ -56,7 +57,8 @@ DepthRange world_depths(const Frame& frame, const DrawLists& lists) {
 float farthest_depth_offset(const Frame& frame) {
     float offset = 0;
     for (const Emitter& emitter : frame.emitters)
-        for (const Particle& particle : emitter.particles) offset = std::max(offset, particle.depth_offset);
+        for (const Particle& particle : emitter.particles)
+            if (std::isfinite(particle.depth_offset)) offset = std::max(offset, particle.depth_offset);
     return offset;
 }
 

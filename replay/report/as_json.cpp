@@ -95,8 +95,10 @@ ordered_json json_of_answer(const Report& report) {
     if (report.question.within) json["within"] = *report.question.within;
     json["cheapest"] = row(answer.cheapest);
     json["most_accurate"] = row(answer.most_accurate);
-    json["as_fast"] = ordered_json::array();
-    for (const std::size_t i : answer.as_fast) json["as_fast"].push_back(row(i));
+    for (const auto& [name, rows] : {std::pair("as_fast", &answer.as_fast), std::pair("unsteady", &answer.unsteady)}) {
+        json[name] = ordered_json::array();
+        for (const std::size_t i : *rows) json[name].push_back(row(i));
+    }
     return json;
 }
 

@@ -72,8 +72,9 @@ void add_particle(const Frame& frame, const Particle& p, SceneRecords& scene) {
     scene.particle_tops.emplace_back(corner(1, 1), corner(-1, 1));
     scene.particle_depths.push_back(float(center.z));
     scene.particle_uvs.push_back(p.uv_frame);
-    scene.particle_glows.emplace_back(p.emissive, p.depth_offset);
-    scene.colors.emplace_back(p.color, p.alpha);
+    const bool is_at_a_depth = std::isfinite(p.depth_offset);  // or it shows nothing
+    scene.particle_glows.push_back(is_at_a_depth ? glm::vec4(p.emissive, p.depth_offset) : glm::vec4(0));
+    scene.colors.push_back(is_at_a_depth ? glm::vec4(p.color, p.alpha) : glm::vec4(0));
 }
 
 /// Two triangles per particle, in the given order.

@@ -1,5 +1,7 @@
 #include "replay/session/frame_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "capture_format/nearest_name.h"
@@ -72,6 +74,20 @@ std::vector<std::pair<const Choice*, StageWork>> acts_at(Stage stage, const Choi
     return acts;
 }
 
+bool works_at(const Technique& technique, Stage stage) {
+    return std::ranges::count(technique.at_other_stages, stage, &StageWork::at) > 0;
+}
+
+/// Why a stage without techniques of its own has nothing to do, or nothing where a chosen one of another stage works there.
+std::optional<std::string> unserved(Stage stage, const Choices& choices) {
+    if (std::ranges::any_of(choices, [&](const auto& entry) { return works_at(*entry.second.technique, stage); })) return {};
+    std::vector<std::string_view> able;
+    for (const Technique& technique : techniques())
+        if (works_at(technique, stage)) able.push_back(technique.name);
+    if (able.empty()) return "no technique does its work";
+    return fmt::format("no chosen technique does its work; {} would", fmt::join(able, " or "));
+}
+
 }  // namespace
 
 void ChoiceChanges::drop(Stage stage) {
@@ -111,7 +127,7 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
         if (const auto reason = stage.unwanted(*images.features)) {
             frame.skipped.push_back({stage.stage, *reason});
         } else if (choice == choices.end()) {
-            frame.skipped.push_back({stage.stage, "no technique of this stage is built in"});
+            if (const auto why = unserved(stage.stage, choices)) frame.skipped.push_back({stage.stage, *why});
         } else {
             if (const auto why = beyond_device(choice->second, images)) return fail(Fault::device_lacks, "{}", *why);
             if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt)

@@ -100,7 +100,7 @@ TEST(lighting_judge, gives_the_rmse_in_radiance_relative_and_the_worst) {
 TEST(indirect_judge, tells_light_where_there_is_none_from_other_errors) {
     Pair pair;
     for (ReferenceImage* image : {&pair.got, &pair.truth}) image->at(1, 0, 1) = glm::dvec4(0);  // no surface
-    pair.truth.at(0, 0, 1) = {0, 0, 0, 1};
+    pair.truth.at(0, 0) = pair.truth.at(0, 0, 1) = pair.got.at(0, 0) = {0, 0, 0, 1};
     pair.got.at(0, 0, 1) = {0.5, 1, 0, 1};
     pair.got.at(1, 0).y = 0;
     const Frame frame = tiny::frame(2, 1);
@@ -109,15 +109,17 @@ TEST(indirect_judge, tells_light_where_there_is_none_from_other_errors) {
     };
     Figures figures = judged();
     EXPECT_DOUBLE_EQ(figures.at("rmse"), std::sqrt((9 + 0.25 + 1) / 12));
-    EXPECT_DOUBLE_EQ(figures.at("relative rmse"), std::sqrt((9 + 0.25 + 1) / 12 / (9. / 2)));
+    EXPECT_DOUBLE_EQ(figures.at("relative rmse"), std::sqrt((9 + 0.25 + 1) / 12 / (9. / 4)));
     EXPECT_DOUBLE_EQ(figures.at("worst"), 3);
-    EXPECT_DOUBLE_EQ(figures.at("leak"), 0.5 / 3);
+    EXPECT_DOUBLE_EQ(figures.at("leak"), 0.25 / 3);
+    EXPECT_DOUBLE_EQ(figures.at("dark"), 100 * 2. / 3);
     pair.got.at(0, 0, 1) = {0, 0, 0, 1};
     EXPECT_EQ(judged().at("leak"), 0);
     pair.got.at(0, 0, 1).x = nan_value;
     EXPECT_EQ(judged().at("leak"), endless);
-    pair.truth.at(0, 0, 1).x = pair.got.at(0, 0, 1).x = 1;
-    EXPECT_EQ(judged().at("leak"), 0) << "nothing is dark";
+    pair.truth.at(0, 0).x = 1;
+    EXPECT_EQ(judged().at("leak"), 0) << "a black sample at an edge is no dark room";
+    EXPECT_EQ(judged().at("dark"), 0);
 }
 
 TEST(combine_judge, judges_the_picture_first_and_radiance_where_the_truth_has_it) {

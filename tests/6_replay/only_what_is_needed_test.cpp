@@ -1,6 +1,8 @@
 // Only what the scene calls for: what is left out costs nothing, and forcing it on changes nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "captures/scenarios.h"
 #include "replay/images/image_io.h"
 #include "tests/support/session.h"
@@ -42,6 +44,18 @@ TEST(OnlyWhatIsNeeded, AnEmptyFrameLeavesOutMostStages) {
     const auto session = scenario_session("empty");
     const auto run = must(session->run({}));
     EXPECT_GE(run.skipped.size(), 8u);
+}
+
+TEST(OnlyWhatIsNeeded, AStageWithoutTechniquesOfItsOwnIsServedByAChosenOne) {
+    const auto reason = [](const char* technique) -> std::string {
+        Request request = on_scenario("three_cards");
+        request.choices = chosen({technique});
+        const auto run = must(session_of_scenarios().run(request));
+        const auto skipped = std::ranges::find(run.skipped, Stage::extinction, &SkippedStage::stage);
+        return skipped == run.skipped.end() ? "" : skipped->reason;
+    };
+    EXPECT_EQ(reason("transparency/alpha_blend"), "no chosen technique does its work; transparency/voxel would");
+    EXPECT_EQ(reason("transparency/voxel"), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, EveryScenario, testing::ValuesIn(scenario_names()),

@@ -366,6 +366,7 @@ TEST(Report, AnswersWhichMethodKeepsAnErrorAndATime) {
     EXPECT_EQ(report["answer"]["error"], .01);
     EXPECT_EQ(report["answer"]["most_accurate"]["technique"], "transparency/sorted_lists");
     EXPECT_EQ(report["answer"]["cheapest"]["technique"], "transparency/sorted_lists");
+    for (const char* rows : {"as_fast", "unsteady"}) EXPECT_TRUE(report["answer"][rows].is_array()) << rows;
     EXPECT_THAT(strata(verb).out, HasSubstr(" up to 0.01 within 1000x of alpha_blend: cheapest sorted_lists"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());

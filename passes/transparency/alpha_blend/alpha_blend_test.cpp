@@ -1,5 +1,6 @@
 // Facts about object-sorted alpha blending: its order, where it is exact, and where it must fail.
 #include <array>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,6 +85,15 @@ TEST(ObjectOrder, SortsParticlesByCenterMinusDepthOffset) {
          .particles = {
              {.center = {0, 0, 3}}, {.center = {0, 0, 5}, .depth_offset = 2.5f}, {.center = {0, 0, 4}}, {.center = {9, 0, 3}}}});
     EXPECT_THAT(back_to_front_particles(frame, frame.emitters[0]), ElementsAre(2, 0, 3, 1));
+}
+
+TEST(ObjectOrder, AnOffsetThatIsNotFiniteCountsAsNone) {
+    Frame frame = frame_of_cards({}, 8);
+    Emitter& smoke = frame.emitters.emplace_back();
+    for (const float z : {3.f, 5.f, 4.f, 7.f, 6.f}) smoke.particles.push_back({.center = {0, 0, z}});
+    smoke.particles[1].depth_offset = std::numeric_limits<float>::quiet_NaN();
+    smoke.particles[2].depth_offset = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(back_to_front_particles(frame, smoke), ElementsAre(3, 4, 1, 2, 0));
 }
 
 TEST(ObjectOrder, MeasuresDepthAlongTheViewAndNotAsDistance) {

@@ -10,25 +10,13 @@ namespace strata::indirect::in_double {
 namespace {
 
 using std::numbers::pi;
-// Share of a square spot's half width over which it fades (docs/algorithms/lighting.md 0.4, f), and the least difference of the
-// cosines of a round spot's angles.
-constexpr double feather = 0.1, least_cone = 1e-4;
 // A recorded axis with less than this across the direction is none; a direction with more than this along y is upright.
 constexpr double shortest_axis = 1e-3, upright = 0.99;
 
-double round_spot(const Light& light, double cosine) {
-    const double outer = std::cos(double(light.outer_angle)), inner = std::cos(double(light.inner_angle));
-    const double t = std::clamp((cosine - outer) / std::max(inner - outer, least_cone), 0.0, 1.0);
-    return t * t;
-}
-
 double square_spot(const Light& light, const glm::dvec3& direction) {
     const LightAxes axes = light_axes(light);
-    const double ahead = glm::dot(direction, axes.along);
-    if (ahead <= 0) return 0;
-    const double u = glm::dot(direction, axes.u) / ahead / std::tan(double(light.outer_angle));
-    const double v = glm::dot(direction, axes.v) / ahead / std::tan(double(light.inner_angle));
-    return square_edge(std::abs(u), feather) * square_edge(std::abs(v), feather);
+    const glm::dvec3 away(glm::dot(direction, axes.u), glm::dot(direction, axes.v), glm::dot(direction, axes.along));
+    return away.z > 0 ? square_spot_share(place_in_spot(light, away)) : 0;
 }
 
 /// The area that a tube of radius R shows: a rectangle of 2 R by 2 h sin(angle) and a circle.
@@ -60,7 +48,7 @@ glm::dvec3 radiant_intensity(const Light& light, const glm::dvec3& direction) {
     const double cosine = glm::dot(direction, glm::dvec3(light.direction)), radius = light.source_radius;
     switch (light.type) {
         case LightType::round_spot:
-            return shines * round_spot(light, cosine);
+            return shines * round_spot_share(light, cosine);
         case LightType::square_spot:
             return shines * square_spot(light, direction);
         case LightType::sphere:
