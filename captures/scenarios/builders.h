@@ -76,7 +76,7 @@ Frame leaves(std::uint32_t frame, const ScenarioOptions&);
 Frame hall_with_shafts(std::uint32_t frame, const ScenarioOptions&);
 // zone_at_dusk.cpp
 Frame zone_at_dusk(std::uint32_t frame, const ScenarioOptions&);
-// night_market.cpp
+// night_market/
 Frame night_market(std::uint32_t frame, const ScenarioOptions&);
 // beams.cpp
 Frame beams(std::uint32_t frame, const ScenarioOptions&);

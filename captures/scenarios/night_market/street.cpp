@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "captures/scenarios/modelling.h"
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/parts.h"
 #include "captures/scenarios/shapes.h"
 

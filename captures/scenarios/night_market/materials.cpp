@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "captures/scenarios/foliage.h"
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/painting.h"
 
 namespace strata::scenario::market {

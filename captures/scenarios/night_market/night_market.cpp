@@ -1,7 +1,7 @@
 // A market street at night, in the rain: wet setts, stalls under striped awnings, lanterns, neon, steam over a pot, smoke of a
 // grill, panes of colored glass through each other, a lit room behind an open door, the moon over the roofs. It has every stage
 // of a frame: what one of them lacks, no picture of this street is without.
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "captures/scenarios/modelling.h"
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/parts.h"
 
 namespace strata::scenario::market {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "captures/scenarios/modelling.h"
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 
 namespace strata::scenario::market {
 namespace {

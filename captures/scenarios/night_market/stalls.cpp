@@ -8,7 +8,7 @@
 
 #include "captures/scenarios/foliage.h"
 #include "captures/scenarios/modelling.h"
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/parts.h"
 #include "captures/scenarios/random.h"
 #include "captures/scenarios/shapes.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "captures/scenarios/night_market.h"
+#include "captures/scenarios/night_market/night_market.h"
 #include "captures/scenarios/pictures.h"
 #include "captures/scenarios/random.h"
 
