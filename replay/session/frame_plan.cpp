@@ -111,7 +111,7 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
         if (const auto reason = stage.unwanted(*images.features)) {
             frame.skipped.push_back({stage.stage, *reason});
         } else if (choice == choices.end()) {
-            frame.skipped.push_back({stage.stage, "no technique of this stage is built in"});
+            frame.skipped.push_back({stage.stage, "this stage has no technique of its own"});
         } else {
             if (const auto why = beyond_device(choice->second, images)) return fail(Fault::device_lacks, "{}", *why);
             if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt)

@@ -133,7 +133,7 @@ TEST(Expect, ADivergenceIsExitOneAndNamesTheFirstAct) {
     expect_otherwise("transparency", "color");
     const Finished diverged = strata("replay panes.strata --json");
     EXPECT_EQ(diverged.code, 1);
-    EXPECT_THAT(diverged.err, HasSubstr("the first act that diverges is transparency: 'color'"));
+    EXPECT_THAT(diverged.err, HasSubstr("the first pass that diverges is transparency: 'color'"));
     const json verdict = json::parse(diverged.out)["frames"][0]["expectation"];
     EXPECT_EQ(verdict["agreement"], "diverges");
     EXPECT_EQ(verdict["first_divergence"]["act"], "transparency");

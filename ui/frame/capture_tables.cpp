@@ -278,7 +278,7 @@ CaptureTable volumes_of(const Frame& frame) {
 
 CaptureTable weather_of(const Frame& frame) {
     CaptureTable table{.name = "view and weather",
-                       .help = "what there is one of in a frame",
+                       .help = "settings of the frame: view, sun, hemisphere, fog, rain, lens, film",
                        .columns = {{"what", ""}, {"value", ""}, {"unit", ""}},
                        .rows = {}};
     const auto add = [&](std::string_view what, CaptureCell value, std::string_view unit = "") {
