@@ -199,9 +199,10 @@ std::string why_missing(const std::string& output, const Run& run, const ReplayA
         is_made = is_made || skipped == run.skipped.end();
         if (!first && skipped != run.skipped.end()) first = &*skipped;
     }
-    if (is_made && !options.until.empty()) return fmt::format("--until {} ends the frame before it is made", options.until);
+    if (is_made && !options.until.empty())
+        return fmt::format("--until {} ends the frame before this image is written", options.until);
     if (!is_made && first) return fmt::format("the stage {} is left out ({})", name(first->stage), first->reason);
-    return "no stage of the frame makes it";
+    return "no stage of the frame writes it";
 }
 
 /// Fails where an output that was asked for by its name is not there; the others are.

@@ -38,7 +38,7 @@ TEST(Accept, ShowsWhatIsNewThenReplayMeetsIt) {
     const Finished accepted = strata("accept panes.strata");
     ASSERT_EQ(accepted.code, 0) << accepted.err;
     EXPECT_THAT(accepted.out, HasSubstr("new      transparency"));
-    EXPECT_THAT(accepted.out, HasSubstr("1 frame expected anew in panes.strata"));
+    EXPECT_THAT(accepted.out, HasSubstr("stored expected results of 1 frame in panes.strata"));
     const Finished replayed = strata("replay panes.strata --json");
     EXPECT_EQ(replayed.code, 0);
     EXPECT_THAT(replayed.err, HasSubstr("bit for bit as expected"));
@@ -98,7 +98,7 @@ TEST(Accept, ADryRunShowsAndWritesNothing) {
     const std::string before = bytes_of_panes();
     const Finished shown = strata("accept panes.strata --dry-run");
     EXPECT_EQ(shown.code, 0);
-    EXPECT_THAT(shown.out, HasSubstr("would be expected anew"));
+    EXPECT_THAT(shown.out, HasSubstr("would be stored anew"));
     EXPECT_EQ(bytes_of_panes(), before);
 }
 
