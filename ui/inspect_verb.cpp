@@ -46,8 +46,8 @@ std::function<Result<void>()> declare_inspect(CLI::App& app) {
     app.add_option("--script", options->script, "run the commands of this file without a window (ui/README.md)")
         ->type_name(input_file);
     app.add_option("--shaders", options->shaders,
-                   "a folder whose passes/... hold shaders to use in place of those built in; R compiles them anew (without: of "
-                   "the current folder)");
+                   "replace built-in shaders by those in the passes/ folder of this folder; key R recompiles them; default: the "
+                   "current folder");
     return [options] { return inspect(*options); };
 }
 

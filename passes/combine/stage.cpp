@@ -11,7 +11,7 @@ std::optional<std::string> always_wanted(const Features&) { return std::nullopt;
 }  // namespace
 
 StageInfo stage() {
-    return {.purpose = "adds light, emission and fog, and makes a picture of the sum",
+    return {.purpose = "sums light and emission, applies fog, and tone maps the sum to a picture",
             .unwanted = always_wanted,
             .outputs = {"color", "display"},
             .truth = combine_truth,

@@ -14,7 +14,7 @@ std::optional<std::string> unwanted(const Features& features) {
 }  // namespace
 
 StageInfo stage() {
-    return {.purpose = "chooses the opaque draws that are drawn",
+    return {.purpose = "culls opaque draws that cannot be seen",
             .unwanted = unwanted,
             .outputs = {"visible"},
             .truth = culling_truth,

@@ -9,7 +9,7 @@ namespace {
 std::optional<std::string> unwanted(const Features& features) {
     for (const Feature feature : {Feature::bloom, Feature::auto_exposure, Feature::depth_of_field, Feature::lens_distortion})
         if (features.has(feature)) return std::nullopt;
-    return "the lens neither blooms, adapts, focuses nor distorts";
+    return "the frame has no lens effects";
 }
 
 }  // namespace

@@ -84,29 +84,32 @@ ComputePass& fix_shadow_filter(ComputePass& pass, const ShadowFilter& filter) {
 }
 
 std::vector<Param> shadow_map_params() {
-    return {param<&ShadowFilter::kernel>(
-                {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
-            param<&ShadowFilter::slope_limit>({.name = "slope_limit",
-                                               .low = 0,
-                                               .high = 8,
-                                               .fallback = 4,
-                                               .help = "tangent of the steepest angle between normal and light that the "
-                                                       "bias makes up for; 4 is 76 degrees"}),
-            param<&ShadowFilter::allocation>({.name = "allocation",
-                                              .low = 0,
-                                              .high = 1,
-                                              .fallback = 0,
-                                              .help = "own: maps as large as lights ask for, a layer each; need: as large as "
-                                                      "lights reach on the screen, packed",
-                                              .choices = allocations})};
+    return {
+        param<&ShadowFilter::kernel>(
+            {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
+        param<&ShadowFilter::slope_limit>(
+            {.name = "slope_limit",
+             .low = 0,
+             .high = 8,
+             .fallback = 4,
+             .help = "steepest slope that the bias compensates: tangent of the angle between normal and light; 4 is 76 degrees"}),
+        param<&ShadowFilter::allocation>({.name = "allocation",
+                                          .low = 0,
+                                          .high = 1,
+                                          .fallback = 0,
+                                          .help = "size of shadow maps; own: as recorded, a layer each; need: by the extent that "
+                                                  "each light covers on the screen, packed",
+                                          .choices = allocations})};
 }
 
 std::vector<Counter> shadow_map_counters() {
-    return {counter<&ShadowCounters::filtered>({.name = "filtered", .help = "samples times lights looked up"}),
-            counter<&ShadowCounters::penumbra>({.name = "penumbra", .help = "of these, neither lit nor shadowed"}),
-            counter<&ShadowCounters::kilotexels_drawn>({.name = "kilotexels_drawn", .help = "1024 texels of shadow maps"}),
-            counter<&ShadowCounters::kilotexels_allocated>(
-                {.name = "kilotexels_allocated", .help = "1024 texels of the layers they lie in; 4 KiB each"})};
+    return {
+        counter<&ShadowCounters::filtered>({.name = "filtered", .help = "shadow lookups, one per sample and light"}),
+        counter<&ShadowCounters::penumbra>({.name = "penumbra", .help = "shadow lookups with a result between lit and shadowed"}),
+        counter<&ShadowCounters::kilotexels_drawn>(
+            {.name = "kilotexels_drawn", .help = "shadow map texels drawn, in units of 1024"}),
+        counter<&ShadowCounters::kilotexels_allocated>(
+            {.name = "kilotexels_allocated", .help = "texels of the layers that hold the maps, in units of 1024; 4 KiB each"})};
 }
 
 std::vector<DebugView> shadow_map_views() {
@@ -121,7 +124,7 @@ std::vector<DebugView> shadow_map_views() {
 
 std::vector<DebugTable> shadow_map_tables() {
     return {{.name = "map_places",
-             .help = "the shadow maps by slot: their layer, their upper left texel in it and their edge",
+             .help = "shadow maps by slot: layer, upper left texel in it, length of an edge",
              .columns = {{"layer", ""}, {"x", "texels"}, {"y", "texels"}, {"size", "texels"}},
              .declare = atlas_table}};
 }

@@ -134,9 +134,11 @@ Result<void> accept(const AcceptArguments& options) {
     json["accepted_frames"] = options.dry_run ? 0 : news;
     const std::string file = options.open.capture.string();
     if (options.json) write_stdout(json_text(json));
-    else if (news == 0) to_stdout("nothing changed: {} stays as it is\n", file);
-    else if (options.dry_run) to_stdout("{} would be expected anew; {} stays as it is\n", plural(news, "frame"), file);
-    else to_stdout("{} expected anew in {}{}\n", plural(news, "frame"), file, options.with_images ? ", images kept" : "");
+    else if (news == 0) to_stdout("nothing changed in {}\n", file);
+    else if (options.dry_run) to_stdout("{} would be stored anew; {} is not changed (--dry-run)\n", plural(news, "frame"), file);
+    else
+        to_stdout("stored expected results of {} in {}{}\n", plural(news, "frame"), file,
+                  options.with_images ? ", images kept" : "");
     return {};
 }
 

@@ -53,8 +53,10 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
         }
     }
     if (!found) return fail(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
-    if (names.empty()) return fail(Fault::usage, "{} states no ratios of times; these do: {}", word, fmt::join(stating, ", "));
-    if (claims.empty()) return fail(Fault::usage, "no ratio of {} has '{}' in its name: {}", word, only, fmt::join(names, "; "));
+    if (names.empty())
+        return fail(Fault::usage, "{} lists no ratios to measure; these techniques do: {}", word, fmt::join(stating, ", "));
+    if (claims.empty())
+        return fail(Fault::usage, "no ratio of {} has '{}' in its name; its ratios: {}", word, only, fmt::join(names, "; "));
     return claims;
 }
 
@@ -125,7 +127,7 @@ Result<void> print(const BenchArguments& options, const Bench& made) {
 }
 
 Result<void> bench_the_device(const BenchArguments& options) {
-    if (!options.only.empty()) return fail(Fault::usage, "--only chooses among the ratios of a technique; a device has none");
+    if (!options.only.empty()) return fail(Fault::usage, "--only selects ratios of a technique; 'device' has none");
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;

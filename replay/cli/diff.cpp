@@ -260,10 +260,11 @@ Result<void> check_options(const DiffArguments& options) {
     const CLI::App& app = *options.app;
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
     if (options.b.file.empty() && is_image(options.a.file))
-        return fail(Fault::usage, "{} is an image and cannot be replayed in another way: name a second image to compare it with",
+        return fail(Fault::usage, "{} is an image and cannot be replayed: name a second image to compare it with",
                     options.a.file.string());
     if (options.b.file.empty() && !has_a_side_b(options))
-        return fail(Fault::usage, "A is compared with what? Name a second file, or what B does otherwise: --use, --set, --gpu-b");
+        return fail(Fault::usage,
+                    "nothing to compare A with: name a second file, or what B does differently (--use, --set, --gpu-b)");
     if (!is_image(options.b.file)) return {};
     const auto of_b = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed");
     if (!of_b || !is_image(options.a.file)) return of_b;

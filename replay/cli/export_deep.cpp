@@ -30,7 +30,7 @@ Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samp
                     samples, samples - 1);
     if (options.sample == no_index) return 0u;
     if (options.sample >= samples)
-        return fail(Fault::usage, "a pixel of this frame has {}, counted from 0; there is no sample {}",
+        return fail(Fault::usage, "a pixel of this frame has {}, numbered from 0; there is no sample {}",
                     plural(samples, "sample"), options.sample);
     return options.sample;
 }

@@ -92,7 +92,7 @@ Result<void> info(const InfoArguments& options) {
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
-        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"),
+        return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
                     options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();

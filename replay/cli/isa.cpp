@@ -35,7 +35,7 @@ Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
         const auto found = find_gpu_model(name);
         if (!found) return found.error();
         if ((*found)->family.empty())
-            return fail(Fault::usage, "RADV does not compile for {}; choose one with --gpu and leave --gpu-model away", name);
+            return fail(Fault::usage, "RADV does not compile for {}; choose a device with --gpu, without --gpu-model", name);
         models.push_back(*found);
     }
     if (models.empty()) models.push_back(nullptr);
@@ -70,7 +70,8 @@ Result<void> dump(const IsaArguments& options, const std::string& gpu, const Com
         }
     to_stderr("wrote {} for {} to {}\n", plural(written, "program"), gpu, options.dump.string());
     if (without_assembly > 0)
-        to_stderr("strata: the driver has no disassembler for {}: what it writes is the compiler's last form, ACO IR\n", gpu);
+        to_stderr("strata: the driver has no disassembler for {} and writes the compiler's last intermediate form, ACO IR\n",
+                  gpu);
     return {};
 }
 
@@ -80,7 +81,7 @@ Result<void> check_tiles(const IsaArguments& options, std::span<const GpuModel* 
     const std::string kind = options.tiles.extension().string();
     if (kind != ".exr" && kind != ".png")
         return fail(Fault::usage, "tiles are written as .exr or .png, not as '{}'", options.tiles.filename().string());
-    if (models.size() > 1) return fail(Fault::usage, "tiles are of one GPU, not of {}; name one", models.size());
+    if (models.size() > 1) return fail(Fault::usage, "--tiles shows one GPU, not {}; name one", models.size());
     return {};
 }
 

@@ -148,7 +148,7 @@ void print_served(const StageInfo& stage) {
     to_stdout("{}: {}\n", stage.name, stage.purpose);
     for (const Technique& technique : techniques())
         if (std::ranges::count(technique.at_other_stages, stage.stage, &StageWork::at) > 0)
-            to_stdout("  {:<32}{}. Does the work of this stage for its own: {}\n", technique.name, technique.title,
+            to_stdout("  {:<32}{}. A technique of stage {} that also has steps at this stage\n", technique.name, technique.title,
                       name(technique.stage));
 }
 

@@ -138,7 +138,8 @@ Result<Replayed> replay_frame(Session& session, const Request& request, const Re
     for (const std::string& note : replayed.run.notes) to_stderr("strata: {}\n", note);
     if (const auto done = check_repeats(session, request, replayed.run, options.repeat); !done) return done.error();
     if (options.repeat > 1)
-        to_stderr("frame {}: {} repeats, every image of every act bit for bit the same\n", request.variant.frame, options.repeat);
+        to_stderr("frame {}: {} repeats, every image of every pass is bit for bit the same\n", request.variant.frame,
+                  options.repeat);
     if (known) {
         replayed.got = expectation_of(session, request, replayed.run);
         auto verdict = check_expectations(*session.capture(), *known, replayed.run, *replayed.got, options.tolerance.value_or(0));
@@ -168,7 +169,7 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
     const std::string where = verdict.elsewhere ? fmt::format(" on {}", text(*verdict.elsewhere)) : "";
     switch (verdict.agreement) {
         case Agreement::exact:
-            to_stderr("frame {}: every image of every act is bit for bit as expected{}\n", request.variant.frame, where);
+            to_stderr("frame {}: every image of every pass is bit for bit as expected{}\n", request.variant.frame, where);
             return {};
         case Agreement::within_tolerance:
             for (const ImageVerdict& image : verdict.images)
@@ -177,7 +178,7 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
                               sentence(image));
             return {};
         case Agreement::diverges:
-            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first act that diverges is {}",
+            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first pass that diverges is {}",
                         request.variant.frame, where, sentence(*verdict.first_divergence()));
         case Agreement::no_expectation:
             return fail(Fault::expectation_missing,
@@ -198,9 +199,10 @@ std::string why_missing(const std::string& output, const Run& run, const ReplayA
         is_made = is_made || skipped == run.skipped.end();
         if (!first && skipped != run.skipped.end()) first = &*skipped;
     }
-    if (is_made && !options.until.empty()) return fmt::format("--until {} ends the frame before it is made", options.until);
+    if (is_made && !options.until.empty())
+        return fmt::format("--until {} ends the frame before this image is written", options.until);
     if (!is_made && first) return fmt::format("the stage {} is left out ({})", name(first->stage), first->reason);
-    return "no stage of the frame makes it";
+    return "no stage of the frame writes it";
 }
 
 /// Fails where an output that was asked for by its name is not there; the others are.

@@ -63,15 +63,15 @@ Result<void> without_exceptions(const std::function<Result<void>()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return fail(Fault::device_lacks, "this machine has not the memory that is needed");
+        return fail(Fault::device_lacks, "this machine has too little memory");
     } catch (const std::system_error& refused) {
         if (refused.code() == std::errc::resource_unavailable_try_again)
-            return fail(Fault::device_lacks, "this machine starts no further thread: {}", refused.what());
+            return fail(Fault::device_lacks, "this machine cannot start another thread: {}", refused.what());
         return fail(Fault::usage, "{}", refused.what());
     } catch (const std::exception& mistake) {
         // oneTBB 2021.8 throws no system_error.
         if (std::string_view(mistake.what()).starts_with("pthread_create"))
-            return fail(Fault::device_lacks, "this machine starts no further thread: {}", mistake.what());
+            return fail(Fault::device_lacks, "this machine cannot start another thread: {}", mistake.what());
         return fail(Fault::internal, "this is a mistake of strata; please report it with the command: {}", mistake.what());
     }
 }
@@ -126,7 +126,7 @@ Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
             const auto verb = app.get_subcommands();
             if (has_separator && !verb.empty())
                 return fail(Fault::usage,
-                            "what follows -- is read as file names, and strata {} takes no more of them; write options before it",
+                            "arguments after -- are file names, and strata {} takes no more of them; put options before --",
                             verb.front()->get_name());
             return fail(Fault::usage, "{}; see strata help{}", error.what(), verb.empty() ? "" : " " + verb.front()->get_name());
         }
@@ -158,7 +158,7 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
     if (gpus.list && !app.get_subcommands().empty())
-        return fail(Fault::usage, "--list-gpus is given without a verb; {} would be ignored",
+        return fail(Fault::usage, "--list-gpus is used without a verb; {} would be ignored",
                     app.get_subcommands().front()->get_name());
     if (gpus.list) return list_gpus(gpus);
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
@@ -179,7 +179,7 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
             is_memory = true;
         } catch (...) {}
     if (!is_memory) std::abort();
-    constexpr std::string_view words = "strata: this machine has not the memory that is needed\n";
+    constexpr std::string_view words = "strata: this machine has too little memory\n";
     [[maybe_unused]] const auto said = ::write(STDERR_FILENO, words.data(), words.size());
     end_program(static_cast<int>(Fault::device_lacks));
 }

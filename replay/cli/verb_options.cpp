@@ -121,7 +121,7 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
             parse(part.substr(0, dash), first) && (dash == part.npos ? (last = first, true) : parse(part.substr(dash + 1), last));
         if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
         if (last >= count)
-            return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"), last);
+            return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"), last);
         for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
         begin = end + 1;
     }

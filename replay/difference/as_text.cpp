@@ -61,7 +61,7 @@ std::string frame_text(const FrameComparison& frame) {
     const std::size_t width = name_width(frame);
     std::string text =
         fmt::format("\nframe {}\n  {:<12}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>7}  {:>7}  {}\n", frame.frame, "verdict",
-                    "act: image", width, "rmse", "relative", "worst", "over %", "FLIP", "worst pixel: A | B");
+                    "pass: image", width, "rmse", "relative", "worst", "over %", "FLIP", "worst pixel: A | B");
     for (const ActComparison& act : frame.acts) {
         if (act.choice_a != act.choice_b)
             text +=

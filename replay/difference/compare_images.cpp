@@ -40,7 +40,7 @@ std::vector<Judged> judged(const ImageComparison& made, const ErrorLimits& limit
         const bool depth = error.kind == ImageError::Kind::depth;
         all.push_back({depth ? "worst in ULPs" : "worst", error.worst, depth ? double(limits.ulps) : 0});
     }
-    all.push_back({"NaN or Inf in one alone", double(error.disagreeing), 0});
+    all.push_back({"NaN or Inf in only one", double(error.disagreeing), 0});
     if (made.flip && limits.flip_mean) all.push_back({"flip mean", made.flip->mean, *limits.flip_mean});
     return all;
 }

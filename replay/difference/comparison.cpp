@@ -19,7 +19,7 @@ Result<ImageComparison> compare_outputs(const std::string& image, const ActImage
     const HostImage &of_a = a.images.at(image), &of_b = b.images.at(image);
     const bool other_choice = a.choice != b.choice;
     if (other_choice && content_of(image, of_a.shape.format) == Content::coded)
-        return not_compared(image, "what is in it is the technique's, and the techniques or their settings differ");
+        return not_compared(image, "its layout is the technique's own, and the techniques or their settings differ");
     if (other_choice)
         if (const auto comparable = check_comparable(image, of_a, of_b); !comparable)
             return not_compared(image, comparable.error().sentence);
@@ -73,7 +73,7 @@ Result<std::string> first_step(const std::vector<StepImages>& a, const std::vect
                 return fmt::format("step {}, {}, writes '{}': {}", a[i].step, a[i].name, image, made->reason);
         }
     }
-    return std::string("no image of a step differs: it is in a buffer");
+    return std::string("no image of a step differs: the difference begins in a buffer");
 }
 
 /// Looks into the stage of the act that differs first.
@@ -84,7 +84,7 @@ Result<void> find_step(FrameComparison& frame, std::span<const ActImages> acts_a
     const auto act = std::ranges::find(frame.acts, label, &ActComparison::label);
     if (act->choice_a != act->choice_b) {
         frame.divergence.step =
-            fmt::format("A does it with {}, B with {}: from here on outputs are compared, not steps",
+            fmt::format("A uses {}, B {}: from here on outputs are compared, not steps",
                         act->choice_a.empty() ? "nothing" : act->choice_a, act->choice_b.empty() ? "nothing" : act->choice_b);
         return {};
     }

@@ -160,7 +160,7 @@ Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& 
                     return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
                 },
                 channels > 1 ? "0" : fmt::format("{:.3g}", -1 / gain), fmt::format("{:.3g}", 1 / gain)};
-    panel.note = fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: no number" : "");
+    panel.note = fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: NaN or infinite" : "");
     return panel;
 }
 
@@ -185,11 +185,11 @@ Range range_of(const Texels& shown, Format format, const ImageLegend& legend) {
 std::string values_note(const Texels& shown, const ImageLegend& legend) {
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
     const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
-    if (std::ranges::none_of(shown.values, finite)) return "no pixel has a number";
+    if (std::ranges::none_of(shown.values, finite)) return "every pixel is NaN or infinite";
     std::string note = fmt::format("values {:.4g} to {:.4g}{}", least, most, unit);
     if (least == most) note = fmt::format("every pixel is {:.4g}{}", least, unit);
     if (least == most && least == 0 && !legend.if_zero.empty()) note = legend.if_zero;
-    if (!std::ranges::all_of(shown.values, finite)) note += ", magenta: no number";
+    if (!std::ranges::all_of(shown.values, finite)) note += ", magenta: NaN or infinite";
     return note;
 }
 

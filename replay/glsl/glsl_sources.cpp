@@ -76,7 +76,8 @@ Result<void> GlslSources::read_file(const std::filesystem::path& path, const std
     if (!file) return fail(Fault::bad_input, "cannot read {}", path.string());
     const auto known = files_.find(name);
     if (is_shared(name) && known != files_.end() && known->second.text != read.text)
-        return fail(Fault::usage, "{} is not what the program was built with, and C++ reads it as well: build the program again",
+        return fail(Fault::usage,
+                    "{} differs from what the program was built with and is also compiled as C++: build the program again",
                     path.string());
     files_[name] = std::move(read);
     return {};

@@ -167,9 +167,9 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceChoice& choice) {
         return std::unique_ptr<Device>(
             std::make_unique<OpenedDevice>(*std::move(instance), std::move(physical), *chosen, choice.memory_budget));
     } catch (const vk::OutOfDeviceMemoryError& problem) {
-        return fail(Fault::device_lacks, "the device has not the memory to be opened: {}", problem.what());
+        return fail(Fault::device_lacks, "the device has too little memory to be opened: {}", problem.what());
     } catch (const vk::OutOfHostMemoryError& problem) {
-        return fail(Fault::device_lacks, "this machine has not the memory to open the device: {}", problem.what());
+        return fail(Fault::device_lacks, "this machine has too little memory to open the device: {}", problem.what());
     } catch (const vk::SystemError& problem) {
         return fail(Fault::device_failed, "the device cannot be opened: {}", problem.what());
     }

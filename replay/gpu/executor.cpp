@@ -133,9 +133,9 @@ void VulkanExecutor::as_device_failure(std::string place, Action action) {
     } catch (const vk::DeviceLostError& problem) {
         throw DeviceLost(fmt::format("{}: {}", place_, problem.what()));
     } catch (const vk::OutOfDeviceMemoryError& problem) {
-        throw MemoryLacks(fmt::format("{}: the device has not the memory that is needed ({})", place_, problem.what()));
+        throw MemoryLacks(fmt::format("{}: the device has too little memory ({})", place_, problem.what()));
     } catch (const vk::OutOfHostMemoryError& problem) {
-        throw MemoryLacks(fmt::format("{}: this machine has not the memory that the driver needs ({})", place_, problem.what()));
+        throw MemoryLacks(fmt::format("{}: this machine has too little memory for the driver ({})", place_, problem.what()));
     } catch (const vk::SystemError& problem) {
         throw DeviceFailure(fmt::format("{}: {}", place_, problem.what()));
     } catch (const std::out_of_range&) {

@@ -54,19 +54,21 @@ std::string figure_lines(const Probe& probe) {
 std::string as_text(const Probe& probe) {
     std::string text = fmt::format("{}: {}, exact T behind them {}\n", place_of(probe),
                                    plural(probe.fragments.size(), "fragment"), rgb_text(probe.exact_total));
-    if (probe.undecided) text += "which fragments there are hangs on rounding: the device may see others\n";
+    if (probe.undecided) text += "rounding decides which fragments exist here: the device may see others\n";
     text += '\n' + fragment_lines(probe);
     text += fmt::format(
         "\nT(z) at {} depths from {:.5g} to {:.5g} m (the frame's transparent geometry: {:.5g} to {:.5g} m) on {}\n\n",
         probe.depths.size(), probe.from, probe.to, probe.nearest, probe.farthest, probe.device.name);
     text += figure_lines(probe);
     text +=
-        "\nL1: mean |T - exact| over the probed range, logarithmic and linear. Linf off: the most, 1% of the axis away from "
-        "every\n"
-        "step. E_w: at the fragments, weighted by what they hide. total: T - exact behind everything. T of a method is the "
-        "share\n"
-        "of a probe's light that arrives. Along the ray probes are submitted last, which a method that keeps what comes first\n"
-        "treats as too late; at fragments they come with the fragment. Every fragment is a card of its own.\n";
+        "\nL1: mean |T - exact| over the probed range, on a logarithmic and a linear axis. Linf off: largest error, at least 1% "
+        "of\n"
+        "the axis away from every step. E_w: mean error over the fragments, weighted by what each hides. total: T - exact "
+        "behind\n"
+        "all fragments. T of a method is the share of a probe's light that arrives. Along the ray, probes are submitted last,\n"
+        "which a method that keeps the first fragments treats as too late; at fragments, each probe is submitted with its "
+        "fragment.\n"
+        "Every fragment is drawn as a card of its own.\n";
     for (const ProbeCurve& curve : probe.curves)
         for (const std::string& note : curve.notes) text += fmt::format("{}: {}\n", curve.method, note);
     return text;

@@ -14,7 +14,7 @@ std::optional<std::string> first_difference(const Run& first, const Run& again) 
             const ImageDeviation deviation = deviation_of(name, other, image);
             const WorstTexel& w = deviation.worst;
             return fmt::format(
-                "{} is the first act that varies: '{}' in {} of {} texels, most at ({}, {}) of layer {}, "
+                "{} is the first pass that varies: '{}' in {} of {} texels, most at ({}, {}) of layer {}, "
                 "({:.9g}, {:.9g}, {:.9g}, {:.9g}) and before ({:.9g}, {:.9g}, {:.9g}, {:.9g})",
                 first.acts[i].label, name, deviation.differing, deviation.texels, w.x, w.y, w.layer, w.got.x, w.got.y, w.got.z,
                 w.got.w, w.wanted.x, w.wanted.y, w.wanted.z, w.wanted.w);

@@ -42,7 +42,7 @@ std::size_t DeviceSession::frame_count() const {
 Result<Frame> DeviceSession::frame(std::size_t index) {
     const std::size_t count = frame_count();
     if (index >= count)
-        return fail(Fault::usage, "the capture has {}, counted from 0; there is no frame {}", plural(count, "frame"), index);
+        return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"), index);
     if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
     return std::get<std::vector<Frame>>(source_)[index];
 }

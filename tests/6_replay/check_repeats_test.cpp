@@ -73,7 +73,7 @@ TEST(CheckRepeats, NamesTheFirstActThatVariesAndWhereItRan) {
     const auto checked = check_repeats(flickering, with_acts(), first, 5);
     ASSERT_FALSE(checked);
     EXPECT_EQ(checked.error().fault, Fault::not_repeatable);
-    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("transparency is the first act that varies: 'color' in 1 of "));
+    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("transparency is the first pass that varies: 'color' in 1 of "));
     for (const std::string& part : {steady->device().name, steady->device().driver, steady->device().cpu})
         EXPECT_THAT(checked.error().sentence, testing::HasSubstr(part));
 }
@@ -84,7 +84,7 @@ TEST(CheckRepeats, LooksAtEveryActNotAtThePictureAlone) {
     const auto first = must(flickering.run(with_acts()));
     const auto checked = check_repeats(flickering, with_acts(), first, 2);
     ASSERT_FALSE(checked);
-    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("gbuffer is the first act that varies"));
+    EXPECT_THAT(checked.error().sentence, testing::HasSubstr("gbuffer is the first pass that varies"));
 }
 
 TEST(CheckRepeats, LooksAtEveryImageOfEveryActFromTheFirstToTheLast) {
@@ -98,7 +98,7 @@ TEST(CheckRepeats, LooksAtEveryImageOfEveryActFromTheFirstToTheLast) {
             const auto checked = check_repeats(flickering, with_acts(), first, 2);
             ASSERT_FALSE(checked) << act.label << " " << name;
             EXPECT_THAT(checked.error().sentence,
-                        testing::HasSubstr(fmt::format("{} is the first act that varies: '{}' in 1 of", act.label, name)));
+                        testing::HasSubstr(fmt::format("{} is the first pass that varies: '{}' in 1 of", act.label, name)));
         }
 }
 

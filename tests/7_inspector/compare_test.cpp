@@ -260,7 +260,7 @@ TEST(Compare, ASideThatHasNothingSaysWhy) {
     Desk& desk = comparing();
     must(desk.player->choose("Compare/A/source", "expectation"));
     must(desk.player->wait());
-    EXPECT_EQ(desk.said("Compare/state"), "A: the frames were made in code: nothing is expected of them");
+    EXPECT_EQ(desk.said("Compare/state"), "A: the frames were made in code and have no expected results");
     must(desk.player->choose("Compare/A/source", "truth"));
     desk.model().image = {.name = "edges"};
     must(desk.player->wait());

@@ -121,8 +121,8 @@ Desk& measured_desk() {
     must(desk.player->wait());
     must(desk.player->click(fmt::format("tabs/{}", panel)));
     must(desk.player->choose(fmt::format("{}/stage", panel), std::string(name(measured_stage))));
-    must(desk.player->choose(fmt::format("{}/turns", panel), "3 turns"));
-    must(desk.player->choose(fmt::format("{}/turns", panel), "1 turn"));
+    must(desk.player->choose(fmt::format("{}/repeats", panel), "3 repeats"));
+    must(desk.player->choose(fmt::format("{}/repeats", panel), "1 repeat"));
     must(desk.player->click(fmt::format("{}/measure", panel)));
     must(desk.player->wait());
     return desk;

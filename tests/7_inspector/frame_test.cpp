@@ -62,7 +62,7 @@ TEST(FrameRows, ToldApartAreActsThatWereExecutedAndActsThatWereKept) {
     const FrameRows rows = frame_rows(replay_of(times()), nullptr);
     EXPECT_FALSE(rows.acts[0].is_executed);
     EXPECT_TRUE(rows.acts[1].is_executed);
-    EXPECT_EQ(executed_text(rows), "1 of 2 acts executed, 1 kept");
+    EXPECT_EQ(executed_text(rows), "1 of 2 passes run, 1 reused");
     EXPECT_FALSE(rows.acts[0].ms) << "nothing was measured";
 }
 

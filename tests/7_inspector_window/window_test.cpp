@@ -208,7 +208,7 @@ void wipes_and_flips(Sitting& at) {
 void runs_a_report_and_applies_a_pareto_point(Sitting& at) {
     at.window->click("tabs/Accuracy and cost");
     at.window->choose("Accuracy and cost/stage", "culling");
-    at.window->choose("Accuracy and cost/turns", "1 turn");
+    at.window->choose("Accuracy and cost/repeats", "1 repeat");
     at.window->click("Accuracy and cost/measure");
     const Seen seen = at.window->look();
     EXPECT_THAT(seen.said("Accuracy and cost/summary"), HasSubstr("of culling"));

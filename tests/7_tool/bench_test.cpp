@@ -134,11 +134,11 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
     const std::string misspelled = stating.substr(0, stating.size() - 1);
     const Refusal wrongs[] = {
         {misspelled, 2, "did you mean " + stating},
-        {silent, 2, silent + " states no ratios of times; these do: "},
+        {silent, 2, silent + " lists no ratios to measure; these techniques do: "},
         {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name: "},
         {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
         {stating + " --repeats 0", 2, "--repeats"},
-        {"device --only wrap", 2, "--only chooses among the ratios of a technique"},
+        {"device --only wrap", 2, "--only selects ratios of a technique"},
         {"devise", 2, "did you mean device"},
         {stating + " --frame 1", 2, "capture"},
         {stating + " --size 48x27 --set colour=1", 2, "has a parameter"},

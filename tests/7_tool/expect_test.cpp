@@ -38,7 +38,7 @@ TEST(Accept, ShowsWhatIsNewThenReplayMeetsIt) {
     const Finished accepted = strata("accept panes.strata");
     ASSERT_EQ(accepted.code, 0) << accepted.err;
     EXPECT_THAT(accepted.out, HasSubstr("new      transparency"));
-    EXPECT_THAT(accepted.out, HasSubstr("1 frame expected anew in panes.strata"));
+    EXPECT_THAT(accepted.out, HasSubstr("stored expected results of 1 frame in panes.strata"));
     const Finished replayed = strata("replay panes.strata --json");
     EXPECT_EQ(replayed.code, 0);
     EXPECT_THAT(replayed.err, HasSubstr("bit for bit as expected"));
@@ -98,7 +98,7 @@ TEST(Accept, ADryRunShowsAndWritesNothing) {
     const std::string before = bytes_of_panes();
     const Finished shown = strata("accept panes.strata --dry-run");
     EXPECT_EQ(shown.code, 0);
-    EXPECT_THAT(shown.out, HasSubstr("would be expected anew"));
+    EXPECT_THAT(shown.out, HasSubstr("would be stored anew"));
     EXPECT_EQ(bytes_of_panes(), before);
 }
 
@@ -133,7 +133,7 @@ TEST(Expect, ADivergenceIsExitOneAndNamesTheFirstAct) {
     expect_otherwise("transparency", "color");
     const Finished diverged = strata("replay panes.strata --json");
     EXPECT_EQ(diverged.code, 1);
-    EXPECT_THAT(diverged.err, HasSubstr("the first act that diverges is transparency: 'color'"));
+    EXPECT_THAT(diverged.err, HasSubstr("the first pass that diverges is transparency: 'color'"));
     const json verdict = json::parse(diverged.out)["frames"][0]["expectation"];
     EXPECT_EQ(verdict["agreement"], "diverges");
     EXPECT_EQ(verdict["first_divergence"]["act"], "transparency");

@@ -186,7 +186,7 @@ TEST(Options, ThatCannotBeFollowedAreASentence) {
         {"replay sound.strata --frames 0 --until gbuffer --outputs display", "frame 0 has no 'display': --until gbuffer ends"},
         {"replay sound.strata --frames 0 --until gbuffer --outputs gbuffer0,display -o out", "frame 0 has no 'display'"},
         {"accept sound.strata --allow-partial", "accept has no option --allow-partial"},
-        {"replay sound.strata -- --json", "what follows -- is read as file names"},
+        {"replay sound.strata -- --json", "arguments after -- are file names"},
         {"record smoke", "did you mean smoke_"},
         {"replay sound.strata --set weight=w9", "transparency/weighted has it: pass --use transparency/weighted"},
         {"import x.exr", "is an OpenEXR image: pass --deep"},

@@ -39,7 +39,7 @@ Result<SidePicture> true_picture(Session& session, const Request& request, const
         return fail(Fault::usage, "no stage of this frame writes '{}' and has a truth; {} have one", subject.image,
                     images_with_truth());
     const StageInfo& stage = info(*subject.after);
-    if (!stage.truth) return fail(Fault::usage, "nobody knows the truth of {}", stage.name);
+    if (!stage.truth) return fail(Fault::usage, "no reference solution exists for stage {}", stage.name);
     const auto truth = session.truth(request, stage.stage);
     if (!truth) return truth.error();
     const auto image = truth->find(subject.image);
@@ -85,7 +85,7 @@ std::optional<Stage> stage_of_truth(const std::string& image, std::span<const Sk
 }
 
 Result<SidePicture> expected_picture(Session& session, Request request, const Subject& subject) {
-    if (!session.capture()) return fail(Fault::expectation_missing, "the frames were made in code: nothing is expected of them");
+    if (!session.capture()) return fail(Fault::expectation_missing, "the frames were made in code and have no expected results");
     const auto all = expectations_of(*session.capture());
     if (!all) return all.error();
     request.outputs.clear();
@@ -95,8 +95,8 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
     const Expectation got = expectation_of(session, request, *run);
     const Expectation* expected = best_of(*all, got);
     if (!expected)
-        return fail(Fault::expectation_missing,
-                    "the capture expects nothing of frame {}; 'strata accept' writes what is expected", request.variant.frame);
+        return fail(Fault::expectation_missing, "the capture has no expected results for frame {}; 'strata accept' stores them",
+                    request.variant.frame);
     for (std::size_t i = expected->acts.size(); i-- > 0;) {
         const ExpectedAct& act = expected->acts[i];
         const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);
@@ -105,11 +105,11 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
         const auto now = run->acts[i].images.find(subject.image);
         const bool same = now != run->acts[i].images.end() && hash_of(now->second) == image->hash;
         return fail(Fault::expectation_missing,
-                    "only the hash of '{}' is kept ({} what the recorded choices give here); 'strata accept --with-images' keeps "
-                    "pictures",
-                    subject.image, same ? "it is that of" : "it is not that of");
+                    "only a hash of '{}' is stored ({} a replay as recorded on this device); 'strata accept --with-images' "
+                    "stores pictures",
+                    subject.image, same ? "it matches" : "it does not match");
     }
-    return fail(Fault::expectation_missing, "nothing is expected of '{}'", subject.image);
+    return fail(Fault::expectation_missing, "no expected result for '{}'", subject.image);
 }
 
 void ComparedSide::show(const SideWish& wish, Services& services) {

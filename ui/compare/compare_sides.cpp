@@ -76,7 +76,7 @@ void CompareSides::draw_side(const Model& model, Widgets& widgets, ChosenSide& s
     const auto scope = widgets.in(side.name);
     ImGui::AlignTextToFramePadding();
     widgets.text("name", side.name, &palette().accent);
-    widgets.help(&side == &a_ ? "the reference" : "held against A: differences are B - A, errors are relative to A");
+    widgets.help(&side == &a_ ? "the reference" : "compared with A: differences are B - A, errors are relative to A");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(132);
     if (const auto chosen = widgets.combo("source", source_names, static_cast<std::size_t>(side.source)))
@@ -152,7 +152,7 @@ void CompareSides::draw_subject(Model& model, Widgets& widgets) {
         kept_ = model.request();
         a_.source = Source::kept;
     }
-    widgets.help("A stays done as this replay is done now; B follows what is changed from here on");
+    widgets.help("keep the present choices as A; B follows later changes");
     draw_layer(model, widgets);
 }
 
@@ -168,7 +168,7 @@ void CompareSides::draw_after(const Model& model, Widgets& widgets) {
     const auto current = std::ranges::find(places, subject().after) - places.begin();
     ImGui::SetNextItemWidth(116);
     if (const auto chosen = widgets.combo("after", items, static_cast<std::size_t>(current))) after_ = places[*chosen];
-    widgets.help("the image as it is at the end of the frame, or as a stage left it; a truth is one of a stage");
+    widgets.help("the image at the end of the frame, or after a stage; truths exist for stages only");
 }
 
 void CompareSides::draw_layer(Model& model, Widgets& widgets) const {

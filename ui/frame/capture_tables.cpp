@@ -43,18 +43,18 @@ CaptureCell row_name(std::size_t index, std::string_view name) {
 
 CaptureTable draws_of(const Frame& frame) {
     CaptureTable table{.name = "draws",
-                       .help = "meshes with a material somewhere in the world, in the order they were submitted",
+                       .help = "meshes drawn with a material, in the order of submission",
                        .columns = {{"draw", ""},
                                    {"mesh", ""},
                                    {"triangles", ""},
                                    {"material", ""},
-                                   {"alpha", "how its material covers what is behind it"},
-                                   {"position, m", "where its origin is in the world; sorted by distance from the eye"},
-                                   {"moved, m", "how far its origin went since the frame before"},
+                                   {"alpha", "alpha mode of its material"},
+                                   {"position, m", "origin in world space; sorts by distance from the eye"},
+                                   {"moved, m", "distance that its origin moved since the previous frame"},
                                    {"priority", "object-sorted transparency draws lower values first"},
                                    {"layer", "0 is the world; others are in-world interfaces, drawn in front"},
                                    {"resolution", ""},
-                                   {"shadow", "whether it casts one"}},
+                                   {"shadow", "whether it casts shadows"}},
                        .rows = {},
                        .first_draw = 0};
     for (std::size_t i = 0; i < frame.draws.size(); ++i) {
@@ -76,9 +76,9 @@ CaptureTable emitters_of(const Frame& frame) {
                        .help = "camera-facing particles, submitted after all draws",
                        .columns = {{"emitter", ""},
                                    {"particles", ""},
-                                   {"alpha", "how its particles cover what is behind them"},
+                                   {"alpha", "alpha mode of its particles"},
                                    {"texture", ""},
-                                   {"soft fade, m", "depth over which a quad fades before the opaque surface behind it"},
+                                   {"soft fade, m", "distance over which particles fade in front of an opaque surface"},
                                    {"priority", "object-sorted transparency draws lower values first"},
                                    {"layer", "0 is the world; others are in-world interfaces, drawn in front"},
                                    {"resolution", ""}},
@@ -94,11 +94,14 @@ CaptureTable emitters_of(const Frame& frame) {
 }
 
 CaptureTable meshes_of(const Frame& frame) {
-    CaptureTable table{
-        .name = "meshes",
-        .help = "triangles in object space",
-        .columns = {{"mesh", ""}, {"triangles", ""}, {"vertices", ""}, {"streams", "beside positions"}, {"draws", "that use it"}},
-        .rows = {}};
+    CaptureTable table{.name = "meshes",
+                       .help = "triangles in object space",
+                       .columns = {{"mesh", ""},
+                                   {"triangles", ""},
+                                   {"vertices", ""},
+                                   {"streams", "beside positions"},
+                                   {"draws", "draws that use it"}},
+                       .rows = {}};
     std::vector<std::size_t> used(frame.meshes.size());
     for (const Draw& draw : frame.draws) ++used[draw.mesh];
     for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
@@ -120,19 +123,19 @@ CaptureTable meshes_of(const Frame& frame) {
 
 CaptureTable materials_of(const Frame& frame) {
     CaptureTable table{.name = "materials",
-                       .help = "how surfaces reflect and cover",
+                       .help = "materials of draws: reflection, transmission, textures",
                        .columns = {{"material", ""},
-                                   {"model", "how it reflects light"},
-                                   {"alpha", "how it covers what is behind it"},
-                                   {"base color", "linear red, green, blue and coverage"},
+                                   {"model", "lighting model"},
+                                   {"alpha", "alpha mode: opaque, mask, blend, premultiplied or additive"},
+                                   {"base color", "linear red, green, blue, and alpha"},
                                    {"metallic", ""},
                                    {"roughness", ""},
                                    {"emissive", "radiance"},
-                                   {"transmission", "the color that it lets through"},
+                                   {"transmission", "color of the transmitted light"},
                                    {"two sides", ""},
                                    {"base texture", ""},
                                    {"normal texture", ""},
-                                   {"draws", "that use it"}},
+                                   {"draws", "draws that use it"}},
                        .rows = {}};
     std::vector<std::size_t> used(frame.materials.size());
     for (const Draw& draw : frame.draws) ++used[draw.material];
@@ -163,14 +166,14 @@ std::vector<std::size_t> texture_uses(const Frame& frame) {
 
 CaptureTable textures_of(const Frame& frame) {
     CaptureTable table{.name = "textures",
-                       .help = "as they are in the capture",
+                       .help = "textures stored in the capture",
                        .columns = {{"texture", ""},
-                                   {"texels", "of the finest mip"},
+                                   {"texels", "extent of the finest mip"},
                                    {"format", ""},
                                    {"mips", ""},
-                                   {"address", "what lies beyond its edges"},
-                                   {"bytes", "of all mips"},
-                                   {"uses", "by materials, emitters and lights"}},
+                                   {"address", "address mode beyond its edges"},
+                                   {"bytes", "size of all mips"},
+                                   {"uses", "uses by materials, emitters and lights"}},
                        .rows = {}};
     const std::vector<std::size_t> used = texture_uses(frame);
     for (std::size_t i = 0; i < frame.textures.size(); ++i) {
@@ -189,20 +192,19 @@ CaptureTable textures_of(const Frame& frame) {
 CaptureTable lights_of(const Frame& frame) {
     CaptureTable table{
         .name = "lights",
-        .help = "all but the sun, which is one of a frame",
+        .help = "all lights except the sun, which is in the table 'view and weather'",
         .columns = {{"light", ""},
                     {"type", ""},
-                    {"position, m", "in the world; sorted by distance from the eye"},
-                    {"intensity",
-                     "W/sr of points and spots; irradiance of directional; radiance of surfaces; negative is a dark"},
+                    {"position, m", "position in world space; sorts by distance from the eye"},
+                    {"intensity", "point and spot: W/sr; directional: irradiance; area: radiance; negative: takes light away"},
                     {"range, m", "nothing is lit beyond it"},
                     {"angles, deg", "half angles, inner and outer"},
-                    {"radius, m", "of its source"},
-                    {"shadow map", "texels along an edge; empty: it casts none"},
-                    {"planes", "that clip it"},
+                    {"radius, m", "radius of the source, for soft shadows and highlights"},
+                    {"shadow map", "texels along an edge; empty: the light casts no shadows"},
+                    {"planes", "number of clip planes"},
                     {"blockers", ""},
                     {"portals", ""},
-                    {"texture", "that it throws or shows"}},
+                    {"texture", "texture that it projects or emits"}},
         .rows = {}};
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         const Light& light = frame.lights[i];
@@ -227,9 +229,9 @@ CaptureTable blockers_of(const Frame& frame) {
                                    {"center, m", "in the world"},
                                    {"width, m", ""},
                                    {"height, m", ""},
-                                   {"one side", "stops light from its front alone"},
-                                   {"portals", "holes in it"},
-                                   {"lights", "that it stops"}},
+                                   {"one side", "stops only light that arrives at its front"},
+                                   {"portals", "number of holes in it"},
+                                   {"lights", "number of lights that it stops"}},
                        .rows = {}};
     std::vector<std::size_t> holes(frame.blockers.size()), stopped(frame.blockers.size());
     for (const Portal& portal : frame.portals) ++holes[portal.blocker];
@@ -258,7 +260,7 @@ CaptureTable portals_of(const Frame& frame) {
 
 CaptureTable volumes_of(const Frame& frame) {
     CaptureTable table{.name = "light volumes",
-                       .help = "where light propagates from cell to cell",
+                       .help = "grids in which light propagates from cell to cell",
                        .columns = {{"volume", ""},
                                    {"kind", ""},
                                    {"occlusion", ""},
@@ -278,7 +280,7 @@ CaptureTable volumes_of(const Frame& frame) {
 
 CaptureTable weather_of(const Frame& frame) {
     CaptureTable table{.name = "view and weather",
-                       .help = "what there is one of in a frame",
+                       .help = "settings of the frame: view, sun, hemisphere, fog, rain, lens, film",
                        .columns = {{"what", ""}, {"value", ""}, {"unit", ""}},
                        .rows = {}};
     const auto add = [&](std::string_view what, CaptureCell value, std::string_view unit = "") {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "replay/plural.h"
-
 namespace strata::ui {
 namespace {
 
@@ -93,7 +91,7 @@ std::string short_name(std::string_view step) { return std::string(step.substr(s
 
 std::string executed_text(const FrameRows& rows) {
     const std::size_t executed = rows.executed(), all = static_cast<std::size_t>(std::ranges::count_if(rows.acts, counts));
-    return fmt::format("{} of {} executed, {} kept", executed, plural(all, "act"), all - executed);
+    return fmt::format("{} of {} {} run, {} reused", executed, all, all == 1 ? "pass" : "passes", all - executed);
 }
 
 std::optional<std::size_t> step_beside(const std::vector<std::size_t>& steps, std::optional<std::size_t> selected,

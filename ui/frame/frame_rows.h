@@ -47,7 +47,7 @@ std::string time_text(const Spread&);
 std::string face_of(const Scope&);
 /// "sampled.comp" of "lighting/tiled/sampled.comp".
 std::string short_name(std::string_view step);
-/// "2 of 8 acts executed, 6 kept".
+/// "2 of 8 passes run, 6 reused".
 std::string executed_text(const FrameRows&);
 
 /// The next of the steps that count, or the one before; the first or last where none is selected; nothing beyond the ends.

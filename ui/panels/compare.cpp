@@ -142,7 +142,7 @@ private:
         Look look = look_of(model);
         const auto exposure =
             widgets.slider("exposure", double{look.exposure}, {.low = -12, .high = 12, .format = "%+.2f stops"});
-        widgets.help("of both pictures; channels, black and white are those of the Image tab");
+        widgets.help("exposure of both pictures; channels, black and white are set in the Image tab");
         if (!exposure) return;
         look.exposure = static_cast<float>(*exposure);
         model.looks[sides_.image()] = look;
@@ -175,11 +175,11 @@ private:
         if (mode_ == CompareMode::flip_map) {
             const SliderRange range{.low = 1, .high = 1e4, .logarithmic = true, .format = "gain %.4g"};
             if (const auto gain = widgets.slider("flip gain", 1 / scale_end(), range)) flip_gain_ = *gain;
-            widgets.help("what FLIP is multiplied by to be seen; its numbers stay as they are");
+            widgets.help("gain of the FLIP map on the screen; the numbers do not change");
         } else if (mode_ == CompareMode::difference) {
             const SliderRange range{.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "gain %.4g"};
             if (const auto gain = widgets.slider("gain", 1 / scale_end(), range)) gain_ = *gain;
-            widgets.help("what a difference is multiplied by to be seen");
+            widgets.help("gain of differences on the screen; the numbers do not change");
         } else {
             const SliderRange range{.low = 1e-4, .high = 1e6, .logarithmic = true, .format = "up to %.4g %%"};
             if (const auto percent = widgets.slider("up to", scale_end() * 100, range)) up_to_ = *percent / 100;
@@ -315,12 +315,12 @@ private:
     }
 
     static constexpr std::array<std::string_view, 6> mode_help = {
-        "A left of the divider, B right of it; pull the divider",
-        "both beside each other, moved as one",
+        "A left of the divider, B right of it; drag the divider",
+        "both side by side, moved together",
         "A and B in turn: Space",
-        "what B has more or less than A, times a gain",
+        "difference B - A, times a gain",
         "errors relative to A",
-        "what a person sees who switches between both (FLIP, 2020 and 2021)",
+        "difference that a person sees when flipping between both (FLIP, 2020 and 2021)",
     };
 
     CompareSides sides_;

@@ -112,10 +112,10 @@ private:
         ImGui::SameLine();
         std::array<std::string, turns.size()> texts;
         std::array<std::string_view, turns.size()> items;
-        for (std::size_t i = 0; i < turns.size(); ++i) items[i] = texts[i] = plural(turns[i], "turn");
+        for (std::size_t i = 0; i < turns.size(); ++i) items[i] = texts[i] = plural(turns[i], "repeat");
         ImGui::SetNextItemWidth(96);
-        if (const auto chosen = widgets.combo("turns", items, turns_)) turns_ = *chosen;
-        widgets.help("how often each setting is timed, in turn with all others; the median and its deviation are shown");
+        if (const auto chosen = widgets.combo("repeats", items, turns_)) turns_ = *chosen;
+        widgets.help("how often each setting is timed, interleaved with all others; the median and its deviation are shown");
         ImGui::SameLine();
         if (job_) draw_progress(widgets);
         else draw_buttons(model, services);
@@ -165,9 +165,8 @@ private:
         ImGui::SetNextItemWidth(116);
         const auto chosen = widgets.combo("model", gpus, 0);
         widgets.help(
-            "adds a cost: cycles on a GPU that need not be here, from how often each shader runs and what Mesa's compiler says "
-            "of "
-            "its throughput");
+            "adds cycles modelled for a GPU that this machine need not have: shader invocations times the throughput that Mesa's "
+            "compiler states");
         ImGui::SameLine();
         if (widgets.button("copy", "Copy CSV")) ImGui::SetClipboardText(as_csv(study->second.report).c_str());
         widgets.help("the whole report as comma-separated values");
@@ -215,7 +214,7 @@ private:
         }
         widgets.text("summary",
                      fmt::format("{} of {}, {} each; truth: {}", plural(report.rows.size(), "setting"), name(report.stage),
-                                 plural(report.repeats, "turn"), report.truths.front().is),
+                                 plural(report.repeats, "repeat"), report.truths.front().is),
                      &palette().dim);
         widgets.help(fmt::format(
             "measured on {}{}", report.device.name,

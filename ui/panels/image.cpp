@@ -121,7 +121,7 @@ private:
         if (const Error* error = services.replayer.open_error()) message_ = error->sentence;
         if (const auto& made = model.image.made) {
             if (replay && made->of != replay->made_of())
-                message_ = "this picture was made of an earlier replay; the panel that made it makes it anew";
+                message_ = "this picture shows an earlier replay; update it in the panel that made it";
             return {made->image, services.replayer.is_of(made->of, model.request()) && made->which == model.image.which_made,
                     made->of};
         }
@@ -208,7 +208,7 @@ private:
             ImGui::SetNextItemWidth(110);
             const auto layer = widgets.slider("layer", model.image.layer, {.high = layers - 1.0, .whole = true});
             if (layer) model.image.layer = static_cast<std::uint32_t>(*layer);
-            widgets.help("sample, slice or map: whatever the layers of this image are");
+            widgets.help("layer of this image: a sample, a slice or a shadow map");
         }
         ImGui::SameLine();
         if (widgets.button("fit", "Fit")) model.view = {};
@@ -235,13 +235,13 @@ private:
         draw_histogram(widgets, picture, look);
         ImGui::SameLine();
         if (widgets.button("auto", "Auto")) return fit_range(model);
-        widgets.help("black and white at the image's own ends, without the thousandth beyond them");
+        widgets.help("set black and white to the range of the image without its outermost 0.1 %");
         ImGui::SameLine();
         constexpr std::array<std::string_view, 2> curves = {"raw", "sRGB"};
         ImGui::SetNextItemWidth(68);
         if (const auto curve = widgets.combo("curve", curves, static_cast<std::size_t>(look.curve)))
             look.curve = static_cast<Curve>(*curve);
-        widgets.help("how a value becomes a byte: as it is, or by the curve of sRGB as light does");
+        widgets.help("display curve: linear, or sRGB for light");
         ImGui::SameLine();
         ImGui::BeginDisabled(look == default_);
         if (widgets.button("reset look", "\xe2\x86\xba")) look = default_;
@@ -294,8 +294,8 @@ private:
         const std::string eye = text(model.edits().variant.eye);
         if (eye.empty()) return;
         ImGui::AlignTextToFramePadding();
-        widgets.text("eye", "\xe2\x97\x8e seen from elsewhere: what the capture expects does not apply", &palette().warning);
-        widgets.help(fmt::format("metres and radians from the recorded eye: {}", eye));
+        widgets.text("eye", "\xe2\x97\x8e camera moved: expected results are not compared", &palette().warning);
+        widgets.help(fmt::format("offset from the recorded camera in meters and radians: {}", eye));
         ImGui::SameLine();
         if (widgets.button("recorded eye", "Back")) model.look_from({});
         widgets.help("Home");
@@ -358,7 +358,7 @@ private:
         if (has_pin)
             widgets.text("pinned", fmt::format("pin {} {}:  {}", model.pin->x, model.pin->y, values_text(*picture, *model.pin)),
                          &palette().accent);
-        else widgets.text("hint", under_ ? "" : "click pins a pixel, right click lets go; the wheel zooms", &palette().dim);
+        else widgets.text("hint", under_ ? "" : "click pins a pixel, right click unpins it; the wheel zooms", &palette().dim);
         if (!under_) return;
         ImGui::SameLine(0, has_pin ? 14 : 0);
         widgets.text("under", fmt::format("{} {}:  {}", under_->x, under_->y, values_text(*picture, *under_)));
@@ -416,7 +416,7 @@ std::span<const PanelKey> ImagePanel::keys() const {
         {"right", "move the pinned pixel", nudge_pin<1, 0>, WhileHeld::repeats},
         {"up", "move the pinned pixel", nudge_pin<0, -1>, WhileHeld::repeats},
         {"down", "move the pinned pixel", nudge_pin<0, 1>, WhileHeld::repeats},
-        {"f12", "save what is shown as EXR and PNG, with where it comes from",
+        {"f12", "save what is shown as EXR and PNG, and its provenance as JSON",
          [](Panel& panel, Model& model, Services& services) { static_cast<ImagePanel&>(panel).save_shown(model, services); }},
         {"d", "the displayed picture", [](Panel&, Model& model, Services&) { model.image = {}; }},
     };

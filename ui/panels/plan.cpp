@@ -237,7 +237,7 @@ private:
         draw_touched(model, widgets, index);
         ImGui::Dummy({0, 3});
         widgets.text("barriers", fmt::format("{} before it", plural(step.barriers.size(), "barrier")), &palette().dim);
-        widgets.help("what must be finished, and in which state it is handed over");
+        widgets.help("stages and accesses to wait for, and the change of image layout");
         for (std::size_t i = 0; i < step.barriers.size(); ++i) {
             ImGui::Indent(10);
             widgets.text(fmt::format("barrier {}", i), step.barriers[i]);

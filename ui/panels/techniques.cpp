@@ -132,7 +132,7 @@ private:
             const auto set = widgets.checkbox(name(feature), has || is_forced);
             ImGui::EndDisabled();
             widgets.help(has ? model.facts().features.reason(feature)
-                             : "the frame lacks it; switched on, its stages run all the same");
+                             : "the frame lacks this feature; if it is turned on, its stages run anyway");
             if (!set) continue;
             std::vector<Feature> now = forced;
             if (*set) now.push_back(feature);

@@ -48,7 +48,7 @@ public:
         const ViewChoice chosen = choice_of(model);
         const float height = ImGui::GetContentRegionAvail().y;
         ImGui::BeginChild("gallery", {0, chosen.view ? height * .46f : 0});
-        if (groups_.empty()) services.widgets.text("state", "no technique in use has views of its inside", &palette().dim);
+        if (groups_.empty()) services.widgets.text("state", "no technique in use has debug views", &palette().dim);
         const auto is_skipped = [&](const Group& group) {
             return std::ranges::count(replay->skipped, group.technique->stage, &SkippedStage::stage) > 0;
         };

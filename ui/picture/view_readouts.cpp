@@ -154,7 +154,7 @@ void ViewReadouts::draw_slice(Model& model, Services& services, const ViewChoice
         made_ = {};
         model.image = {.name = output};
     }
-    widgets.help("only the pixels whose (red) value is near the slider's, the others black");
+    widgets.help("show only pixels whose (red) value is near the slider's, others black");
     if (sliced_ != output) return;
     const std::string unit(view.unit), format = fmt::format("%.3g {}", unit);
     ImGui::SameLine(label_width);
@@ -209,7 +209,7 @@ void ViewReadouts::draw_waves(Model& model, Services& services, const ViewChoice
     ImGui::SameLine(label_width);
     ImGui::SetNextItemWidth(130);
     const auto chosen = widgets.combo("gpu", items, current);
-    widgets.help("what a GPU that need not be there holds of the shader of each tile's mode, by its own compiler");
+    widgets.help("waves per SIMD of each tile's shader variant, by Mesa's compiler for a GPU that this machine need not have");
     if (chosen) gpu_ = *chosen == 0 ? nullptr : gpus[*chosen - 1];
     if (chosen && gpu_) start_waves(model, services, *choice.technique);
     if (gpu_) draw_waves_result(model, services, *choice.technique);

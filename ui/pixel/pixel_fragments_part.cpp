@@ -66,7 +66,7 @@ private:
         widgets.help("radiance that they add, by the exact order");
         if (!sample.undecided) return;
         ImGui::PushTextWrapPos(0);
-        widgets.text("undecided", "which fragments there are hangs on rounding: the device may see others", &palette().warning);
+        widgets.text("undecided", "rounding decides which fragments exist here: the device may see others", &palette().warning);
         ImGui::PopTextWrapPos();
     }
 

@@ -43,7 +43,7 @@ public:
         const Probe* probe = asked_.answer();
         if (!probe) return;
         const auto updating = widgets.updating(updating_word(asked_, question, model, services));
-        if (probe->undecided) widgets.text("undecided", "which fragments there are hangs on rounding", &palette().warning);
+        if (probe->undecided) widgets.text("undecided", "rounding decides which fragments exist here", &palette().warning);
         draw_curves(widgets, *probe);
         draw_figures(widgets, *probe);
     }
@@ -167,9 +167,9 @@ private:
         ImGui::EndTable();
         ImGui::PushTextWrapPos(0);
         widgets.text("meaning",
-                     fmt::format("Errors of T from {:.4g} to {:.4g} m, best first. L1: mean over the axis. Off steps: the most, "
-                                 "1% of the axis away from every step. At events: at the fragments, by what they hide. "
-                                 "Behind: of what arrives through all.",
+                     fmt::format("Errors of T from {:.4g} to {:.4g} m, best first. L1: mean over the axis. Off steps: largest, "
+                                 "at least 1% of the axis away from every step. At events: mean over fragments, weighted by what "
+                                 "each hides. Behind: error of T behind all fragments.",
                                  probe.from, probe.to),
                      &palette().dim);
         ImGui::PopTextWrapPos();

@@ -22,8 +22,8 @@ void ShaderReload::take_result(Model& model, Services& services) {
     error_ = done ? "" : done.error().sentence;
     if (!done) {
         services.replayer.keep_shaders();
-        services.log.push_back(
-            {LogLine::Kind::failed, services.seconds, fmt::format("{}\nwhat is shown is made with the shaders before", error_)});
+        services.log.push_back({LogLine::Kind::failed, services.seconds,
+                                fmt::format("{}\nthe picture still uses the shaders before the change", error_)});
         return;
     }
     model.uses_shaders = !done->replaced.empty();
@@ -40,7 +40,7 @@ void ShaderReload::draw(Widgets& widgets) const {
     if (job_) {
         widgets.text("shaders", "compiling shaders", &palette().warning);
     } else if (!error_.empty()) {
-        widgets.text("shaders", "\xe2\x9a\xa0 shader error, shown with the shaders before", &palette().bad);
+        widgets.text("shaders", "\xe2\x9a\xa0 shader error: the picture uses the shaders before the change", &palette().bad);
         widgets.help(error_);
     } else if (!says_.empty()) {
         widgets.text("shaders", "changed shaders", &palette().accent);

@@ -82,7 +82,7 @@ std::string note_of(const Report& report, const ReportAxes& axes, std::size_t ro
     const std::string& settings = report.rows[row].settings;
     std::string note = settings.empty() ? "default settings" : settings;
     if (!axes.cost.spreads.empty())
-        note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), plural(report.repeats, "turn"));
+        note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), plural(report.repeats, "repeat"));
     if (on_front) note += "\nnothing is both more accurate and cheaper";
     return note + "\nclick applies it";
 }

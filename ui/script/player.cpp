@@ -61,7 +61,7 @@ Result<void> Player::wait() {
         settled = inspector_->is_settled() ? settled + 1 : 0;
         if (settled == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (std::chrono::steady_clock::now() - begin > patience)
-            return fail(Fault::device_failed, "waited {} minutes and it is not done", patience.count());
+            return fail(Fault::device_failed, "not done after {} minutes", patience.count());
     }
     return {};
 }

@@ -76,7 +76,7 @@ std::vector<JoinedKeys> joined(std::span<const KeyRow> rows) {
 KeySection mouse_gestures() {
     return {"Mouse, over a picture",
             {
-                {"click", "pins the pixel; right click lets go"},
+                {"click", "pins the pixel; right click unpins it"},
                 {"wheel", "zooms at the pointer"},
                 {"drag", "moves the picture; a double click shows all of it"},
                 {"right drag", "looks around; W A S D Q E fly, Shift: faster, wheel: speed"},

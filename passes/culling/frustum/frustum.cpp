@@ -33,20 +33,21 @@ void declare(Graph& graph, FrameImages& frame, const Settings&) {
 }  // namespace
 
 Technique frustum() {
-    return {
-        .stage = Stage::culling,
-        .name = "culling/frustum",
-        .title = "Frustum culling",
-        .source = "Gribb, Hartmann: Fast Extraction of Viewing Frustum Planes from the World-View-Projection Matrix, 2001",
-        .summary = "Drops draws whose bounding sphere lies behind a side or the near plane; keeps what is hidden behind others.",
-        .counters = {counter<&FrustumCounters::tested>({.name = "tested", .help = "opaque draws tested"}),
-                     counter<&FrustumCounters::culled>({.name = "culled", .help = "opaque draws outside the view"})},
-        .counter_bytes = sizeof(FrustumCounters),
-        .abilities = {.is_time_unit = true},
-        .declare = declare,
-        .model = frustum_model,
-        .tolerance = {
-            .rmse = 0, .worst = 0, .because = "a yes or no per draw; spheres that hang on float rounding are undecided"}};
+    return {.stage = Stage::culling,
+            .name = "culling/frustum",
+            .title = "Frustum culling",
+            .source = "Gribb, Hartmann: Fast Extraction of Viewing Frustum Planes from the World-View-Projection Matrix, 2001",
+            .summary =
+                "Drops draws whose bounding sphere lies outside a side of the view or in front of the near plane; keeps draws "
+                "that others hide.",
+            .counters = {counter<&FrustumCounters::tested>({.name = "tested", .help = "opaque draws tested"}),
+                         counter<&FrustumCounters::culled>({.name = "culled", .help = "opaque draws outside the view"})},
+            .counter_bytes = sizeof(FrustumCounters),
+            .abilities = {.is_time_unit = true},
+            .declare = declare,
+            .model = frustum_model,
+            .tolerance = {
+                .rmse = 0, .worst = 0, .because = "a yes or no per draw; spheres that hang on float rounding are undecided"}};
 }
 
 }  // namespace strata::culling

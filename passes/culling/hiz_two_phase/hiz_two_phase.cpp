@@ -139,35 +139,41 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 
 std::vector<Param> params() {
     return {
-        param<&HizParams::phases>({.name = "phases",
-                                   .fallback = phases_two,
-                                   .help = "two: what was visible the last time occludes, then what that leaves open; one: "
-                                           "the largest draws occlude and no others, whatever was visible",
-                                   .choices = phases}),
+        param<&HizParams::phases>(
+            {.name = "phases",
+             .fallback = phases_two,
+             .help = "occluders; two: the draws visible in the last frame, then also those newly visible; one: the largest draws",
+             .choices = phases}),
         param<&HizParams::occluders>({.name = "occluders",
                                       .low = 1,
                                       .high = 65536,
                                       .fallback = 64,
-                                      .help = "largest draws in view that occlude in one phase, and in the first of two where "
-                                              "nothing is known to have been visible",
+                                      .help = "number of largest draws that occlude, with phases=one or without a last frame; "
+                                              "more: more is culled, more depth is drawn",
                                       .scale = Scale::logarithmic}),
         param<&HizParams::across>({.name = "across",
                                    .low = 2,
                                    .high = 16,
                                    .fallback = 4,
-                                   .help = "texels of the pyramid that bounds are looked up in, each way at the most: more "
-                                           "of finer ones hide more"}),
-        param<&HizParams::level>(
-            {.name = "level", .low = 0, .high = 14, .fallback = 3, .help = "of the pyramid that the view of it shows"})};
+                                   .help = "largest width and height of a lookup in the pyramid, in texels; larger: finer levels "
+                                           "are read and more is culled"}),
+        param<&HizParams::level>({.name = "level",
+                                  .low = 0,
+                                  .high = 14,
+                                  .fallback = 3,
+                                  .help = "pyramid level that the view 'pyramid' shows; 0 is the finest"})};
 }
 
 std::vector<Counter> counters() {
-    return {counter<&HizCounters::in_view>({.name = "in view", .help = "opaque draws whose sphere reaches into the view"}),
-            counter<&HizCounters::drawn_first>({.name = "drawn first", .help = "draws that occlude in phase 1"}),
-            counter<&HizCounters::tested>({.name = "tested", .help = "draws in view that phase 1 has not drawn, in phase 2"}),
-            counter<&HizCounters::newly_visible>({.name = "newly visible", .help = "of these, not hidden by phase 1"}),
-            counter<&HizCounters::occluded>({.name = "occluded", .help = "draws in view that are hidden in the end"}),
-            counter<&HizCounters::pyramid_texels>({.name = "pyramid texels", .help = "written, of all levels and phases"})};
+    return {
+        counter<&HizCounters::in_view>({.name = "in view", .help = "opaque draws whose bounding sphere reaches into the view"}),
+        counter<&HizCounters::drawn_first>({.name = "drawn first", .help = "draws that occlude in phase 1"}),
+        counter<&HizCounters::tested>({.name = "tested", .help = "draws in view that phase 2 tests: those not drawn in phase 1"}),
+        counter<&HizCounters::newly_visible>(
+            {.name = "newly visible", .help = "tested draws that are not hidden by those of phase 1"}),
+        counter<&HizCounters::occluded>({.name = "occluded", .help = "draws in view that are culled because others hide them"}),
+        counter<&HizCounters::pyramid_texels>(
+            {.name = "pyramid texels", .help = "pyramid texels written, summed over levels and phases"})};
 }
 
 std::vector<TimeRatio> ratios() {
@@ -203,8 +209,8 @@ Technique hiz_two_phase() {
                 "Nanite Virtualized Geometry, SIGGRAPH 2021; bounds of Mara, McGuire: 2D Polyhedral Bounds of a Clipped, "
                 "Perspective-Projected 3D Sphere, JCGT 2013",
             .summary =
-                "Drops draws whose bounding sphere is behind the depth of what occludes; never a visible one, but keeps what "
-                "stands low behind walls, for spheres look over them.",
+                "Drops draws whose bounding sphere is behind the depth of occluders. Never drops a visible draw; keeps hidden "
+                "ones whose sphere reaches above the wall in front.",
             .params = params(),
             .points = {"phases=one", "across=2", "across=8"},
             .counters = counters(),

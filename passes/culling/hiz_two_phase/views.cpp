@@ -26,21 +26,20 @@ Image view(Graph& graph, FrameImages& frame, const Settings& settings) {
 
 std::vector<DebugView> hiz_two_phase_views() {
     return {{.name = "pyramid",
-             .help = "how far away the farthest of what occludes is, of each texel of the pyramid's level `level`; 0 where "
-                     "something of it is open",
+             .help = "farthest depth of occluders in each texel of pyramid level `level`; 0: part of the texel has no occluder",
              .unit = "m",
              .low = 0,
              .high = 50,
              .declare = view<hiz_view_pyramid>},
             {.name = "hidden",
-             .help = "draws in view that are culled, where their bounds are",
+             .help = "number of culled draws whose screen bounds cover the pixel",
              .unit = "draws",
              .low = 0,
              .high = 16,
              .declare = view<hiz_view_hidden>},
             {.name = "bounds",
-             .help = "borders of the draws' bounds: red of what is hidden, green of what is drawn and was in phase 1, blue of "
-                     "what is drawn and was not",
+             .help = "outlines of the draws' screen bounds; red: hidden; green: visible and drawn in phase 1; blue: visible and "
+                     "not drawn in phase 1",
              .unit = "",
              .low = 0,
              .high = 1,

@@ -22,7 +22,7 @@ Technique none() {
             .name = "culling/none",
             .title = "No culling",
             .source = "the baseline: every draw is submitted",
-            .summary = "Draws everything the frame holds; never wrong, and pays for whatever is out of sight.",
+            .summary = "Submits every draw of the frame: never wrong, and draws what is out of sight.",
             .declare = declare,
             .model = none_model,
             .tolerance = {.rmse = 0, .worst = 0, .because = "a cleared integer image is exact"}};

@@ -33,12 +33,12 @@ Image histogram(Graph& graph, FrameImages& frame, const Settings&) {
 
 std::vector<DebugView> edge_views() {
     return {{.name = "surfaces",
-             .help = "how many surfaces the samples of a pixel show, by the words in the G-buffer",
+             .help = "number of different surfaces among the samples of a pixel: samples whose G-buffer bits differ",
              .unit = "surfaces",
              .high = most_surfaces,
              .declare = picture<shows_surfaces>},
             {.name = "outcome",
-             .help = "the marks against the stage's truth",
+             .help = "marked pixels compared with the truth: edges found, edges missed, pixels marked needlessly",
              .unit = "",
              .declare = picture<shows_outcome>,
              .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},
@@ -49,7 +49,7 @@ std::vector<DebugView> edge_views() {
 
 std::vector<DebugTable> edge_tables() {
     return {{.name = "surfaces per pixel",
-             .help = "pixels by how many surfaces their samples show, and how many of them are shaded per sample",
+             .help = "pixels by number of different surfaces among their samples, and how many of them are shaded per sample",
              .columns = {{"surfaces", ""}, {"pixels", ""}, {"shaded per sample", "pixels"}},
              .declare = histogram}};
 }

@@ -67,7 +67,7 @@ Param mode_row(std::string_view name, double features) {
                           .low = 0,
                           .high = 65535,
                           .fallback = features,
-                          .help = "features of the shading mode, bits of light_features.shared.h added up"});
+                          .help = "features of this shading mode: sum of bits of light_features.shared.h"});
 }
 
 // What serves the tiles of agents_hq at 320 x 180 with the fewest cycles by the compiler of a Bonaire, see README.md: each is the
@@ -99,46 +99,51 @@ std::vector<Param> params() {
         param<&TiledParams::half_z>(
             {.name = "half_z",
              .fallback = 1,
-             .help = "two cells per tile, one on either side of the middle of its depths, each as deep as what is in it",
+             .help = "on: culls each tile as two depth ranges, split in the middle and shrunk to their surfaces; off: as one",
              .choices = switches}),
-        param<&TiledParams::blockers>(
-            {.name = "blockers",
-             .fallback = blockers_per_pixel,
-             .help = "per_pixel: tested where a blocker's shadow has an edge; tile_only: they darken whole tiles or nothing; "
-                     "off: they let light through",
-             .choices = blocker_uses}),
-        param<&TiledParams::classify>({.name = "classify",
-                                       .fallback = 1,
-                                       .help = "blockers and portals against tiles; without it pixels test all of them",
-                                       .choices = switches}),
+        param<&TiledParams::blockers>({.name = "blockers",
+                                       .fallback = blockers_per_pixel,
+                                       .help = "per_pixel: pixels test blockers whose shadow has an edge in their tile; "
+                                               "tile_only: blockers hide whole tiles or nothing; off: no blockers",
+                                       .choices = blocker_uses}),
+        param<&TiledParams::classify>(
+            {.name = "classify",
+             .fallback = 1,
+             .help = "on: classifies blockers and portals by tile; off: pixels test all of them, for the same picture",
+             .choices = switches}),
         param<&TiledParams::overflow>({.name = "overflow",
                                        .fallback = overflow_batch,
-                                       .help = "a tile's lights beyond 64: in further batches, or dropped",
+                                       .help = "lights of a tile beyond 64; batch: shaded in further batches; drop: left out",
                                        .choices = overflows}),
         param<&TiledParams::prefilter>(
             {.name = "prefilter",
              .fallback = prefilter_automatic,
-             .help = "a list of candidates for each 128 x 128 pixels; auto: with more than 1024 lights",
+             .help = "on: culls lights by 128x128 pixels before tiles; auto: with more than 1024 lights; the picture is the same",
              .choices = prefilters}),
-        param<&TiledParams::shadows>({.name = "shadows",
-                                      .fallback = shadows_image,
-                                      .help = "from the shadow stage's image, or filtered here, where a light is not culled",
-                                      .choices = shadow_sources}),
+        param<&TiledParams::shadows>(
+            {.name = "shadows",
+             .fallback = shadows_image,
+             .help =
+                 "image: reads the shadow stage's image; inline: filters shadow maps here, only for lights that are not culled",
+             .choices = shadow_sources}),
         param<&TiledParams::branches>(
             {.name = "branches",
              .fallback = branches_specialized,
-             .help = "specialized: a shader per mode; uniform: one of all features that branches on the tile's spectrum",
+             .help = "specialized: a shader variant per mode; uniform: one shader that branches on the features of the tile",
              .choices = branch_kinds}),
-        param<&TiledParams::force>({.name = "force",
-                                    .low = 0,
-                                    .high = 65535,
-                                    .fallback = 0,
-                                    .help = "features that every tile is said to have: what one costs"}),
-        param<&TiledParams::modes>({.name = "modes",
-                                    .low = 1,
-                                    .high = 16,
-                                    .fallback = 8,
-                                    .help = "shading modes: mode_0 and on, and one of all features if none of them is"}),
+        param<&TiledParams::force>(
+            {.name = "force",
+             .low = 0,
+             .high = 65535,
+             .fallback = 0,
+             .help = "feature bits added to every tile, to measure what a feature costs (light_features.shared.h)"}),
+        param<&TiledParams::modes>(
+            {.name = "modes",
+             .low = 1,
+             .high = 16,
+             .fallback = 8,
+             .help =
+                 "number of shading modes (shader variants) from mode_0 on; if none has all features, one more that has them"}),
     };
     const std::vector<Param> modes = mode_rows();
     rows.insert(rows.end(), modes.begin(), modes.end());
@@ -147,41 +152,53 @@ std::vector<Param> params() {
 
 std::vector<Counter> counters() {
     return {
-        counter<&TiledCounters::tiles>({.name = "tiles", .help = "of 16 x 16 pixels"}),
-        counter<&TiledCounters::empty_tiles>({.name = "empty tiles", .help = "of these, with nothing to light"}),
-        counter<&TiledCounters::lights_touching>({.name = "lights touching", .help = "a tile, summed over tiles"}),
-        counter<&TiledCounters::lights_kept>({.name = "lights kept", .help = "of these, shaded in the tile"}),
+        counter<&TiledCounters::tiles>({.name = "tiles", .help = "tiles of 16x16 pixels"}),
+        counter<&TiledCounters::empty_tiles>({.name = "empty tiles", .help = "tiles with nothing to light"}),
+        counter<&TiledCounters::lights_touching>(
+            {.name = "lights touching", .help = "lights that reach a tile, summed over tiles"}),
+        counter<&TiledCounters::lights_kept>({.name = "lights kept", .help = "lights that a tile shades, summed over tiles"}),
         counter<&TiledCounters::lights_killed>(
-            {.name = "lights killed", .help = "of these, hidden from all of the tile by a blocker"}),
-        counter<&TiledCounters::portals_none>({.name = "portals none", .help = "(light, portal) that the tile has nothing of"}),
-        counter<&TiledCounters::portals_partial>({.name = "portals partial", .help = "(light, portal) that its pixels test"}),
-        counter<&TiledCounters::portals_full>({.name = "portals full", .help = "(light, portal) open to all of the tile"}),
-        counter<&TiledCounters::blockers_none>({.name = "blockers none", .help = "(light, blocker) that shade nothing of it"}),
-        counter<&TiledCounters::blockers_partial>({.name = "blockers partial", .help = "(light, blocker) with an edge in it"}),
-        counter<&TiledCounters::blockers_full>({.name = "blockers full", .help = "(light, blocker) that shade all of it"}),
+            {.name = "lights killed", .help = "lights that a blocker hides from a whole tile, summed over tiles"}),
+        counter<&TiledCounters::portals_none>(
+            {.name = "portals none", .help = "(light, portal) pairs that let no light into the tile"}),
+        counter<&TiledCounters::portals_partial>(
+            {.name = "portals partial", .help = "(light, portal) pairs that the tile's pixels test"}),
+        counter<&TiledCounters::portals_full>(
+            {.name = "portals full", .help = "(light, portal) pairs that let light into the whole tile"}),
+        counter<&TiledCounters::blockers_none>(
+            {.name = "blockers none", .help = "(light, blocker) pairs that shadow nothing of the tile"}),
+        counter<&TiledCounters::blockers_partial>(
+            {.name = "blockers partial", .help = "(light, blocker) pairs whose shadow has an edge in the tile"}),
+        counter<&TiledCounters::blockers_full>(
+            {.name = "blockers full", .help = "(light, blocker) pairs that shadow the whole tile"}),
         counter<&TiledCounters::tiles_over_lights>(
-            {.name = "tiles over lights", .help = "with more than 64: done in batches, or cut"}),
+            {.name = "tiles over lights", .help = "tiles with more than 64 lights: shaded in batches, or cut (overflow)"}),
         counter<&TiledCounters::tiles_over_blocker_pairs>(
-            {.name = "tiles over blocker pairs", .help = "with more than 256 in a batch: pixels test the rest"}),
+            {.name = "tiles over blocker pairs",
+             .help = "tiles with more than 256 (light, blocker) pairs in a batch: pixels test the rest"}),
         counter<&TiledCounters::tiles_over_portal_pairs>(
-            {.name = "tiles over portal pairs", .help = "with more than 256 in a batch: pixels test the rest"}),
+            {.name = "tiles over portal pairs",
+             .help = "tiles with more than 256 (light, portal) pairs in a batch: pixels test the rest"}),
         counter<&TiledCounters::tiles_testing_pixels>(
-            {.name = "tiles testing pixels", .help = "whose pixels test a blocker of any light"}),
+            {.name = "tiles testing pixels", .help = "tiles whose pixels test at least one blocker"}),
         counter<&TiledCounters::unlisted_tiles>(
-            {.name = "unlisted tiles", .help = "for whose lights no record was left: shaded with all that follow, untested"}),
-        counter<&TiledCounters::most_lights>({.name = "most lights", .help = "that reach one tile"}),
-        counter<&TiledCounters::most_blocker_pairs>({.name = "most blocker pairs", .help = "of one batch"}),
-        counter<&TiledCounters::most_portal_pairs>({.name = "most portal pairs", .help = "of one batch"}),
+            {.name = "unlisted tiles",
+             .help = "tiles without memory for their list: shaded with all further lights, without culling"}),
+        counter<&TiledCounters::most_lights>({.name = "most lights", .help = "largest number of lights that reach one tile"}),
+        counter<&TiledCounters::most_blocker_pairs>(
+            {.name = "most blocker pairs", .help = "largest number of (light, blocker) pairs in a batch"}),
+        counter<&TiledCounters::most_portal_pairs>(
+            {.name = "most portal pairs", .help = "largest number of (light, portal) pairs in a batch"}),
         counter<&TiledCounters::modes_compiled>(
             {.name = "modes compiled", .help = "shading modes compiled for this frame: those that a tile may need"}),
-        counter<&TiledCounters::modes_used>({.name = "modes used", .help = "by any tile"}),
+        counter<&TiledCounters::modes_used>({.name = "modes used", .help = "shading modes that at least one tile uses"}),
         counter<&TiledCounters::tiles_unserved>(
             {.name = "tiles unserved", .help = "tiles that need a feature no compiled mode has", .is_fatal = true}),
         counter<&TiledCounters::samples_shaded>(
             {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
         counter<&TiledCounters::evaluations>({.name = "evaluations", .help = "listed lights, summed over samples shaded"}),
         counter<&TiledCounters::blocker_tests>(
-            {.name = "blocker tests", .help = "(light, blocker) asked for, summed over samples shaded"}),
+            {.name = "blocker tests", .help = "(light, blocker) pairs tested, summed over samples shaded"}),
         counter<&TiledCounters::unfinished>(unfinished_row),
     };
 }
@@ -197,8 +214,8 @@ Technique tiled() {
             "Kircher: Rendering Technology in Agents of Mayhem, GDC 2018; Andersson: DirectX 11 Rendering in Battlefield 3, "
             "GDC 2011",
         .summary =
-            "Lists the lights of each tile of 16 x 16 pixels, drops what blockers hide from all of it, and shades it by a shader "
-            "with no more features than it needs; exact like a loop over all lights, slow where depth jumps within a tile.",
+            "Lists the lights of each 16x16-pixel tile, drops those that blockers hide from all of it, and shades it with a "
+            "shader variant of few unneeded features. Exact; slow where depth jumps within a tile.",
         .params = params(),
         .points = {"modes=1", "modes=16", "branches=uniform", "classify=off", "half_z=off", "prefilter=on", "shadows=inline",
                    "blockers=tile_only", "overflow=drop"},

@@ -113,45 +113,52 @@ Technique z_binned() {
         .title = "Z-binning",
         .source = "Drobot: Improved Culling for Tiled and Clustered Rendering, SIGGRAPH 2017 Advances in Real-Time Rendering",
         .summary =
-            "Shades the lights that a sample's bin of depths and its tile have in common; sums them by depth, not by number, and "
-            "so rounds otherwise.",
-        .params = {param<&ZBinnedParams::bins>({.name = "bins",
-                                                .low = 256,
-                                                .high = 8192,
-                                                .fallback = 4096,
-                                                .help = "slices of view depth between the nearest and the farthest light",
-                                                .scale = Scale::logarithmic}),
-                   param<&ZBinnedParams::spacing>({.name = "spacing",
-                                                   .high = 1,
-                                                   .fallback = spacing_uniform,
-                                                   .help = "bins as thick as each other, or in proportion to their depth",
-                                                   .choices = spacings}),
-                   param<&ZBinnedParams::tile>(
-                       {.name = "tile", .high = 2, .fallback = 1, .help = "edge of a tile in pixels", .choices = tiles}),
-                   param<&ZBinnedParams::bounds>(
-                       {.name = "bounds",
-                        .high = 1,
-                        .fallback = bounds_depth,
-                        .help = "a tile's lights touch its frustum, or the part of it that has surfaces",
-                        .choices = bounds}),
-                   param<&ZBinnedParams::merge>({.name = "merge",
-                                                 .high = 1,
-                                                 .fallback = merge_subgroup,
-                                                 .help = "whether lanes of a subgroup walk their lists one by one or together",
-                                                 .choices = merges}),
-                   param<&ZBinnedParams::routing>(edges::routing_row)},
+            "Shades the lights that a sample's depth bin and screen tile have in common; sums them in the order of depth, so "
+            "rounding differs from a plain loop.",
+        .params =
+            {param<&ZBinnedParams::bins>(
+                 {.name = "bins",
+                  .low = 256,
+                  .high = 8192,
+                  .fallback = 4096,
+                  .help =
+                      "slices of view depth between the nearest and the farthest light; more: fewer needless lights, more memory",
+                  .scale = Scale::logarithmic}),
+             param<&ZBinnedParams::spacing>(
+                 {.name = "spacing",
+                  .high = 1,
+                  .fallback = spacing_uniform,
+                  .help = "thickness of bins; uniform: all the same; logarithmic: in proportion to depth",
+                  .choices = spacings}),
+             param<&ZBinnedParams::tile>(
+                 {.name = "tile", .high = 2, .fallback = 1, .help = "edge of a tile in pixels", .choices = tiles}),
+             param<&ZBinnedParams::bounds>({.name = "bounds",
+                                            .high = 1,
+                                            .fallback = bounds_depth,
+                                            .help = "lights on a tile's list; frustum: those that touch its frustum; depth: only "
+                                                    "between its nearest and farthest surface",
+                                            .choices = bounds}),
+             param<&ZBinnedParams::merge>(
+                 {.name = "merge",
+                  .high = 1,
+                  .fallback = merge_subgroup,
+                  .help =
+                      "loop over lights; lanes: each lane walks its own list; subgroup: all lanes walk the union of their lists",
+                  .choices = merges}),
+             param<&ZBinnedParams::routing>(edges::routing_row)},
         .points = {"spacing=logarithmic", "bounds=frustum", "bins=256", "tile=32", "merge=lanes"},
-        .counters = {counter<&ZBinnedCounters::evaluations>({.name = "evaluations", .help = "lights shaded, over all samples"}),
+        .counters = {counter<&ZBinnedCounters::evaluations>(
+                         {.name = "evaluations", .help = "lights shaded, summed over samples"}),
                      counter<&ZBinnedCounters::words_read>(
-                         {.name = "words_read", .help = "words of 32 lights looked at, over all samples"}),
+                         {.name = "words_read", .help = "mask words of 32 lights read, summed over samples"}),
                      counter<&ZBinnedCounters::samples_shaded>(
                          {.name = "samples_shaded", .help = "samples with a lit surface, plain pixels counted once"}),
                      counter<&ZBinnedCounters::tile_lights>(
-                         {.name = "tile lights", .help = "bits set in the masks of all tiles"}),
+                         {.name = "tile lights", .help = "lights on the lists of tiles, summed over tiles"}),
                      counter<&ZBinnedCounters::unfinished>(unfinished_row)},
         .counter_bytes = sizeof(ZBinnedCounters),
         .views = {{.name = "pixel lights",
-                   .help = "lights of the pixel's bin and tile",
+                   .help = "lights that the pixel's depth bin and tile have in common",
                    .unit = "lights",
                    .high = 64,
                    .declare = view<view_pixel_lights>},
@@ -166,7 +173,7 @@ Technique z_binned() {
                    .high = 64,
                    .declare = view<view_idle_lights>}},
         .tables = {{.name = "bins",
-                    .help = "where each bin lies, and its lights in the order of depth",
+                    .help = "depth bins: begin, end, first light in the order of depth, number of lights",
                     .columns = {{"begins", "m"}, {"ends", "m"}, {"first light", ""}, {"lights", ""}},
                     .declare = bins_table}},
         .claims = {.ratios = ratios()},

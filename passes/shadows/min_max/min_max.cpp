@@ -111,7 +111,8 @@ std::vector<Param> params() {
 std::vector<Counter> counters() {
     std::vector<Counter> rows = shadow_map_counters();
     rows.push_back(counter<&ShadowCounters::lit>({.name = "lit", .help = "lookups that bounds answer: every texel is lit"}));
-    rows.push_back(counter<&ShadowCounters::shadowed>({.name = "shadowed", .help = "the same: every texel is shadowed"}));
+    rows.push_back(
+        counter<&ShadowCounters::shadowed>({.name = "shadowed", .help = "lookups that bounds answer: every texel is shadowed"}));
     rows.push_back(counter<&ShadowCounters::expensive>({.name = "expensive", .help = "lookups whose texels are compared"}));
     rows.push_back(counter<&ShadowCounters::outside>({.name = "outside", .help = "lookups that reach no texel of their map"}));
     rows.push_back(counter<&ShadowCounters::mismatches>(
@@ -121,15 +122,16 @@ std::vector<Counter> counters() {
 
 std::vector<DebugView> views() {
     std::vector<DebugView> rows = shadow_map_views();
-    rows.push_back({.name = "class",
-                    .help = "how the lookup of one light is answered; of two blended cascades the costlier",
-                    .unit = "",
-                    .declare = class_view,
-                    .colors = {{{1, 0.9f, 0.4f}, "lit: answered by bounds"},
-                               {{0, 0.1f, 0.4f}, "shadowed: answered by bounds"},
-                               {{1, 0, 0}, "expensive: texels are compared"},
-                               {{0.3f, 0.3f, 0.3f}, "outside: beyond the map, lit"},
-                               {{0, 0, 0}, "no lookup"}}});
+    rows.push_back(
+        {.name = "class",
+         .help = "what answers the shadow lookup of one light (class_light); of two blended cascades the costlier answer",
+         .unit = "",
+         .declare = class_view,
+         .colors = {{{1, 0.9f, 0.4f}, "lit: answered by bounds"},
+                    {{0, 0.1f, 0.4f}, "shadowed: answered by bounds"},
+                    {{1, 0, 0}, "expensive: texels are compared"},
+                    {{0.3f, 0.3f, 0.3f}, "outside: beyond the map, lit"},
+                    {{0, 0, 0}, "no lookup"}}});
     return rows;
 }
 

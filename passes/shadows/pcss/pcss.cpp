@@ -16,22 +16,25 @@ void filter_maps(Graph& graph, FrameImages& frame, const Settings&) {
 
 std::vector<Param> params() {
     std::vector<Param> rows = shadow_map_params();
-    rows.push_back(param<&ShadowFilter::search_taps>({.name = "search_taps",
-                                                      .low = 1,
-                                                      .high = 64,
-                                                      .fallback = 16,
-                                                      .help = "texels a soft light asks for what stands before"}));
-    rows.push_back(param<&ShadowFilter::filter_taps>({.name = "filter_taps",
-                                                      .low = 1,
-                                                      .high = 64,
-                                                      .fallback = 32,
-                                                      .help = "bilinear comparisons over a soft light's penumbra"}));
-    rows.push_back(param<&ShadowFilter::noise>({.name = "noise",
-                                                .low = 0,
-                                                .high = 1,
-                                                .fallback = 0,
-                                                .help = "whether the taps are turned pixel by pixel: grain instead of bands",
-                                                .choices = noises}));
+    rows.push_back(param<&ShadowFilter::search_taps>(
+        {.name = "search_taps",
+         .low = 1,
+         .high = 64,
+         .fallback = 16,
+         .help = "shadow map taps that search for blockers; more: fewer thin blockers are missed, in proportion to time"}));
+    rows.push_back(param<&ShadowFilter::filter_taps>(
+        {.name = "filter_taps",
+         .low = 1,
+         .high = 64,
+         .fallback = 32,
+         .help = "bilinear comparisons over the penumbra; more: smoother, in proportion to time"}));
+    rows.push_back(param<&ShadowFilter::noise>(
+        {.name = "noise",
+         .low = 0,
+         .high = 1,
+         .fallback = 0,
+         .help = "rotation of the taps; pixel: by a different angle in each pixel, grain instead of bands",
+         .choices = noises}));
     return rows;
 }
 

@@ -78,8 +78,8 @@ Technique ray_march_min_max() {
             "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009; Chen, Baran, Durand, Jarosz: "
             "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps, I3D 2011",
         .summary =
-            "The picture of a march without them to the bit; steps that the least and greatest depth of a block of the map "
-            "decide read the map no more. Foliage defeats it.",
+            "Skips shadow lookups where the minimum and maximum depth of a block of the map decide a step; the picture is that "
+            "without bounds, to the bit. Saves little under foliage.",
         .params = march_params(),
         .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
         .counters = {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),

@@ -51,15 +51,15 @@ Technique adaptive() {
         .title = "Adaptive transparency",
         .source = "Salvi, Montgomery and Lefohn 2011, HPG",
         .summary =
-            "Compresses each sample's T(z) into a few steps by removing the least area, then weights a second draw by it: what "
-            "is "
-            "compressed darkens fragments behind a removed step, and the curve depends on the order of drawing.",
-        .params = {param<&AdaptiveParams::nodes>({.name = "nodes",
-                                                  .low = 0,
-                                                  .high = 2,
-                                                  .fallback = 1,
-                                                  .help = "steps of a sample's curve",
-                                                  .choices = node_counts}),
+            "Compresses each sample's T(z) to a few steps, then weights a second draw by it. Fragments behind a removed step are "
+            "too dark; the result depends on the order of drawing.",
+        .params = {param<&AdaptiveParams::nodes>(
+                       {.name = "nodes",
+                        .low = 0,
+                        .high = 2,
+                        .fallback = 1,
+                        .help = "steps kept of each sample's T(z); more: more accurate, more memory and time",
+                        .choices = node_counts}),
                    param<&AdaptiveParams::accumulation>(accumulation_row), param<&AdaptiveParams::pool>(pool_row)},
         .points = {"nodes=4", "nodes=16", "nodes=8 accumulation=packed"},
         .counters = function_counters_with_lists(),

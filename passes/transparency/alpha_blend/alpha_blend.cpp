@@ -36,7 +36,8 @@ Technique alpha_blend() {
         .title = "Object-sorted alpha blending",
         .source = "Porter and Duff 1984, SIGGRAPH; painter's order by object",
         .summary =
-            "One blended draw, objects far to near: cheapest; wrong where objects interpenetrate, contain or overlap themselves.",
+            "Blends objects from far to near in one draw: cheapest; wrong where objects interpenetrate, contain each other or "
+            "overlap themselves.",
         .counters = {counter<&AlphaBlendCounters::fragments>(
             {.name = "fragments", .help = "visible transparent fragments blended"})},
         .counter_bytes = sizeof(AlphaBlendCounters),

@@ -92,17 +92,20 @@ Technique depth_peeling() {
         .title = "Depth peeling",
         .source = "Everitt 2001, Interactive Order-Independent Transparency, NVIDIA; after Mammen 1989",
         .summary =
-            "One pass over all geometry per layer: exact for the nearest layers, nothing of the others, and one of those at "
-            "the same depth.",
-        .params = {param<&DepthPeelingParams::passes>(
-            {.name = "passes", .low = 1, .high = 64, .fallback = 8, .help = "layers peeled: times all geometry is drawn"})},
+            "Draws all transparent geometry once per layer. The nearest layers are exact, farther ones are lost, and of several "
+            "at equal depth one is kept.",
+        .params = {param<&DepthPeelingParams::passes>({.name = "passes",
+                                                       .low = 1,
+                                                       .high = 64,
+                                                       .fallback = 8,
+                                                       .help = "layers peeled; transparent geometry is drawn once for each"})},
         .points = {"passes=2", "passes=4", "passes=16", "passes=64"},
         .counters = {counter<&DepthPeelingCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments shaded, in all passes"}),
                      counter<&DepthPeelingCounters::peeled>({.name = "peeled", .help = "fragments that became part of a layer"})},
         .counter_bytes = sizeof(DepthPeelingCounters),
         .views = {{.name = "beyond",
-                   .help = "visible fragments of a pixel beyond the layers peeled, the worst sample's",
+                   .help = "visible fragments per pixel behind the peeled layers, in the sample that has the most",
                    .unit = "fragments",
                    .low = 0,
                    .high = 32,

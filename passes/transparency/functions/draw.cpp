@@ -88,8 +88,8 @@ const Param tint_row = {.name = "tint",
                         .high = 2,
                         .fallback = tint_total,
                         .help =
-                            "of colored layers where channels=mono: of the background; of all that is drawn, as far as they are "
-                            "seen; of all but themselves",
+                            "what colored layers tint with channels=mono; total: only the background; skew: also all layers; "
+                            "corrected: all layers but themselves",
                         .choices = tints};
 
 FunctionSums create_sums(Graph& graph, const FrameImages& images, const SumOptions& wanted) {
@@ -144,7 +144,8 @@ void resolve_sums(Graph& graph, FrameImages& images, const FunctionSums& sums) {
 
 std::vector<Counter> function_counters() {
     return {counter<&FunctionCounters::drawn>({.name = "drawn", .help = "visible transparent fragments weighted and added"}),
-            counter<&FunctionCounters::scrubbed>({.name = "scrubbed", .help = "samples whose sums were no number: always 0"})};
+            counter<&FunctionCounters::scrubbed>(
+                {.name = "scrubbed", .help = "samples whose sums were NaN or infinite; expected: 0"})};
 }
 
 std::vector<Counter> function_counters_with_lists() {
@@ -161,12 +162,14 @@ Image normalization_view(Graph& graph, const FrameImages& images, const Function
 }
 
 DebugView normalization_row(Image (*declare)(Graph&, FrameImages&, const Settings&)) {
-    return {.name = "normalization",
-            .help = "what the resolve multiplies the color by: 1 where T(z) is exact, below 1 where it lets too much through",
-            .unit = "",
-            .low = 0,
-            .high = 2,
-            .declare = declare};
+    return {
+        .name = "normalization",
+        .help =
+            "factor that the resolve applies to the color: 1 where T(z) is exact, below 1 where T(z) lets too much light through",
+        .unit = "",
+        .low = 0,
+        .high = 2,
+        .declare = declare};
 }
 
 }  // namespace strata::transparency

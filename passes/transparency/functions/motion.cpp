@@ -36,8 +36,8 @@ Image motion_view(Graph& graph, const FrameImages& images, const FunctionSums& s
 DebugView motion_row(Image (*declare)(Graph&, FrameImages&, const Settings&)) {
     return {.name = "motion",
             .help =
-                "red, green: how far right and down what is seen has moved since the frame before, by a camera that stood still; "
-                "alpha: what the background is seen with",
+                "screen motion since the previous frame without that of the camera; red: to the right; green: down; alpha: "
+                "weight of the background",
             .unit = "pixels",
             .low = 0,
             .high = 16,

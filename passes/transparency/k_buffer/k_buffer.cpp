@@ -83,25 +83,27 @@ Technique k_buffer() {
             "Bavoil et al. 2007, I3D; hybrid tail: Maule, Comba, Torchelsen and Bastos 2013, I3D; 64-bit chain of "
             "atomicMin: nvpro vk_order_independent_transparency",
         .summary =
-            "The K nearest fragments exactly sorted, the rest a tail: wrong where much lies behind the K, and to 8 bits of "
-            "coverage.",
+            "Sorts the K nearest fragments and approximates the rest as a tail: wrong where much shows behind the nearest; "
+            "coverage has 8 bits.",
         .params =
             {param<&KBufferParams::layers>(
                  {.name = "layers", .low = 1, .high = 16, .fallback = 8, .help = "fragments kept per sample, 8 bytes each"}),
-             param<&KBufferParams::tail>({.name = "tail",
-                                          .low = 0,
-                                          .high = 2,
-                                          .fallback = tail_hybrid,
-                                          .help = "what becomes of the fragments behind those",
-                                          .choices = tails})},
+             param<&KBufferParams::tail>(
+                 {.name = "tail",
+                  .low = 0,
+                  .high = 2,
+                  .fallback = tail_hybrid,
+                  .help =
+                      "fragments behind the kept layers; drop: lost; blend: blended in the order of drawing; hybrid: averaged",
+                  .choices = tails})},
         .points = {"layers=2", "layers=4", "layers=16", "layers=4 tail=drop", "layers=4 tail=blend"},
         .counters = {counter<&KBufferCounters::fragments>({.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&KBufferCounters::displaced>(
-                         {.name = "displaced", .help = "fragments that had no place among the nearest: the tail"}),
+                         {.name = "displaced", .help = "fragments not among the nearest layers: the tail"}),
                      counter<&KBufferCounters::atomics>({.name = "atomics", .help = "64-bit atomics issued"})},
         .counter_bytes = sizeof(KBufferCounters),
         .views = {{.name = "beyond",
-                   .help = "visible fragments of a pixel beyond those kept, the worst sample's",
+                   .help = "visible fragments per pixel behind the kept layers, in the sample that has the most",
                    .unit = "fragments",
                    .low = 0,
                    .high = 32,

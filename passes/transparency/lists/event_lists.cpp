@@ -157,8 +157,9 @@ std::uint32_t fragments_per_turn(const EventLists& lists) {
 std::vector<Counter> list_counters() {
     return {
         counter<&ListCounters::fragments>({.name = "fragments", .help = "visible transparent fragments stored"}),
-        counter<&ListCounters::deepest>({.name = "deepest", .help = "fragments of the longest list"}),
-        counter<&ListCounters::dropped>({.name = "dropped", .help = "fragments without room", .is_fatal = true}),
+        counter<&ListCounters::deepest>({.name = "deepest", .help = "length of the longest list, in fragments"}),
+        counter<&ListCounters::dropped>(
+            {.name = "dropped", .help = "fragments lost because the pool was full; expected: 0", .is_fatal = true}),
         counter<&ListCounters::unfinished>(unfinished_row),
         counter<&ListCounters::atomics>(atomics_row),
     };

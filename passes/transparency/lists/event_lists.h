@@ -70,12 +70,11 @@ inline constexpr Param pool_row = {
     .high = 64,
     .fallback = 2,
     .help =
-        "million fragments kept at a time (52 bytes each, 60 where a list can have more than 512); a frame that can have more "
-        "is done in bands of rows",
+        "fragments stored at a time, in millions (52 to 60 bytes each); a frame that may have more is rendered in bands of rows",
     .scale = Scale::logarithmic};
 
 /// The row of a count of atomic operations; a technique without one has none but those that count.
-inline constexpr Counter atomics_row = {.name = "atomics", .help = "atomic operations on what is kept of fragments"};
+inline constexpr Counter atomics_row = {.name = "atomics", .help = "atomic operations on stored fragment data"};
 
 /// The rows of ListCounters, which a technique's counters begin with.
 std::vector<Counter> list_counters();
@@ -83,7 +82,7 @@ std::vector<Counter> list_counters();
 /// Visible fragments per pixel, the deepest sample's.
 Image layers_view(Graph&, FrameImages&, const Settings&);
 inline constexpr DebugView layers_view_row = {.name = "layers",
-                                              .help = "visible fragments per pixel, the deepest sample's",
+                                              .help = "visible fragments per pixel, in the sample that has the most",
                                               .unit = "fragments",
                                               .low = 0,
                                               .high = 32,

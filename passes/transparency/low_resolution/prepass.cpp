@@ -32,14 +32,18 @@ const Param resolution_row = {.name = "resolution",
                               .low = 0,
                               .high = 3,
                               .fallback = 0,
-                              .help = "extent of the pass that gathers optical depth, of the frame's",
+                              .help =
+                                  "resolution of the pass that gathers optical depth, relative to the frame; lower: less time "
+                                  "and memory, leaks at silhouettes",
                               .choices = resolutions};
 
 const Param channels_row = {.name = "channels",
                             .low = 0,
                             .high = 2,
                             .fallback = 0,
-                            .help = "functions per texel, one or one per color; automatic: three where transmission is colored",
+                            .help =
+                                "transmittance functions per texel; mono: one; rgb: one per color channel; automatic: rgb if the "
+                                "frame has colored transmittance",
                             .choices = channel_choices};
 
 std::uint32_t channel_count(std::uint32_t channels, const Features& features) {

@@ -125,40 +125,45 @@ FunctionSums sums(Graph& graph, FrameImages& images, const Settings& settings, O
 std::vector<Counter> counters() {
     std::vector<Counter> rows = function_counters_with_lists();
     rows.push_back(counter<&MomentsCounters::repaired>(
-        {.name = "repaired", .help = "transmittances that were no number and became exp(-b0 / 2)"}));
+        {.name = "repaired", .help = "transmittances that were NaN or infinite and were replaced by exp(-b0 / 2)"}));
     return rows;
 }
 
 std::vector<Param> params() {
     return {
-        param<&MomentsParams::kind>({.name = "kind",
-                                     .low = 0,
-                                     .high = 5,
-                                     .fallback = moments_power4,
-                                     .help = "power moments 4, 6, 8 or trigonometric ones 2, 3, 4",
-                                     .choices = kinds}),
-        param<&MomentsParams::storage>({.name = "storage",
-                                        .low = 0,
-                                        .high = 2,
-                                        .fallback = storage_single,
-                                        .help = "FP32 added, FP16 added, or 16 bits of the normalized moments written in order",
-                                        .choices = storages}),
-        param<&MomentsParams::bias>({.name = "bias",
-                                     .low = 0.01,
-                                     .high = 1000,
-                                     .fallback = 1,
-                                     .help = "multiplies the published bias of kind and storage: more is smoother and leaks",
-                                     .scale = Scale::logarithmic}),
-        param<&MomentsParams::overestimation>({.name = "overestimation",
-                                               .low = 0,
-                                               .high = 1,
-                                               .fallback = 0.25,
-                                               .help = "share of the absorbance at a depth that counts as in front of it"}),
+        param<&MomentsParams::kind>(
+            {.name = "kind",
+             .low = 0,
+             .high = 5,
+             .fallback = moments_power4,
+             .help = "4, 6 or 8 power moments, or 2, 3 or 4 trigonometric moments; more: more accurate, more memory",
+             .choices = kinds}),
+        param<&MomentsParams::storage>(
+            {.name = "storage",
+             .low = 0,
+             .high = 2,
+             .fallback = storage_single,
+             .help =
+                 "single: FP32, blended; half: FP16, blended; normalized: 16-bit normalized moments, updated in order of drawing",
+             .choices = storages}),
+        param<&MomentsParams::bias>(
+            {.name = "bias",
+             .low = 0.01,
+             .high = 1000,
+             .fallback = 1,
+             .help = "factor on the published bias for kind and storage; larger: T(z) is smoother and leaks",
+             .scale = Scale::logarithmic}),
+        param<&MomentsParams::overestimation>(
+            {.name = "overestimation",
+             .low = 0,
+             .high = 1,
+             .fallback = 0.25,
+             .help = "share of the absorbance at a fragment's depth that counts as in front of it; larger: darker"}),
         param<&MomentsParams::compensation>({.name = "compensation",
                                              .low = 0,
                                              .high = 1,
                                              .fallback = compensation_none,
-                                             .help = "own: a fragment does not hide itself by its share of overestimation",
+                                             .help = "own: corrects each fragment for hiding itself through overestimation",
                                              .choices = compensations}),
         param<&MomentsParams::channels>(channels_row),
         param<&MomentsParams::resolution>(resolution_row),

@@ -35,7 +35,8 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
 
 std::vector<Counter> counters() {
     std::vector<Counter> rows = list_counters();
-    rows.push_back(counter<&MultiLayerCounters::merged>({.name = "merged", .help = "fragments that made two nodes one"}));
+    rows.push_back(
+        counter<&MultiLayerCounters::merged>({.name = "merged", .help = "fragments that caused two nodes to be merged"}));
     return rows;
 }
 
@@ -48,17 +49,20 @@ Technique multi_layer() {
         .title = "Multi-layer alpha blending",
         .source = "Salvi and Vaidyanathan 2014, I3D; depth buckets: Kern et al. 2020, TVCG",
         .summary =
-            "Blends into a few sorted nodes per sample in one pass, merging the farthest two: what comes later cannot get "
-            "between "
-            "merged layers, so the result depends on the order of drawing.",
+            "Blends into a few sorted nodes per sample in one pass and merges the farthest two. Later fragments cannot get "
+            "between merged layers: the result depends on the order of drawing.",
         .params = {param<&MultiLayerParams::layers>(
-                       {.name = "layers", .low = 2, .high = most_layers, .fallback = 4, .help = "nodes per sample and bucket"}),
+                       {.name = "layers",
+                        .low = 2,
+                        .high = most_layers,
+                        .fallback = 4,
+                        .help = "nodes per sample and bucket; more: fewer layers are merged, more memory and time"}),
                    param<&MultiLayerParams::buckets>(
                        {.name = "buckets",
                         .low = 1,
                         .high = 8,
                         .fallback = 1,
-                        .help = "ranges of depth with nodes of their own, equal in the logarithm of depth"}),
+                        .help = "depth ranges with separate nodes, of equal size in the logarithm of depth"}),
                    param<&MultiLayerParams::pool>(pool_row)},
         .points = {"layers=2", "layers=8", "layers=16", "layers=4 buckets=2", "layers=4 buckets=4"},
         .counters = counters(),

@@ -99,39 +99,43 @@ void declare(Graph& graph, FrameImages& images, const Settings& settings) {
 
 std::vector<Param> params() {
     return {
-        param<&StochasticParams::samples>({.name = "samples",
-                                           .low = 0,
-                                           .high = 4,
-                                           .fallback = 1,
-                                           .help = "subsamples of each sample; noise falls with their root",
-                                           .choices = sample_counts}),
-        param<&StochasticParams::subset>({.name = "subset",
-                                          .low = 0,
-                                          .high = 1,
-                                          .fallback = subset_stratified,
-                                          .help = "each subsample by chance, or a number of them that alpha fixes",
-                                          .choices = subsets}),
-        param<&StochasticParams::correction>(
-            {.name = "correction",
+        param<&StochasticParams::samples>(
+            {.name = "samples",
+             .low = 0,
+             .high = 4,
+             .fallback = 1,
+             .help = "subsamples per sample; noise falls with the square root of their number, memory and time grow with it",
+             .choices = sample_counts}),
+        param<&StochasticParams::subset>(
+            {.name = "subset",
              .low = 0,
              .high = 1,
-             .fallback = correction_alpha,
-             .help = "alpha: the background shows by the exact product of transmittances; not in mode hashed",
-             .choices = corrections}),
+             .fallback = subset_stratified,
+             .help =
+                 "bernoulli: each subsample is covered by chance; stratified: the number covered is fixed by alpha, less noise",
+             .choices = subsets}),
+        param<&StochasticParams::correction>({.name = "correction",
+                                              .low = 0,
+                                              .high = 1,
+                                              .fallback = correction_alpha,
+                                              .help = "alpha: weights the background by the exact product of transmittances, "
+                                                      "without noise; has no effect with mode=hashed",
+                                              .choices = corrections}),
         param<&StochasticParams::mode>({.name = "mode",
                                         .low = 0,
                                         .high = 2,
                                         .fallback = mode_layered,
-                                        .help = "nearest layers, T(z) from depths, or hashed alpha with one subsample",
+                                        .help = "layered: nearest fragment of each subsample; depth_based: T(z) from subsample "
+                                                "depths; hashed: alpha test with one subsample",
                                         .choices = modes}),
-        param<&StochasticParams::seed>(
-            {.name = "seed", .low = 0, .high = 65535, .fallback = 0, .help = "another one gives other noise"}),
-        param<&StochasticParams::memory>({.name = "memory",
-                                          .low = 0.01,
-                                          .high = 4095,
-                                          .fallback = 128,
-                                          .help = "MiB of subsample depths at a time; a frame with more is done in bands of rows",
-                                          .scale = Scale::logarithmic}),
+        param<&StochasticParams::seed>({.name = "seed", .low = 0, .high = 65535, .fallback = 0, .help = "seed of the noise"}),
+        param<&StochasticParams::memory>(
+            {.name = "memory",
+             .low = 0.01,
+             .high = 4095,
+             .fallback = 128,
+             .help = "memory for subsample depths in MiB; a frame that needs more is rendered in bands of rows",
+             .scale = Scale::logarithmic}),
     };
 }
 
@@ -145,13 +149,14 @@ Technique stochastic() {
         .source =
             "Enderton, Sintorn, Shirley and Luebke 2010, I3D; hashed: Wyman and McGuire 2017, I3D; hash: Jarzynski and Olano "
             "2020, JCGT 9(3)",
-        .summary = "Fragments cover random subsamples that an ordinary depth test sorts: right on average, noisy in every frame.",
+        .summary =
+            "Fragments cover random subsamples, which an ordinary depth test resolves: right on average, noisy in every frame.",
         .params = params(),
         .points = {"mode=depth_based", "samples=64", "samples=64 mode=depth_based", "mode=hashed"},
         .counters = {counter<&StochasticCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments shaded"}),
                      counter<&StochasticCounters::atomics>(
-                         {.name = "atomics", .help = "subsamples that fragments covered: a minimum each"})},
+                         {.name = "atomics", .help = "subsamples covered by fragments: one atomic minimum each"})},
         .counter_bytes = sizeof(StochasticCounters),
         .claims = {.failures = {{"H2", 0.0999, "eight subsamples hold T in eighths"},
                                 {"H4", 0.125, "eight subsamples: in the worst pixel an eighth is off"},

@@ -82,32 +82,35 @@ Technique weighted() {
             "McGuire and Bavoil 2013, JCGT 2(2); colored: McGuire and Mara 2016, I3D; average: Bavoil and Myers 2008; sum: "
             "Meshkin 2007",
         .summary =
-            "Averages all fragments with weights falling with depth: one pass, fixed memory; near-opaque layers show what is "
-            "behind.",
+            "Averages all fragments with weights that fall with depth: one pass, fixed memory; nearly opaque layers show what is "
+            "behind them.",
         .params = {param<&WeightedParams::weight>({.name = "weight",
                                                    .low = 0,
                                                    .high = 7,
                                                    .fallback = weight_w7,
-                                                   .help = "equation of the weight",
+                                                   .help = "weight function; w7 to w10: equations 7 to 10 of the 2013 paper; "
+                                                           "w2015_plain and constant average without regard to depth",
                                                    .choices = weights}),
-                   param<&WeightedParams::scale>({.name = "scale",
-                                                  .low = 0.01,
-                                                  .high = 100,
-                                                  .fallback = 1,
-                                                  .help = "multiplies view depth: the weights were made for 0.1 to 500 units",
-                                                  .scale = Scale::logarithmic}),
+                   param<&WeightedParams::scale>(
+                       {.name = "scale",
+                        .low = 0.01,
+                        .high = 100,
+                        .fallback = 1,
+                        .help = "factor on view depth before weighting; the weight functions are tuned for depths of 0.1 to 500",
+                        .scale = Scale::logarithmic}),
                    param<&WeightedParams::form>({.name = "form",
                                                  .low = 0,
                                                  .high = 2,
                                                  .fallback = form_normalized,
-                                                 .help = "what the sums become; average and sum know no weight",
+                                                 .help = "how sums are resolved; normalized: weighted average; average: plain "
+                                                         "average; sum: unnormalized; the last two use no weights",
                                                  .choices = forms})},
         .points = {"weight=w9", "weight=w10", "weight=w2015", "form=average", "form=sum"},
         .counters = {counter<&WeightedCounters::fragments>(
                          {.name = "fragments", .help = "visible transparent fragments blended"}),
                      counter<&WeightedCounters::weights_differ>(
                          {.name = "weights differ",
-                          .help = "1 where the nearest fragment weighs more than the farthest; 0 is an average in disguise"})},
+                          .help = "1 if the nearest fragment weighs more than the farthest; 0: the result is a plain average"})},
         .counter_bytes = sizeof(WeightedCounters),
         .cannot = {Feature::additive},
         .claims = {.failures = {{"H1a", 0.531, "it averages and hides nothing"},

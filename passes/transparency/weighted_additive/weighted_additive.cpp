@@ -103,28 +103,30 @@ std::vector<Param> params() {
                                              .low = 10,
                                              .high = 10000,
                                              .fallback = 300,
-                                             .help = "meters from which depth weighs the same",
+                                             .help = "view depth in meters beyond which weights no longer fall",
                                              .scale = Scale::logarithmic}),
         param<&WeightedAdditiveParams::feather_start>(
             {.name = "feather_start",
              .low = 0.01,
              .high = 1,
              .fallback = 0.3333,
-             .help = "exposed emission that weighs as much as an opaque fragment; less: halos, more: background punches through",
+             .help =
+                 "exposed emission at which a fragment gets full weight; smaller: halos; larger: the background shows through",
              .scale = Scale::logarithmic}),
         param<&WeightedAdditiveParams::reveal>({.name = "reveal",
                                                 .low = 0,
                                                 .high = 1,
                                                 .fallback = reveal_r8,
-                                                .help = "format of what shows through and of additiveness",
+                                                .help = "format of the targets for transmittance and additiveness; r16f: twice "
+                                                        "the memory, not limited to 8 additive layers",
                                                 .choices = reveals}),
-        param<&WeightedAdditiveParams::normalization>(
-            {.name = "normalization",
-             .low = 0,
-             .high = 1,
-             .fallback = normalization_published,
-             .help = "published darkens stacks of covering layers; corrected averages color by alpha and emission apart",
-             .choices = normalizations}),
+        param<&WeightedAdditiveParams::normalization>({.name = "normalization",
+                                                       .low = 0,
+                                                       .high = 1,
+                                                       .fallback = normalization_published,
+                                                       .help = "published: as in the talk, stacks of covering layers are too "
+                                                               "dark; corrected: averages scattered and emitted light separately",
+                                                       .choices = normalizations}),
         param<&WeightedAdditiveParams::tiles>({.name = "tiles",
                                                .low = 0,
                                                .high = 1,
@@ -148,9 +150,8 @@ Technique weighted_additive() {
         .title = "Weighted with additiveness",
         .source = "Kircher 2018, Rendering Technology of Agents of Mayhem, GDC; after McGuire and Bavoil 2013, JCGT 2(2)",
         .summary =
-            "Averages coverage and light in one set of targets at two resolutions; darkens covering stacks, saturates at 8 "
-            "additive "
-            "layers.",
+            "Averages covering and additive fragments in one set of targets, at two resolutions. Stacks of covering layers are "
+            "too dark; light saturates at 8 additive layers.",
         .params = params(),
         .points = {"normalization=corrected", "normalization=corrected reveal=r16f"},
         .counters = {counter<&WeightedAdditiveCounters::fragments>(

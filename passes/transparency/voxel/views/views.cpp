@@ -74,32 +74,25 @@ Image self_occlusion_view(Graph& graph, const FrameImages& images, const VoxelPa
 std::vector<DebugTable> voxel_tables() {
     return {
         {.name = "slices",
-         .help = "the physical slices that hold something: where each begins and ends (an interface layer's at 0), which of the "
-                 "virtual ones it is, how many "
-                 "tiles use it",
+         .help = "occupied physical slices: begin and end (0 for those of an interface layer), virtual slice, tiles that use it",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"virtual slice", ""}, {"tiles", ""}},
          .declare = table<table_slices>},
         {.name = "runs",
-         .help = "what the depth warp leaves: stretches of depth with something in them, their first physical slice and how "
-                 "many they have",
+         .help = "runs of occupied slices: begin, end, first physical slice, number of slices",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"first slice", ""}, {"slices", ""}},
          .declare = table<table_runs>},
         {.name = "histogram",
-         .help =
-             "all virtual slices: where each begins and ends, which physical one it has, -1 without, and how many columns of all "
-             "channels hold something in it",
+         .help = "all virtual slices: begin, end, physical slice (-1: none), columns occupied, summed over channels",
          .columns = {{"begins", "m"}, {"ends", "m"}, {"slice", ""}, {"filled", "columns"}},
          .declare = table<table_histogram>},
         {.name = "overflows",
-         .help =
-             "the physical slices that hold something: where each begins, its number, in how many columns of all channels it is "
-             "the first to overflow or to be full",
+         .help = "occupied physical slices: begin, number, and the columns, summed over channels, in which it is the first to "
+                 "overflow or to saturate",
          .columns = {{"begins", "m"}, {"slice", ""}, {"overflowed", "columns"}, {"saturated", "columns"}},
          .declare = table<table_overflows>},
         {.name = "divider",
-         .help =
-             "halvings of the finest slices' number, such as this frame needs and hysteresis does not hold, virtual slices that "
-             "are left, and used ones of these",
+         .help = "halvings of the finest number of slices, those that this frame needs without hysteresis, virtual slices left, "
+                 "occupied ones among them",
          .columns = {{"halvings", ""}, {"needed", ""}, {"virtual slices", ""}, {"used", ""}},
          .declare = table<table_divider>}};
 }
