@@ -77,6 +77,12 @@ Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, S
     return coverage;
 }
 
+Coverage declare_coverage_of_texels(Graph& graph, const FrameImages& frame, uint method) {
+    Coverage coverage{.method = has_masks(frame) ? method : masked_clip, .samples = 1};
+    if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
+    return coverage;
+}
+
 void add_coverage(DrawPass& pass, const Coverage& coverage) {
     const bool masks_in_shader = coverage.method != masked_clip && coverage.method != masked_hardware;
     pass.fixes("masked", coverage.method)
