@@ -87,9 +87,9 @@ TEST(CasterMasks, OfAFarChessboardVanishOrGrowSolidByTheCutoffStayByMipAndAreHal
         }
 }
 
-/// Three cascades and a spot, of 128 texels.
+/// Three cascades and a spot, of 128 texels. The picture has four samples per pixel, the maps have one per texel.
 Frame fence_and_spot() {
-    Frame frame = scenario_frames("fence_and_foliage").front();
+    Frame frame = scenario_frames("fence_and_foliage", 4).front();
     frame.sun.shadow.map_size = 128;
     frame.lights.push_back({.type = LightType::round_spot,
                             .position = {0.5, 3, -2},
