@@ -7,7 +7,7 @@
 #include "replay/report/flicker.h"
 #include "tests/support/session.h"
 
-namespace strata {
+namespace strata::flicker {
 namespace {
 
 TEST(CoverageFlicker, CountsThePixelsThatHaveMasksBeforeOrAfterAndNoSamplesThatChangePlaces) {
@@ -56,4 +56,4 @@ TEST(RowFlicker, IsOfTheTruthThatTheRowApproximatesWhateverRowsStandBeside) {
 }
 
 }  // namespace
-}  // namespace strata
+}  // namespace strata::flicker

@@ -14,7 +14,7 @@
 #include "replay/images/host_image.h"
 #include "tests/support/session.h"
 
-namespace strata {
+namespace strata::shadow_casters {
 namespace {
 
 /// A value of caster_mask, and the method of the G-buffer that a model of it is.
@@ -229,4 +229,4 @@ TEST(CasterMasks, KeepAFencesShadowFarAway) {
 }
 
 }  // namespace
-}  // namespace strata
+}  // namespace strata::shadow_casters
