@@ -10,10 +10,11 @@
 namespace strata {
 namespace {
 
-/// The G-buffer's method that does the same at one sample per pixel.
+/// The G-buffer's method that cast.frag is compiled for. A dither of texels is one of its own, in place of `unbiased`, which has
+/// four steps at one sample.
 uint method_of(CasterMask mask) {
     if (mask == CasterMask::mip_coverage) return gbuffer::masked_mip_coverage;
-    return mask == CasterMask::unbiased ? gbuffer::masked_unbiased : gbuffer::masked_clip;
+    return mask == CasterMask::dither ? gbuffer::masked_unbiased : gbuffer::masked_clip;
 }
 
 }  // namespace

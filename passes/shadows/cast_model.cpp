@@ -8,6 +8,7 @@
 
 #include "passes/gbuffer/coverage/mask_tests.h"
 #include "passes/reference/fragments.h"
+#include "passes/reference/pcg.h"
 #include "passes/reference/textures.h"
 #include "passes/reference/triangles.h"
 
@@ -111,14 +112,21 @@ public:
         const glm::dvec3 here = alpha_parts(caster.barycentric(middle));
         const glm::dvec3 along_x = side_x * (alpha_parts(caster.barycentric(middle + glm::dvec2(side_x, 0))) - here);
         const glm::dvec3 along_y = side_y * (alpha_parts(caster.barycentric(middle + glm::dvec2(0, side_y))) - here);
+        const gbuffer::MaskPoint point{
+            .uv = here, .uv_x = along_x, .uv_y = along_y, .vertex = here.z, .vertex_x = along_x.z, .vertex_y = along_y.z};
         const std::uint32_t first = corner_indices(*frame_, draw_, triangle_)[0];
-        return test(
-            *material_,
-            {.uv = here, .uv_x = along_x, .uv_y = along_y, .vertex = here.z, .vertex_x = along_x.z, .vertex_y = along_y.z},
-            {.x = in_layer.x, .y = in_layer.y, .draw = draw_, .triangle = first});
+        if (!test) return gbuffer::cover_by_cutoff(gbuffer::alpha_at(*frame_, *material_, point), dither_step(in_layer, first));
+        return test(*material_, point, {.x = in_layer.x, .y = in_layer.y, .draw = draw_, .triangle = first});
     }
 
 private:
+    /// Bayer's matrix (1973), whose rows and columns change places by the surface.
+    double dither_step(glm::uvec2 texel, std::uint32_t triangle) const {
+        constexpr int bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+        const std::uint32_t surface = pcg(pcg(draw_) + triangle);
+        return (bayer[(texel.y ^ surface >> 2) % 4][(texel.x ^ surface) % 4] + 0.5) / 16;
+    }
+
     /// uv of the base color's texture, and the alpha of the vertices' colors.
     glm::dvec3 alpha_parts(const glm::dvec3& barycentric) const {
         const TextureUse& use = material_->base_color_texture;
@@ -134,7 +142,9 @@ private:
 class Map {
 public:
     Map(const Frame& frame, const CasterMap& map, std::uint32_t mask)
-        : map_(&map), test_(gbuffer::point_mask_model(frame, mask)), texels_(std::size_t(map.size) * map.size) {}
+        : map_(&map),
+          test_(mask == dithered_texels ? nullptr : gbuffer::point_mask_model(frame, mask)),
+          texels_(std::size_t(map.size) * map.size) {}
 
     void draw(const Caster& caster, const MaskedCaster& masked) {
         const Texels touched = caster.bounds();
@@ -170,7 +180,7 @@ private:
     }
 
     const CasterMap* map_;
-    gbuffer::PointMaskTest test_;
+    gbuffer::PointMaskTest test_;  ///< empty: alpha is dithered
     std::vector<Texel> texels_;
 };
 

@@ -19,7 +19,7 @@ constexpr std::string_view kernels[] = {"2x2", "4x4", "8x8"};
 constexpr auto allocations = choice_names({{std::uint32_t(Allocation::own), "own"}, {std::uint32_t(Allocation::need), "need"}});
 constexpr auto caster_masks = choice_names({{std::uint32_t(CasterMask::clip), "clip"},
                                             {std::uint32_t(CasterMask::mip_coverage), "mip_coverage"},
-                                            {std::uint32_t(CasterMask::unbiased), "unbiased"}});
+                                            {std::uint32_t(CasterMask::dither), "dither"}});
 
 Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
 
@@ -107,8 +107,8 @@ std::vector<Param> shadow_map_params() {
                  .low = 0,
                  .high = 2,
                  .fallback = 0,
-                 .help = "which texels masked casters fill; clip tests the cutoff, mip_coverage scales alpha by mip, unbiased "
-                         "dithers by alpha",
+                 .help = "how masked casters fill texels: clip tests alpha at the cutoff, mip_coverage scales it by mip, dither "
+                         "fills alpha's share",
                  .choices = caster_masks})};
 }
 

@@ -9,7 +9,7 @@ namespace strata {
 enum class CasterMask : std::uint32_t {
     clip,          ///< alpha against the material's cutoff
     mip_coverage,  ///< the same, alpha scaled by mip as the G-buffer's masked=mip_coverage scales it
-    unbiased,      ///< a dither over 4 texels in x and y: on average as many texels as alpha says
+    dither,        ///< alpha against a dither of 16 steps over 4 x 4 texels: as many texels as alpha says, to 1/32
 };
 
 struct ShadowMapParams {

@@ -42,6 +42,15 @@ MaskCover decided(bool with_less, bool with_more, bool exactly) {
     return exactly ? MaskCover::maybe_kept : MaskCover::maybe_cut;
 }
 
+/// So many pixels from the point, over a footprint so many pixels wide.
+double alpha_beside(const Frame& frame, const Material& material, const MaskPoint& l, glm::dvec2 pixels, double width) {
+    const double own = double(material.base_color.w) * (l.vertex + pixels.x * l.vertex_x + pixels.y * l.vertex_y);
+    if (material.base_color_texture.texture == no_index) return own;
+    const Texture& texture = frame.textures[material.base_color_texture.texture];
+    const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
+    return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+}
+
 class Model {
 public:
     Model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) : frame_(&frame), method_(method), shade_at_(shade_at) {
@@ -109,13 +118,8 @@ private:
         return alpha(material, l, center, 1) >= double(material.mask_cutoff) ? MaskCover::maybe_kept : MaskCover::maybe_cut;
     }
 
-    /// So many pixels from the point, over a footprint so many pixels wide.
     double alpha(const Material& material, const MaskPoint& l, glm::dvec2 pixels, double width) const {
-        const double own = double(material.base_color.w) * (l.vertex + pixels.x * l.vertex_x + pixels.y * l.vertex_y);
-        if (material.base_color_texture.texture == no_index) return own;
-        const Texture& texture = frame_->textures[material.base_color_texture.texture];
-        const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
-        return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+        return alpha_beside(*frame_, material, l, pixels, width);
     }
 
     double scale(const Material& material, const MaskPoint& l) const {
@@ -129,8 +133,7 @@ private:
     }
 
     static MaskCover against_cutoff(const Material& material, double alpha) {
-        const double cutoff = material.mask_cutoff;
-        return decided(alpha - rounding >= cutoff, alpha + rounding >= cutoff, alpha >= cutoff);
+        return cover_by_cutoff(alpha, material.mask_cutoff);
     }
 
     MaskCover by_scaled_alpha(const Material& material, const MaskPoint& l) const {
@@ -169,6 +172,14 @@ std::vector<double> alphas_of(const Texture& texture, std::uint32_t mip) {
 }
 
 }  // namespace
+
+double alpha_at(const Frame& frame, const Material& material, const MaskPoint& point) {
+    return alpha_beside(frame, material, point, {}, 1);
+}
+
+MaskCover cover_by_cutoff(double alpha, double cutoff) {
+    return decided(alpha - rounding >= cutoff, alpha + rounding >= cutoff, alpha >= cutoff);
+}
 
 double mip_scale_model(const Frame& frame, const Material& material, std::uint32_t mip) {
     const std::uint32_t number = material.base_color_texture.texture;

@@ -24,6 +24,10 @@ using PointMaskTest = std::function<MaskCover(const Material&, const MaskPoint&,
 /// The frame must outlive it; materials are its own. The method is masked_clip, masked_mip_coverage or one of bands.
 PointMaskTest point_mask_model(const Frame&, std::uint32_t method);
 
+/// Alpha at a point, and whether it reaches a cutoff whatever a float makes of it.
+double alpha_at(const Frame&, const Material&, const MaskPoint&);
+MaskCover cover_by_cutoff(double alpha, double cutoff);
+
 /// Of a masked material: by what alpha of a mip is multiplied with masked=mip_coverage.
 double mip_scale_model(const Frame&, const Material&, std::uint32_t mip);
 
