@@ -12,13 +12,13 @@ ComputePass mark_edges(Graph& graph, FrameImages& frame, std::string shader) {
 }
 
 std::vector<Counter> edge_counters() {
-    return {
-        counter<&EdgeCounters::plain_pixels>(
-            {.name = "plain_pixels", .help = "pixels with a surface that are shaded once for all samples"}),
-        counter<&EdgeCounters::edge_pixels>({.name = "edge_pixels", .help = "pixels whose samples are shaded one by one"}),
-        counter<&EdgeCounters::sky_pixels>({.name = "sky_pixels", .help = "pixels without a surface in any sample"}),
-        counter<&EdgeCounters::edge_samples>(
-            {.name = "edge_samples", .help = "samples with a surface in edge pixels; a light shades these and plain_pixels"})};
+    return {counter<&EdgeCounters::plain_pixels>(
+                {.name = "plain_pixels", .help = "pixels with a surface that are shaded once for all samples"}),
+            counter<&EdgeCounters::edge_pixels>({.name = "edge_pixels", .help = "pixels whose samples are shaded one by one"}),
+            counter<&EdgeCounters::sky_pixels>({.name = "sky_pixels", .help = "pixels without a surface in any sample"}),
+            counter<&EdgeCounters::edge_samples>(
+                {.name = "edge_samples",
+                 .help = "samples with a surface in edge pixels; each light shades these, and one sample per plain pixel"})};
 }
 
 }  // namespace strata::edges

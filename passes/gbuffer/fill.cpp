@@ -73,13 +73,13 @@ DrawPass fill_pass(Graph& graph, FrameImages& frame, const Layout& layout, const
 }  // namespace
 
 std::vector<Param> fill_params() {
-    return {param<&FillParams::attributes>(
-                {.name = "attributes",
-                 .low = 0,
-                 .high = attributes_at_sample,
-                 .fallback = attributes_at_center,
-                 .help = "where attributes are shaded; sample is exact at edges and runs the shader once per sample",
-                 .choices = attribute_places}),
+    return {param<&FillParams::attributes>({.name = "attributes",
+                                            .low = 0,
+                                            .high = attributes_at_sample,
+                                            .fallback = attributes_at_center,
+                                            .help = "where attributes are evaluated: once at the pixel's center, or at each "
+                                                    "sample (exact at edges, one shader run per sample)",
+                                            .choices = attribute_places}),
             masked_param()};
 }
 

@@ -18,7 +18,7 @@ StageInfo stage() {
             .unwanted = unwanted,
             .outputs = {"occlusion"},
             .truth = occlusion_truth,
-            .truth_is = "visibility within 2 m, traced in double, 576 directions per sample",
+            .truth_is = occlusion_truth_is(),
             .other_truths = other_occlusion_truths(),
             .judge = occlusion_judge,
             .scenarios = {"corners", "one_sphere", "opaque_only"}};

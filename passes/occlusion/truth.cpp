@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "passes/reference/estimated_image.h"
 #include "passes/reference/rays.h"
@@ -34,15 +37,25 @@ constexpr std::array<Truth, 4> product = {traced_truth<0, MaterialRule::product>
                                           traced_truth<2, MaterialRule::product>, traced_truth<3, MaterialRule::product>};
 constexpr std::array<Truth, 4> darker = {traced_truth<0, MaterialRule::darker>, traced_truth<1, MaterialRule::darker>,
                                          traced_truth<2, MaterialRule::darker>, traced_truth<3, MaterialRule::darker>};
-constexpr std::array<std::string_view, 4> product_is = {"visibility within 50 cm, traced in double, 576 directions per sample",
-                                                        "visibility within 1 m, traced in double, 576 directions per sample",
-                                                        "visibility within 2 m, traced in double, 576 directions per sample",
-                                                        "visibility within 4 m, traced in double, 576 directions per sample"};
-constexpr std::array<std::string_view, 4> darker_is = {
-    "the darker of the material's occlusion and visibility within 50 cm, traced in double",
-    "the darker of the material's occlusion and visibility within 1 m, traced in double",
-    "the darker of the material's occlusion and visibility within 2 m, traced in double",
-    "the darker of the material's occlusion and visibility within 4 m, traced in double"};
+
+std::string length(double metres) { return metres < 1 ? fmt::format("{} cm", 100 * metres) : fmt::format("{} m", metres); }
+
+/// What the truths are, for people, in the order of the radii.
+std::array<std::string, radii.size()> sentences(MaterialRule rule) {
+    constexpr TracedDirections directions;
+    std::array<std::string, radii.size()> made;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        made[i] = fmt::format("{}visibility within {}, traced in double, {} directions per sample",
+                              rule == MaterialRule::darker ? "the darker of the material's occlusion and " : "", length(radii[i]),
+                              directions.side * directions.side * directions.batches);
+    return made;
+}
+
+/// Views of what is kept as long as the program runs.
+std::string_view truth_is(std::size_t radius, MaterialRule rule) {
+    static const auto of_product = sentences(MaterialRule::product), of_darker = sentences(MaterialRule::darker);
+    return (rule == MaterialRule::product ? of_product : of_darker)[radius];
+}
 
 }  // namespace
 
@@ -64,12 +77,14 @@ ReferenceImage traced_visibility(const StageInput& input, double radius, const T
 
 ImageSet occlusion_truth(const StageInput& input) { return product[occlusion::default_radius](input); }
 
+std::string_view occlusion_truth_is() { return truth_is(occlusion::default_radius, MaterialRule::product); }
+
 std::vector<TruthRow> other_occlusion_truths() {
     std::vector<TruthRow> rows;
     for (std::size_t i = 0; i < radii.size(); ++i) {
         if (i != occlusion::default_radius)
-            rows.push_back({.name = occlusion::product_truths[i], .make = product[i], .is = product_is[i]});
-        rows.push_back({.name = occlusion::darker_truths[i], .make = darker[i], .is = darker_is[i]});
+            rows.push_back({.name = occlusion::product_truths[i], .make = product[i], .is = truth_is(i, MaterialRule::product)});
+        rows.push_back({.name = occlusion::darker_truths[i], .make = darker[i], .is = truth_is(i, MaterialRule::darker)});
     }
     return rows;
 }

@@ -29,6 +29,8 @@ double occlusion_of(double visibility, double material, occlusion::MaterialRule)
 
 /// Of the default radius.
 ImageSet occlusion_truth(const StageInput&);
+/// For people: what it is, with how many directions.
+std::string_view occlusion_truth_is();
 /// Of the other radii, and of all radii with MaterialRule::darker.
 std::vector<TruthRow> other_occlusion_truths();
 

@@ -1,14 +1,25 @@
 // Draws the casters into shadow maps.
 #include "passes/shadows/cast.h"
 
+#include "passes/gbuffer/coverage/fill_coverage.h"
 #include "passes/scene/map_places.h"
 #include "passes/scene/material_uses.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/shadows/shadows.shared.h"
 
 namespace strata {
+namespace {
 
-void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
+/// The G-buffer's method that cast.frag is compiled for. A dither of texels is one of its own, in place of `unbiased`, which has
+/// four steps at one sample.
+uint method_of(CasterMask mask) {
+    if (mask == CasterMask::mip_coverage) return gbuffer::masked_mip_coverage;
+    return mask == CasterMask::dither ? gbuffer::masked_unbiased : gbuffer::masked_clip;
+}
+
+}  // namespace
+
+void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation, CasterMask mask) {
     const std::vector<ShadowView>& views = frame.facts->shadow_views(allocation);
     if (views.empty()) return;
     const MapLayers in = map_layers(views);
@@ -16,6 +27,7 @@ void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
     frame.shadow_maps =
         graph.create("shadow_maps", {.extent = {in.extent, in.extent}, .format = Format::d32f, .layers = in.layers});
     graph.clear(frame.shadow_maps, {});
+    const gbuffer::Coverage coverage = gbuffer::declare_coverage_of_texels(graph, frame, method_of(mask));
     for (std::uint32_t slot = 0; slot < count; ++slot) {
         const bool is_alone = allocation == Allocation::own;
         const std::uint32_t viewport = is_alone ? views[slot].size : in.extent;
@@ -24,6 +36,7 @@ void cast_maps(Graph& graph, FrameImages& frame, Allocation allocation) {
             .writes_depth(frame.shadow_maps, {.layer = views[slot].layer})
             .within({viewport, viewport})
             .push(CastPush{.record = slot + (is_alone ? 0 : count), .viewport = viewport});
+        gbuffer::add_coverage(cast, coverage);
     }
 }
 

@@ -11,6 +11,7 @@ out float gl_ClipDistance[4];
 layout(location = 0) out vec4 out_uv;  // uv0, uv1
 layout(location = 1) out float out_alpha;
 layout(location = 2) flat out uint out_draw;
+layout(location = 3) flat out uint out_triangle;  // its first vertex
 
 void main() {
     const Vertex v = vertex_of(gl_VertexIndex, gl_InstanceIndex);
@@ -20,6 +21,7 @@ void main() {
     out_uv = vec4(v.uv0, v.uv1);
     out_alpha = v.color.a;
     out_draw = gl_InstanceIndex;
+    out_triangle = gl_VertexIndex - draws[gl_InstanceIndex].vertex_offset;
     const float share = float(shadow.size) / float(push.viewport);  // exactly 1 for a map alone in its layer
     const vec2 corner = 2.0 * vec2(shadow.offset) / float(push.viewport) - 1.0;
     gl_Position = vec4(2.0 * share * map.xy + corner * map.w, map.zw);

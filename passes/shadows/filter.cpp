@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::string_view kernels[] = {"2x2", "4x4", "8x8"};
 constexpr auto allocations = choice_names({{std::uint32_t(Allocation::own), "own"}, {std::uint32_t(Allocation::need), "need"}});
+constexpr auto caster_masks = choice_names({{std::uint32_t(CasterMask::clip), "clip"},
+                                            {std::uint32_t(CasterMask::mip_coverage), "mip_coverage"},
+                                            {std::uint32_t(CasterMask::dither), "dither"}});
 
 Allocation allocation_of(const ShadowFilter& filter) { return static_cast<Allocation>(filter.allocation); }
 
@@ -47,12 +50,12 @@ Image atlas_table(Graph& graph, FrameImages& frame, const Settings&) {
 }  // namespace
 
 void make_shadow_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
-    make_shadow_maps(graph, frame, settings.as<ShadowFilter>());
+    make_shadow_maps(graph, frame, settings.as<ShadowMapParams>());
 }
 
-void make_shadow_maps(Graph& graph, FrameImages& frame, const ShadowFilter& filter) {
-    frame.shadow_filter = filter;
-    cast_maps(graph, frame, allocation_of(frame.shadow_filter));
+void make_shadow_maps(Graph& graph, FrameImages& frame, const ShadowMapParams& params) {
+    frame.shadow_filter = params.filter;
+    cast_maps(graph, frame, allocation_of(params.filter), static_cast<CasterMask>(params.caster_mask));
 }
 
 void filter_shadow_maps(Graph& graph, FrameImages& frame, const std::string& shader) {
@@ -84,22 +87,29 @@ ComputePass& fix_shadow_filter(ComputePass& pass, const ShadowFilter& filter) {
 }
 
 std::vector<Param> shadow_map_params() {
-    return {
-        param<&ShadowFilter::kernel>(
-            {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
-        param<&ShadowFilter::slope_limit>(
-            {.name = "slope_limit",
-             .low = 0,
-             .high = 8,
-             .fallback = 4,
-             .help = "steepest slope that the bias compensates: tangent of the angle between normal and light; 4 is 76 degrees"}),
-        param<&ShadowFilter::allocation>({.name = "allocation",
-                                          .low = 0,
-                                          .high = 1,
-                                          .fallback = 0,
-                                          .help = "size of shadow maps; own: as recorded, a layer each; need: by the extent that "
-                                                  "each light covers on the screen, packed",
-                                          .choices = allocations})};
+    return {param<&ShadowFilter::kernel>(
+                {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
+            param<&ShadowFilter::slope_limit>({.name = "slope_limit",
+                                               .low = 0,
+                                               .high = 8,
+                                               .fallback = 4,
+                                               .help = "tangent of the steepest angle between normal and light that the "
+                                                       "bias makes up for; 4 is 76 degrees"}),
+            param<&ShadowFilter::allocation>({.name = "allocation",
+                                              .low = 0,
+                                              .high = 1,
+                                              .fallback = 0,
+                                              .help = "own: maps as large as lights ask for, a layer each; need: as large as "
+                                                      "lights reach on the screen, packed",
+                                              .choices = allocations}),
+            param<&ShadowMapParams::caster_mask>(
+                {.name = "caster_mask",
+                 .low = 0,
+                 .high = 2,
+                 .fallback = 0,
+                 .help = "how masked casters fill texels: clip tests alpha at the cutoff, mip_coverage scales it by mip, dither "
+                         "fills alpha's share",
+                 .choices = caster_masks})};
 }
 
 std::vector<Counter> shadow_map_counters() {

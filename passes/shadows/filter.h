@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "passes/shadows/shadow_filter.h"
+#include "passes/shadows/shadow_map_params.h"
 #include "passes/technique.h"
 
 namespace strata {
 
 /// At Stage::shadows: draws the maps and remembers in FrameImages::shadow_filter how they are looked up.
 void make_shadow_maps(Graph&, FrameImages&, const Settings&);
-void make_shadow_maps(Graph&, FrameImages&, const ShadowFilter&);
+void make_shadow_maps(Graph&, FrameImages&, const ShadowMapParams&);
 /// At a stage behind the G-buffer: `shader` writes FrameImages::visibility. It includes passes/shadows/visibility.glsl.
 void filter_shadow_maps(Graph&, FrameImages&, const std::string& shader);
 /// The step of such a shader, and the image that it writes.
@@ -20,7 +20,7 @@ ComputePass filter_step(Graph&, const FrameImages&, const std::string& shader, I
 /// Fixes the constants of passes/shaders/shadow_filter.glsl in a step whose shader includes it.
 ComputePass& fix_shadow_filter(ComputePass&, const ShadowFilter&);
 
-/// Rows of the parameters kernel, slope_limit and allocation.
+/// Rows of the parameters kernel, slope_limit, allocation and caster_mask, of settings that begin with ShadowMapParams.
 std::vector<Param> shadow_map_params();
 std::vector<Counter> shadow_map_counters();
 /// "atlas", a picture, and "map_places", a table: what lies where.

@@ -66,6 +66,8 @@ std::vector<Ray> cone_rays(const glm::dvec3& axis, double cosine, const Length& 
     return rays;
 }
 
+bool is_all_around(const Light& light) { return light.type == LightType::omni || light.type == LightType::sphere; }
+
 // To where a light shines from: the sun's disc, a spot's disc, the sphere of other lights, or one point where it is not soft.
 std::vector<Ray> rays_to(const Frame& frame, const Light& light, const glm::dvec3& position) {
     const Towards to = towards(frame, light, position);
@@ -75,7 +77,7 @@ std::vector<Ray> rays_to(const Frame& frame, const Light& light, const glm::dvec
     if (is_sun) {
         return cone_rays(to.direction, std::cos(double(frame.sun.angular_radius)), [](double) { return sun_distance; });
     }
-    if (has_faces(light)) {
+    if (is_all_around(light)) {
         if (distance <= radius) return {{to.direction, 0}};  // inside
         const double squared = radius * radius - distance * distance;
         return cone_rays(to.direction, std::sqrt(-squared) / distance, [&](double cosine) {

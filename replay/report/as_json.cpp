@@ -48,6 +48,7 @@ ordered_json json_of(const Measurement& row, bool is_timed) {
     json["bytes_per_pixel"] = row.bytes_per_pixel;
     if (row.invocations) json["invocations"] = *row.invocations;
     if (row.flicker) json["flicker"] = *row.flicker;
+    if (row.coverage_flicker) json["coverage_flicker"] = *row.coverage_flicker;
     json["counters"] = ordered_json::object();
     for (const CounterRecord& counter : row.counters) json["counters"][counter.name] = counter.value;
     json["on_pareto_front"] = row.on_front;

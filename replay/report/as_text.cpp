@@ -50,6 +50,10 @@ bool leaves_much(const Report& report) {
     return row && !row->accuracy.touched.empty() && row->accuracy.touched_share < 1;
 }
 
+bool has_coverage_flicker(const Report& report) {
+    return std::ranges::any_of(report.rows, [](const Measurement& row) { return row.coverage_flicker.has_value(); });
+}
+
 Table table_of(const Report& report) {
     Table table;
     if (const Measurement* row = first_measured(report))
@@ -58,6 +62,7 @@ Table table_of(const Report& report) {
     if (!report.time_unit.empty()) table.heads.push_back(time_head(report.time_unit));
     if (report.is_timed) table.heads.insert(table.heads.end(), {"ms", "bytes per pixel"});
     if (report.flicker) table.heads.emplace_back("flicker");
+    if (has_coverage_flicker(report)) table.heads.emplace_back("coverage flicker");
     for (const Measurement& row : report.rows) {
         Table::Row line{marks(row.on_front, row.on_memory_front, row.is_tied), short_label(row), {}};
         if (!row.accuracy.not_supported.empty()) {
@@ -69,6 +74,7 @@ Table table_of(const Report& report) {
             if (report.is_timed) line.cells.push_back(short_number(row.stage_ms.median));
             if (report.is_timed) line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
             if (row.flicker) line.cells.push_back(short_number(*row.flicker));
+            if (row.coverage_flicker) line.cells.push_back(short_number(*row.coverage_flicker));
         }
         table.rows.push_back(std::move(line));
     }
@@ -176,6 +182,8 @@ std::string heading(const Report& report) {
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),
                             short_number(report.flicker->pan));
+    if (has_coverage_flicker(report))
+        text += "coverage flicker: the same of the share that masked surfaces cover of each pixel, over pixels that have any\n";
     return text;
 }
 

@@ -6,6 +6,7 @@
 #include "passes/registry.h"
 #include "passes/scene/draw_lists.h"
 #include "passes/scene/view_space.h"
+#include "replay/report/yardstick.h"
 
 namespace strata {
 namespace {
@@ -43,17 +44,63 @@ Result<std::optional<Request>> stand_in(Session& session, Stage stage, Request b
     return std::optional<Request>();
 }
 
-Result<ReferenceImage> picture(Session& session, Request request, Stage stage) {
-    const std::string output(info(stage).outputs.front());
-    request.outputs = {output};
-    return session.run(request).and_then([&](auto& run) { return in_double(run.images.at(output)); });
+/// What flicker is measured on: the stage's first output, and of a G-buffer the depths that say what masked surfaces cover.
+std::vector<std::string> judged_outputs(Stage stage) {
+    std::vector<std::string> names = {std::string(info(stage).outputs.front())};
+    if (stage == Stage::gbuffer) names.emplace_back("depth_layers");
+    return names;
 }
 
-Result<ReferenceImage> truth_in_double(Session& session, const Request& request, Stage stage) {
-    return session.truth(request, stage).and_then([&](auto& truth) {
-        return std::move(truth.at(std::string(info(stage).outputs.front())));
-    });
+Result<ImageSet> outputs_of(Session& session, Request request, Stage stage) {
+    request.outputs = judged_outputs(stage);
+    auto run = session.run(request);
+    if (!run) return run.error();
+    ImageSet images;
+    for (const std::string& output : request.outputs) images.emplace(output, in_double(run->images.at(output)));
+    return images;
 }
+
+/// The rows' truths, each once: the request that asks for it, and per row which one it is.
+struct Truths {
+    std::vector<Request> asked;
+    std::vector<std::size_t> of_row;
+};
+
+Result<Truths> truths_of(const ReportRequest& wanted, std::span<const Request> rows, const Frame& frame) {
+    Truths found;
+    std::vector<std::string_view> names;
+    for (const Request& row : rows) {
+        const auto truth = truth_asked_by(row, wanted.stage, frame);
+        if (!truth) return truth.error();
+        const auto known = std::ranges::find(names, truth->name);
+        found.of_row.push_back(std::size_t(known - names.begin()));
+        if (known != names.end()) continue;
+        names.push_back(truth->name);
+        found.asked.push_back(row);
+    }
+    return found;
+}
+
+/// One row of a report while the eye walks.
+class RowFlicker {
+public:
+    void add_frame(const ReportRequest& wanted, const ImageSet& got, const ImageSet& truth, const Frame& frame) {
+        const std::string_view judged = info(wanted.stage).outputs.front();
+        error_.add_frame(got.find(judged)->second, truth.find(judged)->second);
+        if (wanted.stage != Stage::gbuffer) return;
+        const std::vector<gbuffer::PixelCoverage> coverage = gbuffer::pixel_coverage(got, truth, frame);
+        has_coverage_ = !coverage.empty();
+        coverage_.add_frame(coverage);
+    }
+    MeasuredFlicker measured() const {
+        return {.error = error_.mean(), .coverage = has_coverage_ ? std::optional(coverage_.mean()) : std::nullopt};
+    }
+
+private:
+    Flicker error_;
+    CoverageFlicker coverage_;
+    bool has_coverage_ = false;
+};
 
 }  // namespace
 
@@ -72,6 +119,18 @@ void Flicker::add_frame(const ReferenceImage& got, const ReferenceImage& truth) 
 
 double Flicker::mean() const { return steps_ == 0 ? 0 : sum_ / double(steps_) / double(error_.size()); }
 
+void CoverageFlicker::add_frame(std::span<const gbuffer::PixelCoverage> pixels) {
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+        const gbuffer::PixelCoverage &now = pixels[i], &before = before_[i];
+        if (std::max({now.got, now.wanted, before.got, before.wanted}) == 0) continue;
+        sum_ += std::abs((now.got - now.wanted) - (before.got - before.wanted));
+        ++pixels_;
+    }
+    before_.assign(pixels.begin(), pixels.end());
+}
+
+double CoverageFlicker::mean() const { return sum_ / double(std::max<std::size_t>(1, pixels_)); }
+
 std::optional<double> default_dolly(const Frame& frame) {
     const DrawLists lists = draw_lists(frame);
     for (const auto& listed : {lists.transparent, lists.opaque})
@@ -79,12 +138,17 @@ std::optional<double> default_dolly(const Frame& frame) {
     return {};
 }
 
-Result<std::vector<double>> measure_flicker(Session& session, const ReportRequest& wanted, std::span<const Request> rows,
-                                            const Progress& tell) {
+Result<std::vector<MeasuredFlicker>> measure_flicker(Session& session, const ReportRequest& wanted, std::span<const Request> rows,
+                                                     const Progress& tell) {
     const auto exact = stand_in(session, wanted.stage, wanted.base);
     if (!exact) return exact.error();
+    const auto frame = session.frame(wanted.base.variant.frame);
+    if (!frame) return frame.error();
+    auto truths = truths_of(wanted, rows, *frame);
+    if (!truths) return truths.error();
+    if (*exact) truths->asked = {**exact};
     const Walk& walk = *wanted.flicker;
-    std::vector<Flicker> flickers(rows.size());
+    std::vector<RowFlicker> flickers(rows.size());
     for (std::uint32_t i = 0; i < walk.frames; ++i) {
         if (tell) tell(fmt::format("flicker, frame {} of {}", i + 1, walk.frames), double(i) / walk.frames);
         const auto placed = [&](Request request) {
@@ -92,18 +156,21 @@ Result<std::vector<double>> measure_flicker(Session& session, const ReportReques
             request.variant.eye = {.dolly = *walk.dolly * way, .pan = glm::radians(walk.pan) * way};
             return request;
         };
-        const auto truth = *exact ? picture(session, placed(**exact), wanted.stage)
-                                  : truth_in_double(session, placed(wanted.base), wanted.stage);
-        if (!truth) return truth.error();
+        std::vector<ImageSet> wanted_images;
+        for (const Request& asks : truths->asked) {
+            auto truth = *exact ? outputs_of(session, placed(asks), wanted.stage) : session.truth(placed(asks), wanted.stage);
+            if (!truth) return truth.error();
+            wanted_images.push_back(*std::move(truth));
+        }
         for (std::size_t r = 0; r < rows.size(); ++r) {
-            const auto got = picture(session, placed(rows[r]), wanted.stage);
+            const auto got = outputs_of(session, placed(rows[r]), wanted.stage);
             if (!got) return got.error();
-            flickers[r].add_frame(*got, *truth);
+            flickers[r].add_frame(wanted, *got, wanted_images[*exact ? 0 : truths->of_row[r]], *frame);
         }
     }
-    std::vector<double> means;
-    for (const Flicker& flicker : flickers) means.push_back(flicker.mean());
-    return means;
+    std::vector<MeasuredFlicker> measured;
+    for (const RowFlicker& flicker : flickers) measured.push_back(flicker.measured());
+    return measured;
 }
 
 }  // namespace strata

@@ -29,7 +29,11 @@ Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const
     if (!flickers) return flickers.error();
     auto flicker = flickers->begin();
     for (Measurement& row : report.rows)
-        if (row.accuracy.not_supported.empty()) row.flicker = *flicker++;
+        if (row.accuracy.not_supported.empty()) {
+            row.flicker = flicker->error;
+            row.coverage_flicker = flicker->coverage;
+            ++flicker;
+        }
     return {};
 }
 

@@ -65,10 +65,11 @@ struct Measurement {
     double bytes_per_pixel = 0;
     std::optional<std::uint64_t> invocations;  ///< of fragment and compute shaders, where the device counts them
     std::optional<double> flicker;
-    std::vector<CounterRecord> counters;  ///< of the technique
-    bool on_front = false;                ///< nothing is both more accurate and faster
-    bool is_tied = false;                 ///< the spreads alone keep it off the front: see ties_in_time()
-    bool on_memory_front = false;         ///< nothing is both more accurate and smaller
+    std::optional<double> coverage_flicker;  ///< of stage gbuffer on frames with masked surfaces: CoverageFlicker::mean()
+    std::vector<CounterRecord> counters;     ///< of the technique
+    bool on_front = false;                   ///< nothing is both more accurate and faster
+    bool is_tied = false;                    ///< the spreads alone keep it off the front: see ties_in_time()
+    bool on_memory_front = false;            ///< nothing is both more accurate and smaller
 };
 
 /// What rows are measured against.

@@ -45,14 +45,6 @@ void add_own_error(Yardstick& yardstick, const StageInfo& stage) {
                                   short_number(yardstick.own_error->relative));
 }
 
-/// What a request's technique of a stage is judged by.
-Result<TruthRow> truth_asked_by(const Request& request, Stage stage, const Frame& frame) {
-    const auto choices = choose(frame, request.choices);
-    if (!choices) return choices.error();
-    const Choice& choice = choices->at(stage);
-    return truth_of(*choice.technique, choice.settings);
-}
-
 /// `asks`: of which that truth is the session's answer.
 Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, const Request& asks, const TruthRow& of,
                                  const View& view) {
@@ -88,6 +80,13 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
 }
 
 }  // namespace
+
+Result<TruthRow> truth_asked_by(const Request& request, Stage stage, const Frame& frame) {
+    const auto choices = choose(frame, request.choices);
+    if (!choices) return choices.error();
+    const Choice& choice = choices->at(stage);
+    return truth_of(*choice.technique, choice.settings);
+}
 
 Result<Yardsticks> find_yardsticks(Session& session, const ReportRequest& wanted, std::span<const Variant> rows,
                                    const Frame& frame) {

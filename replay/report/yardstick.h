@@ -21,6 +21,9 @@ struct Yardstick {
     std::optional<PictureTruth> picture = {};  ///< with ErrorAt::picture
 };
 
+/// What a request's technique of a stage is judged by.
+Result<TruthRow> truth_asked_by(const Request&, Stage, const Frame&);
+
 /// One per truth that some of the rows approximate, in the order of the rows.
 struct Yardsticks {
     std::vector<Yardstick> all;

@@ -14,6 +14,7 @@
 #include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"
+#include "tests/support/mean_coverages.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
 
@@ -100,22 +101,19 @@ TEST(MaskedSurfaces, OfConstantAlphaCoverTheSamplesThatTheTablesSay) {
 
 TEST(MaskedSurfaces, CoverSixteenthsOnAverageAsTheChapterSays) {
     const auto session = session_of({sixteenths(4)});
-    struct Row {
-        std::uint32_t method, k;
-        double coverage;
-    };
-    for (const Row& row : {Row{masked_a2c_1, 10, .75},
-                           {masked_a2c_2, 7, .4375},
-                           {masked_a2c_2, 13, .8125},
-                           {masked_a2c_or, 7, .359375},
-                           {masked_a2c_or, 13, .765625},
-                           {masked_full_step, 10, .6875},
-                           {masked_unbiased, 1, .0625},
-                           {masked_unbiased, 11, .6875},
-                           {masked_clip, 7, 0},
-                           {masked_clip, 8, 1}})
-        EXPECT_EQ(masks_of(*session, with(row.method)).coverage(corner_of(row.k), {tile, tile}), row.coverage)
-            << methods()[row.method] << " at " << row.k << "/16";
+    for (const MeanCoverages& row : mean_coverages) {
+        const Masks got = masks_of(*session, with(row.method));
+        std::string measured;
+        for (std::size_t i = 0; i < table_alphas.size(); ++i) {
+            const double coverage = got.coverage(corner_of(table_alphas[i]), {tile, tile});
+            measured += fmt::format("{} ", coverage);
+            EXPECT_EQ(coverage, row.at[i]) << methods()[row.method] << " at " << table_alphas[i] << "/16";
+        }
+        RecordProperty(std::string(methods()[row.method]), measured);
+    }
+    const Masks clipped = masks_of(*session, with(masked_clip));
+    EXPECT_EQ(clipped.coverage(corner_of(7), {tile, tile}), 0);
+    EXPECT_EQ(clipped.coverage(corner_of(8), {tile, tile}), 1);
 }
 
 TEST(MaskedSurfaces, OfAlphaOneHaveNoCracksByAnyMethod) {

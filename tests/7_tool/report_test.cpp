@@ -335,10 +335,11 @@ TEST(Flicker, ShowsThatObjectOrderPopsAndIsNothingForWhatIsExact) {
     rows[0].choices = chosen({"transparency/sorted_lists"});
     rows[1].choices = chosen({"transparency/alpha_blend"});
     rows[2].choices = chosen({"transparency/weighted"});
-    const std::vector<double> flicker = must(measure_flicker(*session, wanted, rows, {}));
-    EXPECT_EQ(flicker[0], 0);
-    EXPECT_GT(flicker[1], 1e-3);
-    EXPECT_GT(flicker[2], 0);
+    const std::vector<MeasuredFlicker> flicker = must(measure_flicker(*session, wanted, rows, {}));
+    EXPECT_EQ(flicker[0].error, 0);
+    EXPECT_GT(flicker[1].error, 1e-3);
+    EXPECT_GT(flicker[2].error, 0);
+    EXPECT_FALSE(flicker[0].coverage);
 }
 
 /// Walked ahead and turned is recorded from there, bit for bit.
@@ -420,7 +421,7 @@ TEST(Table, FitsATerminalOf120ColumnsHoweverLongTheSettings) {
             measured.accuracy.method.push_back({name, "radiance", -1e-9});
         measured.accuracy.method.push_back({"a detail", "", 1, true});
         measured.accuracy.flip = .123456;
-        measured.flicker = 1e-9;
+        measured.flicker = measured.coverage_flicker = 1e-9;
         measured.time = Spread{.median = 123.456, .mad = 10};
         report.rows.push_back(measured);
     }

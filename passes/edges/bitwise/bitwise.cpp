@@ -29,9 +29,9 @@ std::vector<std::string> notes(const FrameImages& frame, const Settings&) {
 Technique bitwise() {
     return {.stage = Stage::edges,
             .name = "edges/bitwise",
-            .title = "Words that differ",
+            .title = "G-buffer words that differ",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (shading per sample at edges)",
-            .summary = "Compares every word of the G-buffer bit by bit: exact, and marks differences too small to see.",
+            .summary = "Compares every word of the G-buffer bit by bit: exact, but also marks differences too small to see.",
             .counters = edge_counters(),
             .counter_bytes = sizeof(EdgeCounters),
             .views = edge_views(),

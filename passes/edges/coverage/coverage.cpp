@@ -72,7 +72,7 @@ std::vector<std::string> notes(const FrameImages& frame, const Settings&) {
 Technique coverage() {
     return {.stage = Stage::edges,
             .name = "edges/coverage",
-            .title = "Triangles that cover a part of a pixel",
+            .title = "Triangles that cover part of a pixel",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (centroid trick)",
             .summary =
                 "Draws opaque triangles once more and marks where coverage is partial: marks seams inside meshes, misses "
@@ -80,7 +80,7 @@ Technique coverage() {
             .params = {param<&CoverageParams::with_tests>({.name = "with_tests",
                                                            .high = coverage_and_both,
                                                            .fallback = coverage_alone,
-                                                           .help = "tests of surfaces that mark further pixels",
+                                                           .help = added_tests_help,
                                                            .choices = companions}),
                        param<&CoverageParams::depth_step>(depth_step_row), param<&CoverageParams::color_step>(color_step_row)},
             .points = {"with_tests=depth", "with_tests=material", "with_tests=depth_and_material"},

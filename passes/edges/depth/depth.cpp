@@ -33,35 +33,33 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 }  // namespace
 
 Technique depth() {
-    return {
-        .stage = Stage::edges,
-        .name = "edges/depth",
-        .title = "Depths on no one plane",
-        .source = "docs/algorithms/deferred.md 3.2, D4: hardware depth is affine on the screen",
-        .summary =
-            "Compares the depths of opposite samples: reads little, and misses creases and paint on one plane unless paired.",
-        .params = {param<&DepthParams::paired_with>({.name = "paired_with",
-                                                     .high = depth_and_both,
-                                                     .fallback = depth_and_both,
-                                                     .help = "tests of surfaces that mark further pixels",
-                                                     .choices = companions}),
-                   param<&DepthParams::residual>(
-                       {.name = "residual",
-                        .low = 1e-7,
-                        .high = 0.1,
-                        .fallback = 1e-5,
-                        .help =
-                            "largest distance of four samples from a common plane, relative to device depth; larger: fewer edges",
-                        .scale = Scale::logarithmic}),
-                   param<&DepthParams::normal_angle>(normal_angle_row), param<&DepthParams::color_step>(color_step_row)},
-        .points = {"paired_with=nothing", "paired_with=normal", "residual=0.001"},
-        .counters = edge_counters(),
-        .counter_bytes = sizeof(EdgeCounters),
-        .views = edge_views(),
-        .tables = edge_tables(),
-        .declare = declare,
-        .model = depth_model,
-        .tolerance = {.rmse = 0, .worst = 0, .because = "pixels that a float may move across a limit are undecided"}};
+    return {.stage = Stage::edges,
+            .name = "edges/depth",
+            .title = "Depths that are not on one plane",
+            .source = "docs/algorithms/deferred.md 3.2, D4: hardware depth is affine on the screen",
+            .summary =
+                "Compares the depths of opposite samples: reads little, and misses creases and paint on one plane unless paired.",
+            .params = {param<&DepthParams::paired_with>({.name = "paired_with",
+                                                         .high = depth_and_both,
+                                                         .fallback = depth_and_both,
+                                                         .help = added_tests_help,
+                                                         .choices = companions}),
+                       param<&DepthParams::residual>(
+                           {.name = "residual",
+                            .low = 1e-7,
+                            .high = 0.1,
+                            .fallback = 1e-5,
+                            .help = "largest distance of four depths from one plane, relative to depth; larger: fewer edges",
+                            .scale = Scale::logarithmic}),
+                       param<&DepthParams::normal_angle>(normal_angle_row), param<&DepthParams::color_step>(color_step_row)},
+            .points = {"paired_with=nothing", "paired_with=normal", "residual=0.001"},
+            .counters = edge_counters(),
+            .counter_bytes = sizeof(EdgeCounters),
+            .views = edge_views(),
+            .tables = edge_tables(),
+            .declare = declare,
+            .model = depth_model,
+            .tolerance = {.rmse = 0, .worst = 0, .because = "pixels that a float may move across a limit are undecided"}};
 }
 
 }  // namespace strata::edges

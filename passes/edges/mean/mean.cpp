@@ -22,26 +22,28 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 }  // namespace
 
 Technique mean() {
-    return {
-        .stage = Stage::edges,
-        .name = "edges/mean",
-        .title = "Mean against the first sample",
-        .source = "OpenXRay, shaders of the marking pass (behaviour only); docs/algorithms/deferred.md 3.2",
-        .summary =
-            "Marks pixels whose samples' mean is not the first sample: misses what averages out and what another target holds.",
-        .params = {param<&MeanParams::compares>({.name = "compares",
-                                                 .high = compares_all,
-                                                 .fallback = compares_first,
-                                                 .help = "images whose means are compared: the first, as in X-Ray, or all",
-                                                 .choices = choices})},
-        .points = {"compares=all"},
-        .counters = edge_counters(),
-        .counter_bytes = sizeof(EdgeCounters),
-        .views = edge_views(),
-        .tables = edge_tables(),
-        .declare = declare,
-        .model = mean_model,
-        .tolerance = {.rmse = 0, .worst = 0, .because = "sums of four equal floats of 11 bits are exact"}};
+    return {.stage = Stage::edges,
+            .name = "edges/mean",
+            .title = "Mean against the first sample",
+            .source = "OpenXRay, shaders of the marking pass (behaviour only); docs/algorithms/deferred.md 3.2",
+            .summary =
+                "Marks pixels where the mean of the samples differs from the first sample: misses differences that cancel, and "
+                "those in "
+                "targets it does not read.",
+            .params = {param<&MeanParams::compares>(
+                {.name = "compares",
+                 .high = compares_all,
+                 .fallback = compares_first,
+                 .help = "G-buffer targets that are averaged and compared: the first alone, as in X-Ray, or all",
+                 .choices = choices})},
+            .points = {"compares=all"},
+            .counters = edge_counters(),
+            .counter_bytes = sizeof(EdgeCounters),
+            .views = edge_views(),
+            .tables = edge_tables(),
+            .declare = declare,
+            .model = mean_model,
+            .tolerance = {.rmse = 0, .worst = 0, .because = "sums of four equal floats of 11 bits are exact"}};
 }
 
 }  // namespace strata::edges

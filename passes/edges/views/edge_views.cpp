@@ -33,12 +33,12 @@ Image histogram(Graph& graph, FrameImages& frame, const Settings&) {
 
 std::vector<DebugView> edge_views() {
     return {{.name = "surfaces",
-             .help = "number of different surfaces among the samples of a pixel: samples whose G-buffer bits differ",
+             .help = "number of different surfaces among a pixel's samples, told apart by their G-buffer words",
              .unit = "surfaces",
              .high = most_surfaces,
              .declare = picture<shows_surfaces>},
             {.name = "outcome",
-             .help = "marked pixels compared with the truth: edges found, edges missed, pixels marked needlessly",
+             .help = "marked pixels compared with the stage's truth",
              .unit = "",
              .declare = picture<shows_outcome>,
              .colors = {{{0, 0.1f, 0.3f}, "plain: shaded once"},
@@ -48,10 +48,11 @@ std::vector<DebugView> edge_views() {
 }
 
 std::vector<DebugTable> edge_tables() {
-    return {{.name = "surfaces per pixel",
-             .help = "pixels by number of different surfaces among their samples, and how many of them are shaded per sample",
-             .columns = {{"surfaces", ""}, {"pixels", ""}, {"shaded per sample", "pixels"}},
-             .declare = histogram}};
+    return {
+        {.name = "surfaces per pixel",
+         .help = "number of pixels by the number of surfaces among their samples, and how many of those are shaded per sample",
+         .columns = {{"surfaces", ""}, {"pixels", ""}, {"shaded per sample", "pixels"}},
+         .declare = histogram}};
 }
 
 }  // namespace strata::edges

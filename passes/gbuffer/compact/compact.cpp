@@ -22,8 +22,8 @@ Technique compact() {
             .title = "Compact, 64 bits",
             .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
             .summary =
-                "Two 32-bit targets: normals are off by up to 0.24 degrees, and of the material only unlit, dielectric, metal "
-                "and hair remain.",
+                "Stores normals in 2 x 10 bits (off by up to 0.24 degrees) and one of four materials: unlit, dielectric, metal, "
+                "hair.",
             .params = fill_params(),
             .points = {"attributes=sample"},
             .declare = declare,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "passes/gbuffer/coverage/coverage.shared.h"
+#include "tests/support/mean_coverages.h"
 
 namespace strata::gbuffer {
 namespace {
@@ -50,24 +51,11 @@ double mean_coverage(std::uint32_t method, double alpha, std::uint32_t samples =
     return covered / (16 * samples);
 }
 
-struct Row {
-    std::uint32_t method;
-    std::vector<double> coverage;
-};
-
 TEST(CoverageBands, MeanCoverageOfConstantAlphaIsTheTableOfTheChapter) {
-    const std::vector<long> sixteenths = {1, 3, 4, 5, 7, 8, 9, 10, 11, 12, 13, 14, 16};
-    const Row rows[] = {
-        {masked_a2c_1, {0, 0, .25, .25, .5, .5, .5, .75, .75, .75, 1, 1, 1}},
-        {masked_a2c_2, {0, 0, .25, .25, .4375, .5, .5, .625, .75, .75, .8125, 1, 1}},
-        {masked_a2c_or, {0, 0, .25, .25, .359375, .5, .5, .5625, .75, .75, .765625, 1, 1}},
-        {masked_full_step, {0, .125, .1875, .25, .4375, .5, .5625, .6875, .75, .8125, .875, 1, 1}},
-        {masked_unbiased, {.0625, .1875, .25, .3125, .4375, .5, .5625, .625, .6875, .75, .8125, .875, 1}},
-    };
-    for (const Row& row : rows)
-        for (std::size_t i = 0; i < sixteenths.size(); ++i) {
-            EXPECT_EQ(exact_coverage(row.method, sixteenths[i]), row.coverage[i]) << row.method << " at " << sixteenths[i];
-            EXPECT_EQ(mean_coverage(row.method, double(sixteenths[i]) / 16), row.coverage[i]) << row.method;
+    for (const MeanCoverages& row : mean_coverages)
+        for (std::size_t i = 0; i < table_alphas.size(); ++i) {
+            EXPECT_EQ(exact_coverage(row.method, long(table_alphas[i])), row.at[i]) << row.method << " at " << table_alphas[i];
+            EXPECT_EQ(mean_coverage(row.method, double(table_alphas[i]) / 16), row.at[i]) << row.method;
         }
 }
 

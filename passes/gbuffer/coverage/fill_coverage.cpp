@@ -62,17 +62,23 @@ Image declare_scales(Graph& graph, const FrameImages& frame) {
 }  // namespace
 
 Param masked_param() {
-    return param<&FillParams::masked>(
-        {.name = "masked",
-         .low = 0,
-         .high = masked_hardware,
-         .fallback = masked_clip,
-         .help = "how alpha of masked surfaces covers samples; clip compares it with the cutoff at the pixel's center",
-         .choices = mask_methods});
+    return param<&FillParams::masked>({.name = "masked",
+                                       .low = 0,
+                                       .high = masked_hardware,
+                                       .fallback = masked_clip,
+                                       .help = "how alpha of masked surfaces becomes covered samples; clip: all samples if alpha "
+                                               "at the pixel's center reaches the cutoff",
+                                       .choices = mask_methods});
 }
 
 Coverage declare_coverage(Graph& graph, const FrameImages& frame, uint method, ShadingRate rate) {
     Coverage coverage{.method = method_that_matters(frame, method, rate), .samples = frame.samples, .rate = rate};
+    if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
+    return coverage;
+}
+
+Coverage declare_coverage_of_texels(Graph& graph, const FrameImages& frame, uint method) {
+    Coverage coverage{.method = has_masks(frame) ? method : masked_clip, .samples = 1};
     if (coverage.method == masked_mip_coverage) coverage.scales = declare_scales(graph, frame);
     return coverage;
 }

@@ -28,6 +28,9 @@ struct Coverage {
 /// that differ in their samples alone at one sample per pixel or where every sample is shaded. Declares the steps that write the
 /// scales of mips where they are read.
 Coverage declare_coverage(Graph&, const FrameImages&, uint method, ShadingRate);
+/// The same for a step that draws masked surfaces at one sample per texel of another image than the frame's, such as a shadow
+/// map.
+Coverage declare_coverage_of_texels(Graph&, const FrameImages&, uint method);
 /// Gives it to a step whose fragment shader includes coverage.glsl.
 void add_coverage(DrawPass&, const Coverage&);
 

@@ -53,18 +53,25 @@ void add_true_coverage(ImageSet& truth, const Frame& frame) {
     }
 }
 
-std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
+std::vector<PixelCoverage> pixel_coverage(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
     if (!has_masks(frame)) return {};
-    const std::vector<glm::dvec4>&depth = result.at("depth_layers").texels, &wanted = truth.at("depth_layers").texels;
-    std::vector<double> got(std::size_t(frame.view.width) * frame.view.height);
-    for (std::size_t i = 0; i < depth.size(); ++i)
-        if (depth[i].x > wanted[i].z * (1 + depth_slack)) got[i % got.size()] += 1.0 / frame.view.samples;
+    const ReferenceImage &depth = result.at("depth_layers"), &wanted = truth.at("depth_layers");
+    std::vector<PixelCoverage> pixels(std::size_t(wanted.width) * wanted.height);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].wanted = wanted.texels[i].y;
+    for (std::size_t i = 0; i < wanted.texels.size(); ++i)
+        if (depth.texels[i].x > wanted.texels[i].z * (1 + depth_slack)) pixels[i % pixels.size()].got += 1.0 / wanted.layers;
+    return pixels;
+}
+
+std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame& frame) {
+    const std::vector<PixelCoverage> pixels = pixel_coverage(result, truth, frame);
+    if (pixels.empty()) return {};
     double difference = 0, covered = 0, got_area = 0, area = 0;
-    for (std::size_t i = 0; i < got.size(); ++i) {
-        if (got[i] == 0 && wanted[i].y == 0) continue;
-        difference += std::abs(got[i] - wanted[i].y);
-        got_area += got[i];
-        area += wanted[i].y;
+    for (const PixelCoverage& pixel : pixels) {
+        if (pixel.got == 0 && pixel.wanted == 0) continue;
+        difference += std::abs(pixel.got - pixel.wanted);
+        got_area += pixel.got;
+        area += pixel.wanted;
         ++covered;
     }
     return {{"masked coverage off", "of a pixel", difference / std::max(1.0, covered)},

@@ -12,9 +12,18 @@ namespace strata::gbuffer {
 /// third channel of depth_layers, which has one: coverage is dear, and one truth judges many results.
 void add_true_coverage(ImageSet& truth, const Frame&);
 
-/// Nothing where a frame has no masked surfaces. A sample counts as masked where its depth is nearer than what is not masked.
-/// First the mean difference of coverage per pixel over pixels that either covers in part or wholly, then by how much the whole
-/// area is off, in percent of the true one: fences and leaves that vanish or grow solid where texels are small.
+/// The share of a pixel that masked surfaces cover.
+struct PixelCoverage {
+    double got = 0, wanted = 0;
+};
+
+/// By pixel, row by row. Empty where a frame has no masked surfaces, which is asked before anything else. A sample counts as
+/// masked where its depth is nearer than what is not masked. The images need depth_layers alone.
+std::vector<PixelCoverage> pixel_coverage(const ImageSet& result, const ImageSet& truth, const Frame&);
+
+/// Nothing where a frame has no masked surfaces. First the mean difference of coverage per pixel over pixels that either covers
+/// in part or wholly, then by how much the whole area is off, in percent of the true one: fences and leaves that vanish or grow
+/// solid where texels are small.
 std::vector<Figure> coverage_figures(const ImageSet& result, const ImageSet& truth, const Frame&);
 
 }  // namespace strata::gbuffer

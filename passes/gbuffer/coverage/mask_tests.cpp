@@ -18,13 +18,7 @@ namespace {
 // A float that filters a texture is this near at least (passes/reference/visible_points.cpp).
 constexpr double rounding = 1.0 / 2048;
 
-/// What alpha is made of at a point of a masked surface, and its change per pixel as the 2x2 quad of the pixel has it.
-struct Linear {
-    glm::dvec2 uv{0}, uv_x{0}, uv_y{0};
-    double vertex = 1, vertex_x = 0, vertex_y = 0;
-};
-
-Linear linear_at(const Frame& frame, const RasterPoint& point) {
+MaskPoint mask_point_at(const Frame& frame, const RasterPoint& point) {
     const Corners corners = view_corners(frame, draw_space(frame, point.draw), point.draw, point.triangle);
     const TextureUse& use = material_of(frame, point.draw)->base_color_texture;
     const glm::dvec3& b = point.barycentric;
@@ -48,6 +42,15 @@ MaskCover decided(bool with_less, bool with_more, bool exactly) {
     return exactly ? MaskCover::maybe_kept : MaskCover::maybe_cut;
 }
 
+/// So many pixels from the point, over a footprint so many pixels wide.
+double alpha_beside(const Frame& frame, const Material& material, const MaskPoint& l, glm::dvec2 pixels, double width) {
+    const double own = double(material.base_color.w) * (l.vertex + pixels.x * l.vertex_x + pixels.y * l.vertex_y);
+    if (material.base_color_texture.texture == no_index) return own;
+    const Texture& texture = frame.textures[material.base_color_texture.texture];
+    const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
+    return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+}
+
 class Model {
 public:
     Model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) : frame_(&frame), method_(method), shade_at_(shade_at) {
@@ -59,24 +62,39 @@ public:
     }
 
     MaskCover operator()(const RasterPoint& point) const {
-        const Linear linear = linear_at(*frame_, point);
+        const MaskPoint here = mask_point_at(*frame_, point);
         const Material& material = *material_of(*frame_, point.draw);
         switch (method_) {
             case masked_per_sample:
-                return against_cutoff(material, alpha(material, linear, own_place(point), 1));
+                return against_cutoff(material, alpha(material, here, own_place(point), 1));
             case masked_per_sample_fine:
                 return against_cutoff(material,
-                                      alpha(material, linear, own_place(point), 1 / std::sqrt(double(frame_->view.samples))));
+                                      alpha(material, here, own_place(point), 1 / std::sqrt(double(frame_->view.samples))));
             case masked_mip_coverage:
-                return against_cutoff(material, alpha(material, linear, {}, 1) * scale(material, linear));
+                return by_scaled_alpha(material, here);
             case masked_hardware:
-                return by_device(material, linear, shade_at_ == ShadeAt::sample ? -sample_offset(point) : glm::dvec2(0));
+                return by_device(material, here, shade_at_ == ShadeAt::sample ? -sample_offset(point) : glm::dvec2(0));
             default:
-                return by_bands(point, material, linear);
+                return by_bands(material, here, place_of(point), {.at = point.sample, .of = frame_->view.samples});
         }
     }
 
+    /// Of one sample per pixel.
+    MaskCover at_point(const Material& material, const MaskPoint& here, const BandPlace& place) const {
+        if (method_ == masked_clip) return against_cutoff(material, alpha(material, here, {}, 1));
+        if (method_ == masked_mip_coverage) return by_scaled_alpha(material, here);
+        return by_bands(material, here, place, {.at = 0, .of = 1});
+    }
+
 private:
+    struct Sample {
+        std::uint32_t at, of;
+    };
+
+    BandPlace place_of(const RasterPoint& p) const {
+        return {.x = p.x, .y = p.y, .draw = p.draw, .triangle = corner_indices(*frame_, p.draw, p.triangle)[0]};
+    }
+
     glm::dvec2 own_place(const RasterPoint& point) const {
         if (shade_at_ == ShadeAt::sample) return {};
         return sample_offset(point);
@@ -87,7 +105,7 @@ private:
 
     /// Vulkan says what alphas of 0 and 1 cover and leaves the others to the device. Alpha is the pixel center's, which lies so
     /// many pixels from here; a filter that a float puts a little aside must say the same.
-    MaskCover by_device(const Material& material, const Linear& l, glm::dvec2 center) const {
+    MaskCover by_device(const Material& material, const MaskPoint& l, glm::dvec2 center) const {
         constexpr double aside = 0.05;
         bool none = true, all = true;
         for (const glm::dvec2 step : {glm::dvec2(0), {aside, 0}, {-aside, 0}, {0, aside}, {0, -aside}})
@@ -100,16 +118,11 @@ private:
         return alpha(material, l, center, 1) >= double(material.mask_cutoff) ? MaskCover::maybe_kept : MaskCover::maybe_cut;
     }
 
-    /// So many pixels from the point, over a footprint so many pixels wide.
-    double alpha(const Material& material, const Linear& l, glm::dvec2 pixels, double width) const {
-        const double own = double(material.base_color.w) * (l.vertex + pixels.x * l.vertex_x + pixels.y * l.vertex_y);
-        if (material.base_color_texture.texture == no_index) return own;
-        const Texture& texture = frame_->textures[material.base_color_texture.texture];
-        const glm::dvec2 uv = l.uv + pixels.x * l.uv_x + pixels.y * l.uv_y;
-        return own * trilinear(texture, uv, level_of_detail(texture, width * l.uv_x, width * l.uv_y)).w;
+    double alpha(const Material& material, const MaskPoint& l, glm::dvec2 pixels, double width) const {
+        return alpha_beside(*frame_, material, l, pixels, width);
     }
 
-    double scale(const Material& material, const Linear& l) const {
+    double scale(const Material& material, const MaskPoint& l) const {
         if (material.base_color_texture.texture == no_index) return 1;
         const Texture& texture = frame_->textures[material.base_color_texture.texture];
         const double most = std::min(texture.mips, mask_scale_mips) - 1;
@@ -120,21 +133,22 @@ private:
     }
 
     static MaskCover against_cutoff(const Material& material, double alpha) {
-        const double cutoff = material.mask_cutoff;
-        return decided(alpha - rounding >= cutoff, alpha + rounding >= cutoff, alpha >= cutoff);
+        return cover_by_cutoff(alpha, material.mask_cutoff);
     }
 
-    MaskCover by_bands(const RasterPoint& point, const Material& material, const Linear& l) const {
+    MaskCover by_scaled_alpha(const Material& material, const MaskPoint& l) const {
+        return against_cutoff(material, alpha(material, l, {}, 1) * scale(material, l));
+    }
+
+    MaskCover by_bands(const Material& material, const MaskPoint& l, const BandPlace& place, Sample sample) const {
         const double here = alpha(material, l, {}, 1);
-        const BandPlace place{
-            .x = point.x, .y = point.y, .draw = point.draw, .triangle = corner_indices(*frame_, point.draw, point.triangle)[0]};
         double change = 1;
         if (method_ == masked_sharpened)
             change =
                 std::max(1e-4, std::abs(alpha(material, l, {1, 0}, 1) - here) + std::abs(alpha(material, l, {0, 1}, 1) - here));
         const auto covers = [&](double a) {
             if (method_ == masked_sharpened) a = std::clamp((a - double(material.mask_cutoff)) / change + 0.5, 0.0, 1.0);
-            return (sample_mask(method_, frame_->view.samples, a, place) >> point.sample & 1u) != 0;
+            return (sample_mask(method_, sample.of, a, place) >> sample.at & 1u) != 0;
         };
         // Patterns of one more sample need not hold those of one less, and a steepened alpha passes several bands.
         const bool exactly = covers(here);
@@ -159,6 +173,14 @@ std::vector<double> alphas_of(const Texture& texture, std::uint32_t mip) {
 
 }  // namespace
 
+double alpha_at(const Frame& frame, const Material& material, const MaskPoint& point) {
+    return alpha_beside(frame, material, point, {}, 1);
+}
+
+MaskCover cover_by_cutoff(double alpha, double cutoff) {
+    return decided(alpha - rounding >= cutoff, alpha + rounding >= cutoff, alpha >= cutoff);
+}
+
 double mip_scale_model(const Frame& frame, const Material& material, std::uint32_t mip) {
     const std::uint32_t number = material.base_color_texture.texture;
     if (number == no_index || !(material.base_color.w > 0)) return 1;
@@ -179,6 +201,13 @@ double mip_scale_model(const Frame& frame, const Material& material, std::uint32
     thresholds.push_back(levels.back() * (1 + 1e-3));
     const auto best = std::ranges::min_element(thresholds, {}, [&](double t) { return std::abs(share(alphas, t) - wanted); });
     return *best > 0 ? cutoff / *best : 1;
+}
+
+PointMaskTest point_mask_model(const Frame& frame, std::uint32_t method) {
+    const auto model = std::make_shared<const Model>(frame, method, ShadeAt::pixel_center);
+    return [model](const Material& material, const MaskPoint& point, const BandPlace& place) {
+        return model->at_point(material, point, place);
+    };
 }
 
 MaskTest mask_model(const Frame& frame, std::uint32_t method, ShadeAt shade_at) {

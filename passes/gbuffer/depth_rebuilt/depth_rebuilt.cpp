@@ -18,21 +18,22 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 }  // namespace
 
 Technique depth_rebuilt() {
-    return {.stage = Stage::gbuffer,
-            .name = "gbuffer/depth_rebuilt",
-            .title = "Rebuilt depth, 80 bits",
-            .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
-            .summary =
-                "Takes depth from the depth buffer, exact at every sample; octahedral normals in 16 bits each, off by 0.004 "
-                "degrees at worst.",
-            .params = fill_params(),
-            .points = {"attributes=sample"},
-            .declare = declare,
-            .model = depth_rebuilt_model,
-            .tolerance = {.rmse = 1.5e-3,
-                          .worst = 0.018,
-                          .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is "
-                                     "0.0087 linear, 1/57 of metallic 0.018"}};
+    return {
+        .stage = Stage::gbuffer,
+        .name = "gbuffer/depth_rebuilt",
+        .title = "Rebuilt depth, 80 bits",
+        .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
+        .summary =
+            "Reads depth from the depth buffer, exact at every sample; stores octahedral normals in 2 x 16 bits, off by at most "
+            "0.004 degrees.",
+        .params = fill_params(),
+        .points = {"attributes=sample"},
+        .declare = declare,
+        .model = depth_rebuilt_model,
+        .tolerance = {.rmse = 1.5e-3,
+                      .worst = 0.018,
+                      .because = "a float on a rounding boundary takes the neighbouring code: 1/255 on the sRGB curve is "
+                                 "0.0087 linear, 1/57 of metallic 0.018"}};
 }
 
 }  // namespace strata::gbuffer

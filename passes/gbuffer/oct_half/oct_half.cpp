@@ -22,7 +22,9 @@ Technique oct_half() {
         .name = "gbuffer/oct_half",
         .title = "Octahedral halves, 96 bits",
         .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
-        .summary = "Octahedral normals in two half floats: no bad ring, 0.06 degrees at worst; depth is off by 1/2048 of itself.",
+        .summary =
+            "Stores octahedral normals in two half floats: off by at most 0.06 degrees in any direction; depth by 1/2048 of "
+            "itself.",
         .params = fill_params(),
         .points = {"attributes=sample"},
         .declare = declare,

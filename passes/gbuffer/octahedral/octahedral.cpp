@@ -24,8 +24,8 @@ Technique octahedral() {
         .title = "Octahedral codes, 96 bits",
         .source = "Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014",
         .summary =
-            "Normals to 0.004 degrees and depth to 1e-4 of itself, as integer codes that no half-float rounding touches; "
-            "no channel can be filtered or blended.",
+            "Stores normals (to 0.004 degrees) and depth (to 1e-4 of itself) as integer codes in half floats, which rounding "
+            "cannot change; no channel can be filtered or blended.",
         .params = fill_params(),
         .points = {"attributes=sample", "masked=per_sample", "masked=unbiased", "masked=mip_coverage"},
         .abilities = {.is_time_unit = true},

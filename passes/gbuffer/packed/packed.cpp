@@ -21,7 +21,10 @@ Technique packed() {
             .name = "gbuffer/packed",
             .title = "Clear Sky packing, 96 bits",
             .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
-            .summary = "Cheap to pack; normals seen edge-on are off by up to 2.1 degrees, and depth by 1/2048 of itself.",
+            .summary =
+                "Stores x and y of the normal and the sign of z: cheap to pack, but normals seen edge-on are off by up to 2.1 "
+                "degrees, and "
+                "depth by 1/2048 of itself.",
             .params = fill_params(),
             .points = {"attributes=sample"},
             .declare = declare,

@@ -40,7 +40,8 @@ Technique wide() {
         .name = "gbuffer/wide",
         .title = "Position and normal, 160 bits",
         .source = "Lobanchikov, Gruen: GSC Game World's S.T.A.L.K.E.R.: Clear Sky, a showcase for Direct3D 10.0/1, GDC 2009",
-        .summary = "Stores the whole position and the whole normal as half floats: nothing to reconstruct, 1.7 times the memory.",
+        .summary =
+            "Stores position and normal whole, as half floats: nothing to reconstruct, 1.7 times the memory of a 96-bit layout.",
         .params = fill_params(),
         .points = {"attributes=sample"},
         .claims = {.ratios = ratios()},

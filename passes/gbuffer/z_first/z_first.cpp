@@ -17,22 +17,23 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
 }  // namespace
 
 Technique z_first() {
-    return {.stage = Stage::gbuffer,
-            .name = "gbuffer/z_first",
-            .title = "Clear Sky packing, z first, 96 bits",
-            .source = "OpenXRay (xray-16), the later packing of the X-Ray engine",
-            .summary =
-                "Keeps z of the normal as it is and rebuilds y: level walls, which a level camera sees most, are off by up to "
-                "1.9 degrees.",
-            .params = fill_params(),
-            .points = {"attributes=sample"},
-            .declare = declare,
-            .model = z_first_model,
-            .tolerance = {.rmse = 1.5e-3,
-                          .worst = 0.11,
-                          .because =
-                              "a float on a rounding boundary takes the neighbouring half: where y of the normal goes to 0 that "
-                              "is up to 0.044 of it (sqrt(2 * 2^-10)), against a root mean square of 0.42 with the background"}};
+    return {
+        .stage = Stage::gbuffer,
+        .name = "gbuffer/z_first",
+        .title = "Clear Sky packing, z first, 96 bits",
+        .source = "OpenXRay (xray-16), the later packing of the X-Ray engine",
+        .summary =
+            "Stores z and x of the normal and rebuilds y: normals of level walls, which a level camera sees most, are off by up "
+            "to 1.9 degrees.",
+        .params = fill_params(),
+        .points = {"attributes=sample"},
+        .declare = declare,
+        .model = z_first_model,
+        .tolerance = {.rmse = 1.5e-3,
+                      .worst = 0.11,
+                      .because =
+                          "a float on a rounding boundary takes the neighbouring half: where y of the normal goes to 0 that "
+                          "is up to 0.044 of it (sqrt(2 * 2^-10)), against a root mean square of 0.42 with the background"}};
 }
 
 }  // namespace strata::gbuffer

@@ -25,8 +25,8 @@ Technique none() {
         .title = "No screen-space occlusion",
         .source = "the baseline: ambient light reaches every surface whole",
         .summary =
-            "Lets all ambient light arrive, so that corners are as bright as open ground; costs nothing, and its error is all "
-            "of the occlusion.",
+            "Lets all ambient light through, so that corners are as bright as open ground; costs nothing, and its error is the "
+            "whole occlusion.",
         .declare = declare_nothing,
         .at_other_stages = {{.at = Stage::film, .declare = make_ones}},
         .model = none_model,

@@ -139,10 +139,11 @@ std::vector<Param> params() {
                                         .fallback = default_radius,
                                         .help = "distance in world space beyond which surfaces do not occlude",
                                         .choices = radius_names}),
-            param<&SsaoParams::resolution>({.name = "ao_resolution",
-                                            .fallback = resolution_full,
-                                            .help = "half estimates one of 2x2 pixels and upsamples by surface",
-                                            .choices = resolutions}),
+            param<&SsaoParams::resolution>(
+                {.name = "ao_resolution",
+                 .fallback = resolution_full,
+                 .help = "half: estimates one pixel of each 2x2 and fills the others from neighbors on the same surface",
+                 .choices = resolutions}),
             param<&SsaoParams::blur>(
                 {.name = "ao_blur",
                  .fallback = 1,
@@ -198,8 +199,7 @@ Technique ssao() {
             "Lobanchikov, Gruen: S.T.A.L.K.E.R.: Clear Sky, GDC 2009 (ao_form=xray)",
         .summary =
             "Darkens ambient light by what the depth buffer shows around a pixel; surfaces off the screen or behind others "
-            "do not "
-            "occlude, and thin ones occlude as if they had no back.",
+            "do not occlude, and thin ones occlude as if they were infinitely thick.",
         .params = params(),
         .points = {"ao_taps=8", "ao_taps=12", "ao_taps=96", "ao_taps=96 ao_blur=off", "ao_blur=off", "ao_blur=off ao_noise=none",
                    "ao_noise=hash", "ao_resolution=half", "ao_resolution=half ao_taps=8", "ao_edge_stop=depth", "ao_radius=50cm",

@@ -14,7 +14,8 @@ ImageSet min_max_model(const StageInput&, const Settings&);
 
 namespace {
 
-static_assert(offsetof(MinMaxParams, filter) == 0);
+static_assert(offsetof(MinMaxParams, filter) == offsetof(ShadowMapParams, filter));
+static_assert(offsetof(MinMaxParams, caster_mask) == offsetof(ShadowMapParams, caster_mask));
 
 constexpr auto forms = choice_names({{form_hierarchical, "hierarchical"},
                                      {form_block, "block"},
@@ -29,7 +30,8 @@ const std::vector<ShadowView>& views_of(const FrameImages& frame) {
 }
 
 void draw_maps(Graph& graph, FrameImages& frame, const Settings& settings) {
-    make_shadow_maps(graph, frame, settings.as<MinMaxParams>().filter);
+    const auto params = settings.as<MinMaxParams>();
+    make_shadow_maps(graph, frame, {.filter = params.filter, .caster_mask = params.caster_mask});
 }
 
 ComputePass asking(ComputePass pass, const FrameImages& frame, const MinMaxParams& params) {

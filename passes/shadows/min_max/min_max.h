@@ -3,12 +3,13 @@
 
 #include "passes/shadows/bounds/build.h"
 #include "passes/shadows/min_max/min_max.shared.h"
-#include "passes/shadows/shadow_filter.h"
+#include "passes/shadows/shadow_map_params.h"
 
 namespace strata::shadows {
 
 struct MinMaxParams {
-    ShadowFilter filter;  ///< first: the stage's parameters fill it
+    ShadowFilter filter;  ///< first, with caster_mask: the stage's parameters fill them as in ShadowMapParams
+    std::uint32_t caster_mask = 0;
     std::uint32_t form = form_overlapping;
     std::uint32_t block = 1;  ///< 2 << block texels per edge
     std::uint32_t verify = 0;

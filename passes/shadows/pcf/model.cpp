@@ -1,10 +1,11 @@
 // Percentage-closer filtering in double, by brute force over the maps as they were drawn.
 #include "passes/shadows/lookup.h"
+#include "passes/shadows/shadow_map_params.h"
 
 namespace strata::shadows {
 
 ImageSet pcf_model(const StageInput& input, const Settings& settings) {
-    return visibility_model(input, settings.as<ShadowFilter>(), fixed_lookup);
+    return visibility_model(input, settings.as<ShadowMapParams>().filter, fixed_lookup);
 }
 
 }  // namespace strata::shadows

@@ -5,6 +5,7 @@
 
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/pcss/soft_kernel.h"
+#include "passes/shadows/shadow_map_params.h"
 
 namespace strata::shadows {
 
@@ -56,7 +57,7 @@ Filtered soft_lookup(const LookupScene& scene, const ShadowView& view, const Rec
 }  // namespace
 
 ImageSet pcss_model(const StageInput& input, const Settings& settings) {
-    return visibility_model(input, settings.as<ShadowFilter>(), soft_lookup);
+    return visibility_model(input, settings.as<ShadowMapParams>().filter, soft_lookup);
 }
 
 }  // namespace strata::shadows

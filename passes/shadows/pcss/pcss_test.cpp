@@ -8,6 +8,7 @@
 
 #include "passes/shadows/lookup.h"
 #include "passes/shadows/pcss/soft_kernel.h"
+#include "passes/shadows/shadow_map_params.h"
 #include "passes/shadows/truth.h"
 #include "tests/support/ground_from_above.h"
 #include "tests/support/traced_maps.h"
@@ -255,7 +256,7 @@ TEST(pcss, filters_a_light_that_is_not_soft_with_the_fixed_kernel) {
     const ImageSet images = before(frame, traced_maps(frame));
     const Technique technique = pcss();
     const Settings settings(technique.params);
-    const ReferenceImage fixed = visibility_model({frame, images}, settings.as<ShadowFilter>(), fixed_lookup).at("visibility");
+    const ReferenceImage fixed = visibility_model({frame, images}, settings.as<ShadowMapParams>().filter, fixed_lookup).at("visibility");
     EXPECT_EQ(pictures(frame).soft.texels, fixed.texels);
     EXPECT_FALSE(all(fixed, 1));
 }
