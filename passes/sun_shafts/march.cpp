@@ -86,7 +86,10 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
     Image image = graph.create(what.name, {.extent = extent, .format = Format::rgba16f, .layers = what.layers});
     ComputePass march = read_rays(graph.compute(shader.name), frame, params);
     sample_edges(march, frame);
-    if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
+    if (shader.bounds) {
+        fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
+        sample_bounds_nodes(march, shader.bounds->nodes);
+    }
     march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
         .stores("shafts", image)
         .fixes("steps", params.steps)
@@ -99,6 +102,7 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
         .fixes("has_maps", has_sun_maps(frame) ? 1u : 0u)
         .fixes("allocation", frame.shadow_filter.allocation)
         .fixes("shows_decided", what.shows_decided)
+        .fixes("segment", shader.bounds ? shader.bounds->segment : 1u)
         .over({extent.width, extent.height, what.layers});
     return image;
 }
@@ -171,6 +175,13 @@ std::vector<Param> march_params() {
              .high = 1,
              .fallback = 0.05,
              .help = "radiance of a fully lit ray by the sun's irradiance (shaft_normalization=steps)"})};
+}
+
+std::vector<Counter> march_counters() {
+    return {
+        counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
+        counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "1024 steps of all rays"}),
+        counter<&MarchCounters::kilofetches>({.name = "kilofetches", .help = "1024 texels of shadow maps read by all steps"})};
 }
 
 std::vector<DebugView> march_views() {
