@@ -33,7 +33,7 @@ struct MapRay {
 };
 
 struct Tally {
-    uint fetches, bounds, skipped, in_segments;
+    uint fetches, bounds, skipped, in_segments;  // the last two: steps decided each alone, and by their segment
 };
 
 // Whether something cheaper than the map says how much of the sun reaches a place of it: exactly what lit_share() would.
@@ -127,15 +127,9 @@ vec3 place_on(MapRay map, float covered) {
     return at;
 }
 
-// Whether one answer holds for the steps from k, which lies at `at` of the map, to the end of its segment.
-bool is_segment_decided(uint k, float drawn, ShaftRay ray, MapRay map, uint record, vec3 at, inout Tally tally, out float lit) {
-    const uint last = min(k + segment, steps) - 1u;
-    const float end = covered_place(place_of(last, ray.metres, drawn), ray);
-    lit = 1.0;
-    if (record_at(end * ray.direction.z) != record || !are_decided(map, at, place_on(map, end), tally, lit)) return false;
-    tally.skipped += last + 1u - k;
-    tally.in_segments += last + 1u - k;
-    return true;
+// Where the last step of the segment that begins with step k is covered.
+float end_of_segment(uint k, ShaftRay ray, float drawn) {
+    return covered_place(place_of(min(k + segment, steps) - 1u, ray.metres, drawn), ray);
 }
 
 // The share of the light scattered along the ray that the sun's shadows leave.
@@ -148,15 +142,19 @@ float lit_share_of(ShaftRay ray, uvec2 texel, inout Tally tally) {
     precise float sum = 0.0;
     for (uint k = 0u; k < steps; ++k) {
         precise const float place = place_of(k, ray.metres, drawn);
-        float lit = 1.0;
-        if (has_maps != 0u) {
+        float lit = known;
+        if (has_maps != 0u && !(is_known && k % segment != 0u)) {
             precise const float covered = covered_place(place, ray);
             const uint wanted = record_at(covered * ray.direction.z);
             if (wanted != record) map = map_ray(wanted, ray.direction);
             record = wanted;
             const vec3 at = place_on(map, covered);
-            if (segment > 1u && k % segment == 0u)
-                is_known = is_segment_decided(k, drawn, ray, map, record, at, tally, known);
+            is_known = false;
+            if (segment > 1u && k % segment == 0u) {
+                const float end = end_of_segment(k, ray, drawn);
+                is_known = record_at(end * ray.direction.z) == record && are_decided(map, at, place_on(map, end), tally, known);
+                if (is_known) tally.in_segments += min(segment, steps - k);
+            }
             if (is_known) lit = known;
             else if (!is_decided(map, at, tally, lit)) lit = lit_share(map, at, tally);
         }
@@ -176,7 +174,7 @@ void count(Tally tally) {
     atomicAdd(counters.kilosteps, carried(atomicAdd(counters.steps, rays * steps), rays * steps));
     atomicAdd(counters.kilofetches, carried(atomicAdd(counters.fetches, all.x), all.x));
     atomicAdd(counters.kilobounds, carried(atomicAdd(counters.bounds, all.y), all.y));
-    atomicAdd(counters.kiloskipped, carried(atomicAdd(counters.skipped, all.z), all.z));
+    atomicAdd(counters.kiloskipped, carried(atomicAdd(counters.skipped, all.z + all.w), all.z + all.w));
     atomicAdd(counters.kilosteps_in_segments, carried(atomicAdd(counters.in_segments, all.w), all.w));
 }
 
@@ -188,8 +186,8 @@ void main() {
     Tally tally = Tally(0u, 0u, 0u, 0u);
     const float share = lit_share_of(ray, uvec2(texel.xy), tally);
     count(tally);
-    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance;
-    if (shows_decided != 0u) result = vec3(float(tally.skipped) / float(steps));
+    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance * phase_factor(ray.direction);
+    if (shows_decided != 0u) result = vec3(float(tally.skipped + tally.in_segments) / float(steps));
     imageStore(shafts, texel, vec4(result, 1.0));
     if (!is_plain(at.xy)) return;
     for (int i = 1; i < imageSize(shafts).z; ++i) imageStore(shafts, ivec3(texel.xy, i), vec4(result, 1.0));

@@ -28,6 +28,7 @@ const uint normalization_steps = 1u;
 // shaft_phase
 const uint phase_isotropic = 0u;
 const uint phase_xray = 1u;
+const uint phase_henyey_greenstein = 2u;
 // shaft_cascade
 const uint cascade_of_step = 0u;
 const uint cascade_last = 1u;
@@ -43,12 +44,15 @@ struct MarchParams {
     uint phase;
     uint cascade;
     float intensity;
-    uint segment;  // of sun_shafts/ray_march_min_max alone
+    uint asymmetry;  // which of phase_asymmetries (truths.h)
+    uint segment;    // of sun_shafts/ray_march_min_max alone
 };
 
 struct MarchPush {
-    vec3 radiance;  // of a ray that scatters all of the sun's light and is lit throughout
-    float far;      // view depth in metres where rays end, if no surface ends them
+    vec3 radiance;    // of a ray that scatters all of the sun's light and is lit throughout
+    float far;        // view depth in metres where rays end, if no surface ends them
+    vec3 to_sun;      // unit, view space
+    float asymmetry;  // g of Henyey and Greenstein
 };
 
 // Units of 1024: at 1920 x 1080 x 4 samples x 128 steps x 4 texels the texels themselves would reach 99 % of 32 bits.
