@@ -2,6 +2,7 @@
 // does where windows are a texel too narrow (docs/algorithms/deferred.md 5.5, T-SM-2, T-SM-3 and T-SM-7). Maps are made by a
 // shader.
 #include <array>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -232,27 +233,26 @@ TEST(ShadowBounds, OfWindowsATexelShortOnOneSideAnswerWrongly) {
         for (const glm::ivec2 shift : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
             const MinMaxParams params = params_of(shadows::form_overlapping, kernel, 1);
             const Answers found =
-                ask_device({.scene = 3, .count = 50'000, .params = params, .bounds = params.bounds(), .shift = shift});
+                ask_device({.scene = 2, .count = 100'000, .params = params, .bounds = params.bounds(), .shift = shift});
             EXPECT_GT(found.mismatches, 50u) << "kernel " << (2u << kernel) << ", shifted by " << shift.x << ", " << shift.y;
         }
 }
 
-// The chapter's 1 % (5.4): 4149, 4722 and 4300 of 400,000 lookups by 2, 4 and 8 texels where each side lacks a texel.
+// The chapter (5.4) has 84, 68, 53 and 29 %, and 4149, 4722 and 4300 wrong answers of 400,000 where each side lacks a texel, of a
+// scene that it does not give. Half of the receivers here lie at the depth of a texel nearby, where answers are hardest.
 TEST(ShadowBounds, AnswerLessTheWiderTheirWindowsAndWronglyWhereThoseAreTooNarrow) {
-    const auto ask = [](std::uint32_t scene, std::uint32_t kernel, std::uint32_t reach) {
+    constexpr std::uint32_t boxes = 2;
+    const auto ask = [](std::uint32_t kernel, std::uint32_t reach) {
         const MinMaxParams params = params_of(shadows::form_overlapping, kernel, 1);
         BoundsSettings settings = params.bounds();
         settings.reach = reach;
-        return ask_device({.scene = scene, .count = 400'000, .params = params, .bounds = settings});
+        return ask_device({.scene = boxes, .count = 400'000, .params = params, .bounds = settings});
     };
-    for (std::uint32_t scene = 0; scene < 4; ++scene) {
-        std::string line = scenes[scene];
-        for (std::uint32_t reach : {0u, 1u, 2u, 4u})
-            line += fmt::format(" K={} {:.3f}", 4 + 2 * reach, ask(scene, 0, reach).percent());
-        for (std::uint32_t kernel : {0u, 1u, 2u})
-            line += fmt::format(" N={} {}", 2u << kernel, ask(scene, kernel, (1u << kernel) - 1).mismatches);
-        fmt::print("{}\n", line);
-    }
+    const std::pair<std::uint32_t, double> shares[] = {{0, 66.6}, {1, 47.0}, {2, 36.7}, {4, 27.7}};
+    for (const auto& [reach, percent] : shares) EXPECT_NEAR(ask(0, reach).percent(), percent, 1) << "K = " << 4 + 2 * reach;
+    const double wrong[] = {20700, 4900, 2316};
+    for (std::uint32_t kernel = 0; kernel < 3; ++kernel)
+        EXPECT_NEAR(ask(kernel, (1u << kernel) - 1).mismatches, wrong[kernel], .1 * wrong[kernel]) << (2u << kernel);
 }
 
 TEST(ShadowBounds, AsSlabsAnswerOnTiltedGroundWhatLevelOnesLeaveOpen) {
