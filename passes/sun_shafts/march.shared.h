@@ -32,6 +32,9 @@ const uint phase_henyey_greenstein = 2u;
 // shaft_cascade
 const uint cascade_of_step = 0u;
 const uint cascade_last = 1u;
+// shaft_bounds: which bounds of the shadows' technique are asked in place of own ones
+const uint bounds_as_narrow = 0u;
+const uint bounds_shared = 1u;
 
 struct MarchParams {
     uint steps;
@@ -45,7 +48,9 @@ struct MarchParams {
     uint cascade;
     float intensity;
     uint asymmetry;  // which of phase_asymmetries (truths.h)
-    uint segment;    // of sun_shafts/ray_march_min_max alone
+    // Of sun_shafts/ray_march_min_max alone.
+    uint segment;
+    uint bounds;
 };
 
 struct MarchPush {

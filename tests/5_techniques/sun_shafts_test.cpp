@@ -109,7 +109,7 @@ TEST(SunShafts, OverTheBoundsOfMinMaxShadowsAreTheSameToTheBit) {
     const std::vector<std::string> widths = {"kernel=2x2", "kernel=8x8"};
     for (const std::string& kernel : widths) {
         Request request = with_shafts("ray_march_min_max");
-        request.choices = chosen({"shadows/min_max", "sun_shafts/ray_march_min_max"}, {kernel});
+        request.choices = chosen({"shadows/min_max", "sun_shafts/ray_march_min_max"}, {kernel, "shaft_bounds=shared"});
         const auto shared = must(session_of_scenarios().run(request));
         EXPECT_EQ(plain.images.at("shafts").texels, shared.images.at("shafts").texels) << kernel;
         const std::uint64_t skipped = counted_by_shafts(shared, "kiloskipped");

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/sun_shafts/march.h"
 
@@ -13,6 +14,7 @@ ImageSet ray_march_min_max_model(const StageInput&, const Settings&);
 namespace {
 
 constexpr std::uint32_t widest_kernel_reach = 4;  // of 8 x 8 texels
+constexpr auto bounds_choices = choice_names({{bounds_as_narrow, "as_narrow"}, {bounds_shared, "shared"}});
 
 std::span<const ShadowView> sun_views(const FrameImages& frame) {
     const std::span<const ShadowView> views = frame.facts->shadow_views(static_cast<Allocation>(frame.shadow_filter.allocation));
@@ -22,8 +24,9 @@ std::span<const ShadowView> sun_views(const FrameImages& frame) {
 
 /// The bounds that the shadows' technique has built, if they answer what `wanted` would: wider windows decide less, and never
 /// otherwise.
-std::optional<BoundsSettings> built_bounds(const Graph& graph, const FrameImages& frame, BoundsSettings wanted) {
-    for (; wanted.reach <= widest_kernel_reach; ++wanted.reach)
+std::optional<BoundsSettings> built_bounds(const Graph& graph, const FrameImages& frame, BoundsSettings wanted,
+                                           std::uint32_t widest_reach) {
+    for (; wanted.reach <= widest_reach; ++wanted.reach)
         if (are_bounds(graph, frame.shadow_bounds, wanted)) return wanted;
     return std::nullopt;
 }
@@ -33,7 +36,8 @@ SunBounds bounds_of_sun(Graph& graph, const FrameImages& frame, const MarchParam
     SunBounds bounds{.settings = {.form = BoundsForm::extremes, .block = 4, .reach = params.taps == taps_1 ? 0u : 1u},
                      .segment = params.segment};
     if (!has_sun_maps(frame)) return bounds;
-    if (const auto built = built_bounds(graph, frame, bounds.settings)) {
+    const std::uint32_t widest = params.bounds == bounds_shared ? widest_kernel_reach : bounds.settings.reach;
+    if (const auto built = built_bounds(graph, frame, bounds.settings, widest)) {
         bounds.settings = *built;
         bounds.image = frame.shadow_bounds;
     } else {
@@ -73,6 +77,11 @@ std::vector<Param> params() {
          .high = 32,
          .fallback = 1,
          .help = "steps that coarser bounds may decide at once; 1: each step alone. The picture stays the same"}));
+    rows.push_back(param<&MarchParams::bounds>(
+        {.name = "shaft_bounds",
+         .fallback = bounds_as_narrow,
+         .help = "which bounds of shadows/min_max are asked: those as narrow as own ones, or shared: any wide enough",
+         .choices = bounds_choices}));
     return rows;
 }
 

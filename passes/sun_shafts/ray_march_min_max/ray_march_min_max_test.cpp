@@ -29,7 +29,7 @@ struct Case {
     std::uint32_t cascades = 1;
     ShadowUse shadow = {.casts = true, .map_size = 64};
     std::optional<BoundsSettings> built = {};  ///< bounds of the shadows' technique
-    std::string segment = "1";
+    std::string segment = "1", bounds = "shared";
 };
 
 /// Names of the steps that the technique declares for a frame in fog.
@@ -57,6 +57,7 @@ std::vector<std::string> steps(const Case& c) {
     const std::size_t before = graph.steps().size();
     Settings settings(technique.params);
     EXPECT_TRUE(settings.set("shaft_segment", std::string_view(c.segment)));
+    EXPECT_TRUE(settings.set("shaft_bounds", std::string_view(c.bounds)));
     technique.declare(graph, images, settings);
     std::vector<std::string> names;
     for (const Step& step : graph.steps().subspan(before))
@@ -84,6 +85,14 @@ TEST(RayMarchMinMax, AsksTheBoundsThatTheShadowsHaveBuiltWhereTheirWindowsAreWid
          {BoundsSettings{.reach = 0}, BoundsSettings{.block = 8}, BoundsSettings{.form = BoundsForm::slabs},
           BoundsSettings{.form = BoundsForm::planes}, BoundsSettings{.form = BoundsForm::levels, .reach = 0}})
         EXPECT_THAT(steps({.built = other}), ElementsAre(extremes, march));
+}
+
+// Wider windows leave more steps to the map, which at all but small pictures costs more than bounds of its own.
+TEST(RayMarchMinMax, AsksNoBoundsOfWiderWindowsUnlessToldTo) {
+    EXPECT_THAT(steps({.built = BoundsSettings{.reach = 1}, .bounds = "as_narrow"}), ElementsAre(march));
+    for (const std::uint32_t reach : {0u, 2u, 4u})
+        EXPECT_THAT(steps({.built = BoundsSettings{.reach = reach}, .bounds = "as_narrow"}), ElementsAre(extremes, march))
+            << reach;
 }
 
 TEST(RayMarchMinMax, BuildsNodesForSegmentsAloneAndNoneWiderThanAMap) {
