@@ -87,29 +87,30 @@ ComputePass& fix_shadow_filter(ComputePass& pass, const ShadowFilter& filter) {
 }
 
 std::vector<Param> shadow_map_params() {
-    return {param<&ShadowFilter::kernel>(
-                {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
-            param<&ShadowFilter::slope_limit>({.name = "slope_limit",
-                                               .low = 0,
-                                               .high = 8,
-                                               .fallback = 4,
-                                               .help = "tangent of the steepest angle between normal and light that the "
-                                                       "bias makes up for; 4 is 76 degrees"}),
-            param<&ShadowFilter::allocation>({.name = "allocation",
-                                              .low = 0,
-                                              .high = 1,
-                                              .fallback = 0,
-                                              .help = "own: maps as large as lights ask for, a layer each; need: as large as "
-                                                      "lights reach on the screen, packed",
-                                              .choices = allocations}),
-            param<&ShadowMapParams::caster_mask>(
-                {.name = "caster_mask",
-                 .low = 0,
-                 .high = 2,
-                 .fallback = 0,
-                 .help = "how masked casters fill texels: clip tests alpha at the cutoff, mip_coverage scales it by mip, dither "
-                         "fills alpha's share",
-                 .choices = caster_masks})};
+    return {
+        param<&ShadowFilter::kernel>(
+            {.name = "kernel", .low = 0, .high = 2, .fallback = 1, .help = "texels compared per lookup", .choices = kernels}),
+        param<&ShadowFilter::slope_limit>(
+            {.name = "slope_limit",
+             .low = 0,
+             .high = 8,
+             .fallback = 4,
+             .help = "steepest slope that the bias compensates: tangent of the angle between normal and light; 4 is 76 degrees"}),
+        param<&ShadowFilter::allocation>({.name = "allocation",
+                                          .low = 0,
+                                          .high = 1,
+                                          .fallback = 0,
+                                          .help = "size of shadow maps; own: as recorded, a layer each; need: by the extent that "
+                                                  "each light covers on the screen, packed",
+                                          .choices = allocations}),
+        param<&ShadowMapParams::caster_mask>(
+            {.name = "caster_mask",
+             .low = 0,
+             .high = 2,
+             .fallback = 0,
+             .help = "how masked casters fill texels: clip tests alpha at the cutoff, mip_coverage scales it by mip, dither "
+                     "fills alpha's share",
+             .choices = caster_masks})};
 }
 
 std::vector<Counter> shadow_map_counters() {

@@ -18,28 +18,33 @@ constexpr auto jitters =
 constexpr auto resolutions = choice_names({{resolution_full, "full"}, {resolution_half, "half"}});
 constexpr auto extinctions = choice_names({{extinction_integrated, "integrated"}, {extinction_sampled, "sampled"}});
 constexpr auto normalizations = choice_names({{normalization_physical, "physical"}, {normalization_steps, "steps"}});
-constexpr auto phases = choice_names({{phase_isotropic, "isotropic"}, {phase_xray, "xray"}});
+constexpr auto phases =
+    choice_names({{phase_isotropic, "isotropic"}, {phase_xray, "xray"}, {phase_henyey_greenstein, "henyey_greenstein"}});
+constexpr std::string_view asymmetries[] = {"0.2", "0.4", "0.6", "0.8"};
+static_assert(std::size(asymmetries) == phase_asymmetries.size());
 constexpr auto cascade_rules = choice_names({{cascade_of_step, "of_step"}, {cascade_last, "last"}});
 
+glm::dvec3 to_sun(const Frame& frame) { return -(frame.view.to_view * glm::normalize(glm::dvec3(frame.sun.direction))); }
+
 /// X-Ray's factor by the angle between the view's axis and the way to the sun (docs/algorithms/deferred.md 6.2).
-double view_factor(const Frame& frame) {
-    const double cosine = -(frame.view.to_view * glm::normalize(glm::dvec3(frame.sun.direction))).z;
-    return 0.8 * (0.5 * cosine + 0.5) + 0.2;
-}
+double view_factor(const Frame& frame) { return 0.8 * (0.5 * to_sun(frame).z + 0.5) + 0.2; }
 
 MarchPush push_of(const Frame& frame, const MarchParams& params) {
     const double near = double(frame.view.near);
     double share = params.phase == phase_xray ? view_factor(frame) : 1;
     share *= params.normalization == normalization_steps ? double(params.intensity) : 0.25 / std::numbers::pi;
     return {.radiance = vec3(glm::dvec3(frame.sun.irradiance) * share),
-            .far = float(std::max(double(frame.sun.shadow_distance), 2 * near))};
+            .far = float(std::max(double(frame.sun.shadow_distance), 2 * near)),
+            .to_sun = vec3(to_sun(frame)),
+            .asymmetry = float(phase_asymmetries.at(params.asymmetry))};
 }
 
 /// What every step that asks where rays end is given.
 ComputePass read_rays(ComputePass pass, const FrameImages& frame, const MarchParams& params) {
     return pass.samples("depth_layers", frame.depth_layers)
         .push(push_of(*frame.recorded, params))
-        .fixes("normalization", params.normalization);
+        .fixes("normalization", params.normalization)
+        .fixes("phase", params.phase);
 }
 
 Image upsample(Graph& graph, const FrameImages& frame, const MarchParams& params, const Image& shares) {
@@ -86,7 +91,10 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
     Image image = graph.create(what.name, {.extent = extent, .format = Format::rgba16f, .layers = what.layers});
     ComputePass march = read_rays(graph.compute(shader.name), frame, params);
     sample_edges(march, frame);
-    if (shader.bounds) fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
+    if (shader.bounds) {
+        fix_shadow_bounds(march, shader.bounds->settings).samples("shadow_bounds", shader.bounds->image);
+        sample_bounds_nodes(march, shader.bounds->nodes);
+    }
     march.samples("shadow_maps", has_sun_maps(frame) ? frame.shadow_maps : Image{})
         .stores("shafts", image)
         .fixes("steps", params.steps)
@@ -99,6 +107,7 @@ Image stored(Graph& graph, const MarchWork& work, const Stored& what) {
         .fixes("has_maps", has_sun_maps(frame) ? 1u : 0u)
         .fixes("allocation", frame.shadow_filter.allocation)
         .fixes("shows_decided", what.shows_decided)
+        .fixes("segment", shader.bounds ? shader.bounds->segment : 1u)
         .over({extent.width, extent.height, what.layers});
     return image;
 }
@@ -159,7 +168,7 @@ std::vector<Param> march_params() {
         param<&MarchParams::phase>(
             {.name = "shaft_phase",
              .fallback = phase_isotropic,
-             .help = "phase function: isotropic, or X-Ray's factor of the angle between the view's axis and the sun",
+             .help = "phase function: isotropic, X-Ray's factor of the angle between view axis and sun, or Henyey-Greenstein's",
              .choices = phases}),
         param<&MarchParams::cascade>({.name = "shaft_cascade",
                                       .fallback = cascade_of_step,
@@ -170,7 +179,19 @@ std::vector<Param> march_params() {
              .low = 0,
              .high = 1,
              .fallback = 0.05,
-             .help = "radiance of a fully lit ray by the sun's irradiance (shaft_normalization=steps)"})};
+             .help = "radiance of a fully lit ray by the sun's irradiance (shaft_normalization=steps)"}),
+        param<&MarchParams::asymmetry>(
+            {.name = "shaft_asymmetry",
+             .fallback = 2,
+             .help = "mean cosine of scattering angles (shaft_phase=henyey_greenstein); higher: brighter towards the sun",
+             .choices = asymmetries})};
+}
+
+std::vector<Counter> march_counters() {
+    return {
+        counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
+        counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "1024 steps of all rays"}),
+        counter<&MarchCounters::kilofetches>({.name = "kilofetches", .help = "1024 texels of shadow maps read by all steps"})};
 }
 
 std::vector<DebugView> march_views() {
@@ -180,7 +201,9 @@ std::vector<DebugView> march_views() {
 }
 
 std::string_view truth_of_phase(const Settings& settings) {
-    return settings.as<MarchParams>().phase == phase_xray ? xray_phase_truth : std::string_view{};
+    const auto params = settings.as<MarchParams>();
+    if (params.phase == phase_xray) return xray_phase_truth;
+    return params.phase == phase_henyey_greenstein ? asymmetric_truths.at(params.asymmetry) : std::string_view{};
 }
 
 }  // namespace strata::sun_shafts

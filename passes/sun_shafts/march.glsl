@@ -1,7 +1,8 @@
 // Sun shafts by marching the ray of every sample through the sun's shadow maps (docs/algorithms/deferred.md 6). Whoever includes
-// this defines is_decided(), which may answer a step without the map.
+// this defines is_decided(), which may answer a step without the map, and are_decided(), which may answer a segment of steps.
 #ifndef PASSES_SUN_SHAFTS_MARCH_GLSL
 #define PASSES_SUN_SHAFTS_MARCH_GLSL
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/shaders/hash.shared.h"
 #include "passes/sun_shafts/ray.glsl"
@@ -17,7 +18,8 @@ layout(constant_id = 7) const uint cascade = cascade_of_step;
 layout(constant_id = 8) const uint divisor = 1u;   // pixels a side for which one ray is marched
 layout(constant_id = 9) const uint has_maps = 0u;  // 0: the sun casts no shadow
 layout(constant_id = 10) const uint allocation = 0u;  // Allocation of passes/scene/shadow_views.h
-layout(constant_id = 11) const uint shows_decided = 0u;  // 1: the share of steps that is_decided() answers is stored instead
+layout(constant_id = 11) const uint shows_decided = 0u;  // 1: the share of steps answered without the map is stored instead
+layout(constant_id = 12) const uint segment = 1u;        // steps that are_decided() is asked about at once; 1: it is not asked
 
 layout(set = 0, binding = 0) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 1, rgba16f) writeonly uniform image2DArray shafts;
@@ -31,11 +33,13 @@ struct MapRay {
 };
 
 struct Tally {
-    uint fetches, bounds, skipped;
+    uint fetches, bounds, skipped, in_segments;  // the last two: steps decided each alone, and by their segment
 };
 
 // Whether something cheaper than the map says how much of the sun reaches a place of it: exactly what lit_share() would.
 bool is_decided(MapRay map, vec3 at, inout Tally tally, out float lit);
+// The same of all steps of a segment, whose places lie between those of the first and of the last.
+bool are_decided(MapRay map, vec3 first, vec3 last, inout Tally tally, out float lit);
 
 // Where the first step lies in its stratum, 0 to 1. In integers, so that all devices draw the same numbers: the gradient is that
 // of Jimenez 2014, fract(52.9829189 fract(.06711056 x + .00583715 y)), in units of 2^-32.
@@ -115,35 +119,63 @@ float step_share(float metres) {
     return (extinction == extinction_sampled ? in_step : lost(in_step)) / lost(depth);
 }
 
+// Maps begin at the near plane: what lies before it is lit as the place on it.
+float covered_place(float place, ShaftRay ray) { return max(place, view.near / ray.direction.z); }
+
+vec3 place_on(MapRay map, float covered) {
+    precise const vec3 at = map.eye + map.per_metre * covered;
+    return at;
+}
+
+// Where the last step of the segment that begins with step k is covered.
+float end_of_segment(uint k, ShaftRay ray, float drawn) {
+    return covered_place(place_of(min(k + segment, steps) - 1u, ray.metres, drawn), ray);
+}
+
 // The share of the light scattered along the ray that the sun's shadows leave.
 float lit_share_of(ShaftRay ray, uvec2 texel, inout Tally tally) {
     const float drawn = jitter_at(texel);
     uint record = no_index;
     MapRay map;
+    bool is_known = false;  // what the steps of the segment have in common
+    float known = 1.0;
     precise float sum = 0.0;
     for (uint k = 0u; k < steps; ++k) {
         precise const float place = place_of(k, ray.metres, drawn);
-        float lit = 1.0;
-        if (has_maps != 0u) {
-            // Maps begin at the near plane: what lies before it is lit as the place on it.
-            precise const float covered = max(place, view.near / ray.direction.z);
+        float lit = known;
+        if (has_maps != 0u && !(is_known && k % segment != 0u)) {
+            precise const float covered = covered_place(place, ray);
             const uint wanted = record_at(covered * ray.direction.z);
             if (wanted != record) map = map_ray(wanted, ray.direction);
             record = wanted;
-            precise const vec3 at = map.eye + map.per_metre * covered;
-            if (!is_decided(map, at, tally, lit)) lit = lit_share(map, at, tally);
+            const vec3 at = place_on(map, covered);
+            is_known = false;
+            if (segment > 1u && k % segment == 0u) {
+                const float end = end_of_segment(k, ray, drawn);
+                is_known = record_at(end * ray.direction.z) == record && are_decided(map, at, place_on(map, end), tally, known);
+                if (is_known) tally.in_segments += min(segment, steps - k);
+            }
+            if (is_known) lit = known;
+            else if (!is_decided(map, at, tally, lit)) lit = lit_share(map, at, tally);
         }
         sum += remains(k, ray.metres, place) * lit;
     }
     return sum * step_share(ray.metres);
 }
 
+// Adds to a count kept as 1024s and the rest: what the rest passes on.
+uint carried(uint before, uint more) { return ((before & 1023u) + more) / 1024u; }
+
 void count(Tally tally) {
-    atomicAdd(counters.rays, 1u);
-    atomicAdd(counters.steps, steps);
-    atomicAdd(counters.fetches, tally.fetches);
-    atomicAdd(counters.bounds, tally.bounds);
-    atomicAdd(counters.skipped, tally.skipped);
+    const uint rays = subgroupAdd(1u);
+    const uvec4 all = subgroupAdd(uvec4(tally.fetches, tally.bounds, tally.skipped, tally.in_segments));
+    if (!subgroupElect()) return;
+    atomicAdd(counters.rays, rays);
+    atomicAdd(counters.kilosteps, carried(atomicAdd(counters.steps, rays * steps), rays * steps));
+    atomicAdd(counters.kilofetches, carried(atomicAdd(counters.fetches, all.x), all.x));
+    atomicAdd(counters.kilobounds, carried(atomicAdd(counters.bounds, all.y), all.y));
+    atomicAdd(counters.kiloskipped, carried(atomicAdd(counters.skipped, all.z + all.w), all.z + all.w));
+    atomicAdd(counters.kilosteps_in_segments, carried(atomicAdd(counters.in_segments, all.w), all.w));
 }
 
 // Radiance; where one ray stands for 2 x 2 pixels the share alone, which upsample.comp makes radiance of.
@@ -151,11 +183,11 @@ void main() {
     const ivec3 texel = ivec3(gl_GlobalInvocationID), at = ivec3(texel.xy * int(divisor), texel.z);
     if (any(greaterThanEqual(texel, imageSize(shafts))) || at.z > 0 && is_plain(at.xy)) return;
     const ShaftRay ray = ray_to(at);
-    Tally tally = Tally(0u, 0u, 0u);
+    Tally tally = Tally(0u, 0u, 0u, 0u);
     const float share = lit_share_of(ray, uvec2(texel.xy), tally);
     count(tally);
-    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance;
-    if (shows_decided != 0u) result = vec3(float(tally.skipped) / float(steps));
+    vec3 result = divisor > 1u ? vec3(share) : share * scattered(ray.metres) * push.radiance * phase_factor(ray.direction);
+    if (shows_decided != 0u) result = vec3(float(tally.skipped + tally.in_segments) / float(steps));
     imageStore(shafts, texel, vec4(result, 1.0));
     if (!is_plain(at.xy)) return;
     for (int i = 1; i < imageSize(shafts).z; ++i) imageStore(shafts, ivec3(texel.xy, i), vec4(result, 1.0));

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "passes/shadows/bounds/build.h"
+#include "passes/shadows/bounds/nodes.h"
 #include "passes/sun_shafts/march.shared.h"
 #include "passes/technique.h"
 
@@ -21,6 +21,8 @@ bool has_sun_maps(const FrameImages&);
 struct SunBounds {
     Image image;
     BoundsSettings settings;
+    BoundsNodes nodes;          ///< where segments are asked about
+    std::uint32_t segment = 1;  ///< steps that are asked about at once; 1: each alone
 };
 
 /// A shader that includes march.glsl.
@@ -35,6 +37,7 @@ void march_shafts(Graph&, FrameImages&, const Settings&, const MarchShader&);
 Image show_decided(Graph&, FrameImages&, const Settings&, const MarchShader&);
 
 std::vector<Param> march_params();
+std::vector<Counter> march_counters();
 std::vector<DebugView> march_views();
 /// Technique::approximates: the truth of the phase function.
 std::string_view truth_of_phase(const Settings&);

@@ -17,6 +17,7 @@
 #include "passes/reference/shade.h"
 #include "passes/shadows/lookup.h"
 #include "passes/sun_shafts/march.shared.h"
+#include "passes/sun_shafts/truths.h"
 
 namespace strata::sun_shafts {
 namespace {
@@ -76,7 +77,7 @@ public:
     /// What a ray that is lit throughout scatters.
     double whole(const MarchedRay& ray) const { return scatters_by_step() ? 1 : -std::expm1(-density_ * ray.metres); }
     Amount marched(const MarchedRay&, glm::uvec2 texel) const;
-    glm::dvec3 radiance() const;
+    glm::dvec3 radiance(const MarchedRay&) const;
 
     const StageInput& input;
     const MarchParams params;
@@ -187,8 +188,12 @@ Amount March::marched(const MarchedRay& ray, glm::uvec2 texel) const {
 }
 
 /// Of a ray that scatters all of the sun's light and is lit throughout.
-glm::dvec3 March::radiance() const {
-    const double factor = params.phase == phase_xray ? 0.8 * (0.5 * to_sun_.z + 0.5) + 0.2 : 1;
+glm::dvec3 March::radiance(const MarchedRay& ray) const {
+    double factor = params.phase == phase_xray ? 0.8 * (0.5 * to_sun_.z + 0.5) + 0.2 : 1;
+    if (params.phase == phase_henyey_greenstein) {
+        const double g = phase_asymmetries.at(params.asymmetry);
+        factor = (1 - g * g) * std::pow(1 + g * g - 2 * g * glm::dot(ray.direction, to_sun_), -1.5);
+    }
     return glm::dvec3(input.frame.sun.irradiance) * factor * (scatters_by_step() ? double(params.intensity) : 1 / (4 * pi));
 }
 
@@ -254,7 +259,7 @@ ImageSet march_model(const StageInput& input, const Settings& settings) {
                 const bool repeats = sample > 0 && is_plain_pixel(input, x, y);
                 const MarchedRay ray = march.ray_to(x, y, repeats ? 0 : sample);
                 const Amount found = half ? half->at(x, y, ray) : march.marched(ray, {x, y});
-                const glm::dvec3 whole = march.whole(ray) * march.radiance();
+                const glm::dvec3 whole = march.whole(ray) * march.radiance(ray);
                 const std::size_t texel = shafts.index(x, y, sample);
                 shafts.texels[texel] = glm::dvec4(found.share * whole, 1);
                 spreads[texel] = found.spread * glm::length(whole);

@@ -6,6 +6,7 @@
 #include "passes/sun_shafts/march.shared.h"
 
 layout(constant_id = 1) const uint normalization = normalization_physical;
+layout(constant_id = 13) const uint phase = phase_isotropic;
 
 layout(set = 0, binding = 2) uniform sampler2DArray depth_layers;
 layout(push_constant, scalar) uniform Push { MarchPush push; };
@@ -33,5 +34,13 @@ float lost(float x) { return x < 0.03125 ? x * (1.0 - x * (0.5 - x * (1.0 / 6.0 
 
 // What a ray that is lit throughout scatters, as a share of push.radiance.
 float scattered(float metres) { return normalization == normalization_steps ? 1.0 : lost(view.fog_density * metres); }
+
+// What a ray's direction makes of isotropic scattering: 1 on average over all directions (Henyey, Greenstein: Diffuse Radiation
+// in the Galaxy, 1941).
+float phase_factor(vec3 direction) {
+    if (phase != phase_henyey_greenstein) return 1.0;
+    const float g = push.asymmetry, spread = 1.0 + g * g - 2.0 * g * dot(direction, push.to_sun);
+    return (1.0 - g * g) / (spread * sqrt(spread));
+}
 
 #endif

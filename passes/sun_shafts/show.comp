@@ -12,7 +12,8 @@ layout(set = 0, binding = 1, rgba32f) writeonly uniform image2D shown;
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(shown)))) return;
-    const float whole = scattered(ray_to(ivec3(pixel, 0)).metres) * luminance(push.radiance);
+    const ShaftRay ray = ray_to(ivec3(pixel, 0));
+    const float whole = scattered(ray.metres) * luminance(push.radiance) * phase_factor(ray.direction);
     const float own = luminance(texelFetch(shafts, ivec3(pixel, 0), 0).rgb);
     imageStore(shown, pixel, vec4(vec3(whole > 0.0 ? own / whole : 0.0), 1.0));
 }

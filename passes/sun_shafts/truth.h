@@ -16,7 +16,9 @@ namespace strata {
 
 /// "shafts": radiance, one layer per sample, each along its own ray. Isotropic: phase = 1 / (4 pi).
 ImageSet sun_shafts_truth(const StageInput&);
-/// With the phase of X-Ray: (.8 (.5 c + .5) + .2) / (4 pi), c the cosine between the view's axis and the way to the sun.
+/// With the phase of X-Ray: (.8 (.5 c + .5) + .2) / (4 pi), c the cosine between the view's axis and the way to the sun. With
+/// that of Henyey and Greenstein 1941: (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^1.5), cos of the angle between the ray and the way
+/// to the sun.
 std::vector<TruthRow> other_sun_shafts_truths();
 
 }  // namespace strata

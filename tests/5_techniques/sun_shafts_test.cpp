@@ -1,6 +1,7 @@
 // Sun shafts on the device: min-max maps change no bit and spare most reads, runs repeat, and combine adds what the stage gives.
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,6 +26,10 @@ std::uint64_t counted_by_shafts(const Run& run, std::string_view name) {
         if (counter.technique.starts_with("sun_shafts/") && counter.name == name) return counter.value;
     ADD_FAILURE() << "nothing counts " << name;
     return 0;
+}
+
+Run run_of(const std::string& technique, const std::vector<std::string>& sets) {
+    return must(session_of_scenarios().run(with_shafts(technique, sets)));
 }
 
 /// A floor under a roof, both of 120 by 120 m: in between, everything in reach of the picture is in shadow, if the roof casts
@@ -61,17 +66,66 @@ TEST(SunShafts, OverMinMaxMapsAreTheSameToTheBitAndReadLess) {
                                                          {"shaft_stepping=xray", "shaft_jitter=hash"},
                                                          {"shaft_resolution=half", "allocation=need"},
                                                          {"shaft_cascade=last", "shaft_extinction=sampled"}};
-    Session& session = session_of_scenarios();
     for (const std::vector<std::string>& sets : kinds) {
         SCOPED_TRACE(testing::PrintToString(sets));
-        const auto plain = must(session.run(with_shafts("ray_march", sets)));
-        const auto quick = must(session.run(with_shafts("ray_march_min_max", sets)));
+        const auto plain = run_of("ray_march", sets), quick = run_of("ray_march_min_max", sets);
         EXPECT_EQ(plain.images.at("shafts").texels, quick.images.at("shafts").texels);
-        EXPECT_EQ(counted_by_shafts(plain, "steps"), counted_by_shafts(quick, "steps"));
-        const std::uint64_t skipped = counted_by_shafts(quick, "skipped"), steps = counted_by_shafts(quick, "steps");
+        EXPECT_EQ(counted_by_shafts(plain, "kilosteps"), counted_by_shafts(quick, "kilosteps"));
+        const std::uint64_t skipped = counted_by_shafts(quick, "kiloskipped"), steps = counted_by_shafts(quick, "kilosteps");
         RecordProperty("skipped", std::to_string(double(skipped) / double(steps)));
         EXPECT_GT(skipped, steps / 2);
-        EXPECT_LT(counted_by_shafts(quick, "fetches"), counted_by_shafts(plain, "fetches") / 2);
+        EXPECT_LT(counted_by_shafts(quick, "kilofetches"), counted_by_shafts(plain, "kilofetches") / 2);
+        EXPECT_EQ(counted_by_shafts(quick, "kilosteps_in_segments"), 0u);
+    }
+}
+
+TEST(SunShafts, DecidedByTheSegmentAreTheSameToTheBitAndReadFewerBoundsWhereStepsAreShort) {
+    const std::vector<std::vector<std::string>> kinds = {
+        {"shaft_steps=128"},
+        {"shaft_steps=128", "shaft_taps=1", "shaft_jitter=hash", "shaft_stepping=xray", "allocation=need"},
+        {"shaft_steps=20", "shaft_resolution=half", "shaft_cascade=last", "shaft_normalization=steps"}};
+    for (const std::vector<std::string>& sets : kinds) {
+        const auto plain = run_of("ray_march", sets), alone = run_of("ray_march_min_max", sets);
+        for (const char* segment : {"shaft_segment=7", "shaft_segment=16"}) {
+            SCOPED_TRACE(testing::PrintToString(sets) + segment);
+            std::vector<std::string> with_segments = sets;
+            with_segments.push_back(segment);
+            const auto quick = run_of("ray_march_min_max", with_segments);
+            EXPECT_EQ(plain.images.at("shafts").texels, quick.images.at("shafts").texels);
+            EXPECT_EQ(counted_by_shafts(quick, "kiloskipped"), counted_by_shafts(alone, "kiloskipped"))
+                << "whoever decides steps, those that bounds leave open are the same";
+            EXPECT_EQ(counted_by_shafts(quick, "kilofetches"), counted_by_shafts(alone, "kilofetches"));
+            if (sets.front() != "shaft_steps=128") continue;
+            EXPECT_GT(counted_by_shafts(quick, "kilosteps_in_segments"), counted_by_shafts(quick, "kilosteps") / 4);
+            EXPECT_LT(counted_by_shafts(quick, "kilobounds"), counted_by_shafts(alone, "kilobounds"));
+        }
+    }
+}
+
+// Windows for the kernel of 2 x 2 texels are those that four texels of a step need.
+TEST(SunShafts, OverTheBoundsOfMinMaxShadowsAreTheSameToTheBit) {
+    const auto plain = run_of("ray_march", {}), own = run_of("ray_march_min_max", {});
+    const std::uint64_t alone = counted_by_shafts(own, "kiloskipped");
+    const std::vector<std::string> widths = {"kernel=2x2", "kernel=8x8"};
+    for (const std::string& kernel : widths) {
+        Request request = with_shafts("ray_march_min_max");
+        request.choices = chosen({"shadows/min_max", "sun_shafts/ray_march_min_max"}, {kernel, "shaft_bounds=shared"});
+        const auto shared = must(session_of_scenarios().run(request));
+        EXPECT_EQ(plain.images.at("shafts").texels, shared.images.at("shafts").texels) << kernel;
+        const std::uint64_t skipped = counted_by_shafts(shared, "kiloskipped");
+        if (kernel == widths.front()) {
+            EXPECT_EQ(skipped, alone);
+        } else {
+            EXPECT_LT(skipped, alone) << "wider windows decide less";
+        }
+    }
+}
+
+TEST(SunShafts, CountStepsBy1024WithoutLosingAny) {
+    for (const char* steps : {"shaft_steps=8", "shaft_steps=31"}) {
+        const auto run = run_of("ray_march", {steps});
+        const std::uint64_t all = counted_by_shafts(run, "rays") * std::stoull(std::string(steps).substr(12));
+        EXPECT_EQ(counted_by_shafts(run, "kilosteps"), all / 1024);
     }
 }
 

@@ -2,9 +2,11 @@
 #include "passes/shadows/bounds/build.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "passes/shadows/bounds/bounds.shared.h"
@@ -34,7 +36,7 @@ std::vector<BoundsPush> pushes_of(std::span<const ShadowView> views, std::uint32
 std::uint32_t blocks(std::uint32_t texels, std::uint32_t block) { return (texels + block - 1) / block; }
 
 struct Blocks {
-    const char* name;
+    std::string name;
     std::uint32_t block;
     Format format;
 };
@@ -62,7 +64,7 @@ void add_extremes(Graph& graph, const Wanted& work, const BoundsSettings& settin
 
 /// Of windows: by way of the largest blocks that both the block and the reach are made of.
 Image extremes_of(Graph& graph, const Wanted& work) {
-    Image bounds = create_blocks(graph, work, {"shadow_bounds", work.settings.block, Format::rg32f});
+    Image bounds = create_blocks(graph, work, {bounds_name(work.settings), work.settings.block, Format::rg32f});
     const std::uint32_t part = std::gcd(work.settings.block, work.settings.reach);
     if (work.settings.reach == 0 || part == 1) {
         add_extremes(graph, work, work.settings, bounds);
@@ -88,7 +90,7 @@ Image levels_of(Graph& graph, const Wanted& work) {
     const std::uint32_t block = work.settings.block;
     const std::uint32_t texels = block * blocks(std::max(maps.extent.width, maps.extent.height), block);
     const Extent extent{texels - texels / block, texels / 2};
-    Image bounds = graph.create("shadow_bounds", {.extent = extent, .format = Format::rg32f, .layers = maps.layers});
+    Image bounds = graph.create(bounds_name(work.settings), {.extent = extent, .format = Format::rg32f, .layers = maps.layers});
     graph.clear(bounds, {});
     add_extremes(graph, work, {.block = 2, .reach = 0}, bounds);
     for (std::uint32_t level = 2; 1u << level <= block; ++level) {
@@ -104,7 +106,7 @@ Image levels_of(Graph& graph, const Wanted& work) {
 }
 
 Image slabs_of(Graph& graph, const Wanted& work) {
-    Image bounds = create_blocks(graph, work, {"shadow_bounds", work.settings.block, Format::rgba32f});
+    Image bounds = create_blocks(graph, work, {bounds_name(work.settings), work.settings.block, Format::rgba32f});
     for (const BoundsPush& push : work.pushes) {
         ComputePass pass = graph.compute("shadows/bounds/slabs.comp");
         fix_shadow_bounds(pass, work.settings)
@@ -126,6 +128,16 @@ Image add_shadow_bounds(Graph& graph, const Image& shadow_maps, std::span<const 
     const Wanted work{shadow_maps, pushes_of(views, settings.block), settings};
     if (settings.form == BoundsForm::extremes) return extremes_of(graph, work);
     return settings.form == BoundsForm::levels ? levels_of(graph, work) : slabs_of(graph, work);
+}
+
+std::string bounds_name(const BoundsSettings& settings) {
+    constexpr std::array forms = {"extremes", "levels", "slabs", "planes"};
+    return std::string("shadow_bounds ") + forms[static_cast<std::size_t>(settings.form)] + " block " +
+           std::to_string(settings.block) + " reach " + std::to_string(settings.reach);
+}
+
+bool are_bounds(const Graph& graph, const Image& image, const BoundsSettings& settings) {
+    return image && graph.record(image).name == bounds_name(settings);
 }
 
 ComputePass& fix_shadow_bounds(ComputePass& pass, const BoundsSettings& settings) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "passes/graph/graph.h"
 #include "passes/scene/shadow_views.h"
@@ -39,6 +40,12 @@ inline constexpr float plane_tolerance = 1e-4f;
 /// bounds are 0. Maps smaller than a block get none, and query.glsl answers "expensive" for them. Beyond a map's edge depth is 0,
 /// beyond the edge of a cube's face its outermost texels go on: as lookups read it.
 Image add_shadow_bounds(Graph&, const Image& shadow_maps, std::span<const ShadowView>, const BoundsSettings&);
+
+/// The name of the image that holds bounds with these settings.
+std::string bounds_name(const BoundsSettings&);
+/// Whether the image holds bounds with these settings: by its name, since the steps that built it are gone where a session kept
+/// it.
+bool are_bounds(const Graph&, const Image&, const BoundsSettings&);
 
 /// Fixes the constants of passes/shadows/bounds/query.glsl in a step whose shader includes it. The step also says
 /// .samples("shadow_bounds", ...).

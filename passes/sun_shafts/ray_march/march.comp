@@ -7,3 +7,8 @@ bool is_decided(MapRay map, vec3 at, inout Tally tally, out float lit) {
     lit = 1.0;
     return false;
 }
+
+bool are_decided(MapRay map, vec3 first, vec3 last, inout Tally tally, out float lit) {
+    lit = 1.0;
+    return false;
+}

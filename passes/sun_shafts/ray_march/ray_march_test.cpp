@@ -176,6 +176,58 @@ TEST(RayMarch, ScattersAsXRayDoesByTheViewsAngleToTheSun) {
     EXPECT_NEAR(factor({0, 0, 1}), .2, 1e-12);
 }
 
+// By hand: (1 - g^2) / (1 + g^2 - 2 g c)^1.5 with c = 1, 0, -1.
+TEST(RayMarch, ScattersForwardAsHenyeyAndGreensteinSay) {
+    const auto factor = [](const glm::vec3& sun, const char* g) {
+        const Tunnel tunnel(sun);
+        const std::vector<std::string> sets{"shaft_phase=henyey_greenstein", std::string("shaft_asymmetry=") + g};
+        return tunnel.shaft(sets) / tunnel.shaft({});
+    };
+    EXPECT_NEAR(factor({0, 0, -1}, "0.6"), 10, 1e-6) << "towards the sun: (1 + g) / (1 - g)^2";
+    EXPECT_NEAR(factor({0, -1, 0}, "0.6"), .64 / std::pow(1.36, 1.5), 1e-6);
+    EXPECT_NEAR(factor({0, 0, 1}, "0.6"), .15625, 1e-6) << "(1 - g) / (1 + g)^2";
+    EXPECT_NEAR(factor({0, 0, -1}, "0.8"), 45, 1e-5);
+}
+
+// The phase only turns light: over all directions the factor's mean is 1, and cosines weighted by it have the mean g.
+TEST(RayMarch, ByHenyeyAndGreensteinScattersAllLightWithTheMeanCosineOfItsName) {
+    for (const double g : {.2, .4, .6, .8}) {
+        const std::string set = "shaft_asymmetry=0." + std::to_string(std::lround(10 * g));
+        constexpr int directions = 1000;
+        Tunnel tunnel(down);
+        tunnel.frame.sun.shadow.casts = false;
+        const double isotropic = tunnel.shaft({});
+        double whole = 0, cosines = 0;
+        for (int i = 0; i < directions; ++i) {
+            const double c = -1 + (i + .5) * 2 / directions;
+            tunnel.frame.sun.direction = glm::vec3(0, -std::sqrt(1 - c * c), -c);
+            const double factor = tunnel.shaft({"shaft_phase=henyey_greenstein", set}) / isotropic;
+            whole += factor / directions;
+            cosines += c * factor / directions;
+        }
+        EXPECT_NEAR(whole, 1, 1e-3) << g;
+        EXPECT_NEAR(cosines, g, 1e-3) << g;
+    }
+}
+
+TEST(RayMarch, HasATruthForEachPhase) {
+    const Technique technique = ray_march();
+    const Tunnel tunnel(glm::normalize(glm::vec3(.2f, -1, -.7f)));
+    std::vector<std::vector<std::string>> kinds{{}, {"shaft_phase=xray"}};
+    for (const char* g : {"0.2", "0.4", "0.6", "0.8"})
+        kinds.push_back({"shaft_phase=henyey_greenstein", std::string("shaft_asymmetry=") + g});
+    double before = 0;
+    for (const std::vector<std::string>& sets : kinds) {
+        Settings settings(technique.params);
+        for (const std::string& set : sets)
+            EXPECT_TRUE(settings.set(set.substr(0, set.find('=')), std::string_view(set).substr(set.find('=') + 1)));
+        const double truth = truth_of(technique, settings).make({tunnel.frame, tunnel.before}).at("shafts").at(0, 0).x;
+        EXPECT_NEAR(tunnel.shaft(sets), truth, 1e-9) << testing::PrintToString(sets);
+        EXPECT_NE(truth, before) << testing::PrintToString(sets);
+        before = truth;
+    }
+}
+
 TEST(RayMarch, EndsAtTheShadowDistanceWhereNothingIsNearer) {
     Tunnel tunnel(down);
     tunnel.before["depth_layers"] = ReferenceImage(1, 1, 1, glm::dvec4(0));

@@ -1,7 +1,9 @@
 // Sun shafts by the same march, where bounds of blocks of the shadow map answer most steps.
 #include <algorithm>
+#include <optional>
 #include <span>
 
+#include "passes/choice_names.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/sun_shafts/march.h"
 
@@ -11,21 +13,42 @@ ImageSet ray_march_min_max_model(const StageInput&, const Settings&);
 
 namespace {
 
-/// One texel of the bounds answers a step that reads no texel farther than `reach` from its own.
-SunBounds bounds_of_sun(Graph& graph, const FrameImages& frame, std::uint32_t taps) {
-    SunBounds bounds{.settings = {.form = BoundsForm::extremes, .block = 4, .reach = taps == taps_1 ? 0u : 1u}};
-    if (!has_sun_maps(frame)) return bounds;
-    const auto allocation = static_cast<Allocation>(frame.shadow_filter.allocation);
-    const std::span<const ShadowView> views = frame.facts->shadow_views(allocation);
+constexpr std::uint32_t widest_kernel_reach = 4;  // of 8 x 8 texels
+constexpr auto bounds_choices = choice_names({{bounds_as_narrow, "as_narrow"}, {bounds_shared, "shared"}});
+
+std::span<const ShadowView> sun_views(const FrameImages& frame) {
+    const std::span<const ShadowView> views = frame.facts->shadow_views(static_cast<Allocation>(frame.shadow_filter.allocation));
     const auto end = std::ranges::find_if(views, [](const ShadowView& view) { return view.light != 0; });
-    const auto cascades = static_cast<std::size_t>(end - views.begin());
-    bounds.image = add_shadow_bounds(graph, frame.shadow_maps, views.first(cascades), bounds.settings);
+    return views.first(static_cast<std::size_t>(end - views.begin()));
+}
+
+/// The bounds that the shadows' technique has built, if they answer what `wanted` would: wider windows decide less, and never
+/// otherwise.
+std::optional<BoundsSettings> built_bounds(const Graph& graph, const FrameImages& frame, BoundsSettings wanted,
+                                           std::uint32_t widest_reach) {
+    for (; wanted.reach <= widest_reach; ++wanted.reach)
+        if (are_bounds(graph, frame.shadow_bounds, wanted)) return wanted;
+    return std::nullopt;
+}
+
+/// One texel of the bounds answers a step that reads no texel farther than `reach` from its own.
+SunBounds bounds_of_sun(Graph& graph, const FrameImages& frame, const MarchParams& params) {
+    SunBounds bounds{.settings = {.form = BoundsForm::extremes, .block = 4, .reach = params.taps == taps_1 ? 0u : 1u},
+                     .segment = params.segment};
+    if (!has_sun_maps(frame)) return bounds;
+    const std::uint32_t widest = params.bounds == bounds_shared ? widest_kernel_reach : bounds.settings.reach;
+    if (const auto built = built_bounds(graph, frame, bounds.settings, widest)) {
+        bounds.settings = *built;
+        bounds.image = frame.shadow_bounds;
+    } else {
+        bounds.image = add_shadow_bounds(graph, frame.shadow_maps, sun_views(frame), bounds.settings);
+    }
+    if (params.segment > 1) bounds.nodes = add_bounds_nodes(graph, bounds.image, sun_views(frame), bounds.settings);
     return bounds;
 }
 
 MarchShader shader_of(Graph& graph, const FrameImages& frame, const Settings& settings) {
-    return {.name = "sun_shafts/ray_march_min_max/march.comp",
-            .bounds = bounds_of_sun(graph, frame, settings.as<MarchParams>().taps)};
+    return {.name = "sun_shafts/ray_march_min_max/march.comp", .bounds = bounds_of_sun(graph, frame, settings.as<MarchParams>())};
 }
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
@@ -46,6 +69,22 @@ Image show_decided_steps(Graph& graph, FrameImages& frame, const Settings& setti
     return picture;
 }
 
+std::vector<Param> params() {
+    std::vector<Param> rows = march_params();
+    rows.push_back(param<&MarchParams::segment>(
+        {.name = "shaft_segment",
+         .low = 1,
+         .high = 32,
+         .fallback = 1,
+         .help = "steps that coarser bounds may decide at once; 1: each step alone. The picture stays the same"}));
+    rows.push_back(param<&MarchParams::bounds>(
+        {.name = "shaft_bounds",
+         .fallback = bounds_as_narrow,
+         .help = "which bounds of shadows/min_max are asked: those as narrow as own ones, or shared: any wide enough",
+         .choices = bounds_choices}));
+    return rows;
+}
+
 std::vector<DebugView> views() {
     std::vector<DebugView> views = march_views();
     views.push_back({.name = "decided steps",
@@ -54,17 +93,31 @@ std::vector<DebugView> views() {
     return views;
 }
 
+std::vector<Counter> counters() {
+    std::vector<Counter> rows = march_counters();
+    rows.push_back(
+        counter<&MarchCounters::kilobounds>({.name = "kilobounds", .help = "1024 texels of bounds read by all steps"}));
+    rows.push_back(counter<&MarchCounters::kiloskipped>(
+        {.name = "kiloskipped", .help = "1024 steps that bounds decide without a fetch of the map"}));
+    rows.push_back(counter<&MarchCounters::kilosteps_in_segments>(
+        {.name = "kilosteps_in_segments", .help = "1024 of these steps, decided by one answer for a segment"}));
+    return rows;
+}
+
 Claims claims() {
     const auto against = [](std::string_view name, std::string_view settings, std::string_view plain) {
         return TimeRatio{.name = name,
                          .of = settings,
                          .against = plain,
                          .scenario = "beams",
-                         .counters = {"steps", "fetches", "bounds", "skipped"}};
+                         .counters = {"kilosteps", "kilofetches", "kilobounds", "kiloskipped"}};
     };
     return {.ratios = {against("16 steps, against a lookup at each", "shaft_steps=16", "ray_march shaft_steps=16"),
                        against("32 steps, against a lookup at each", "", "ray_march"),
-                       against("64 steps, against a lookup at each", "shaft_steps=64", "ray_march shaft_steps=64")}};
+                       against("64 steps, against a lookup at each", "shaft_steps=64", "ray_march shaft_steps=64"),
+                       against("128 steps, against a lookup at each", "shaft_steps=128", "ray_march shaft_steps=128"),
+                       against("128 steps in segments of 8, against a lookup at each", "shaft_steps=128 shaft_segment=8",
+                               "ray_march shaft_steps=128")}};
 }
 
 }  // namespace
@@ -80,14 +133,10 @@ Technique ray_march_min_max() {
         .summary =
             "Skips shadow lookups where the minimum and maximum depth of a block of the map decide a step; the picture is that "
             "without bounds, to the bit. Saves little under foliage.",
-        .params = march_params(),
-        .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half"},
-        .counters = {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
-                     counter<&MarchCounters::steps>({.name = "steps", .help = "steps of all rays"}),
-                     counter<&MarchCounters::fetches>({.name = "fetches", .help = "texels of shadow maps read by all steps"}),
-                     counter<&MarchCounters::bounds>({.name = "bounds", .help = "bounds of blocks read by all steps"}),
-                     counter<&MarchCounters::skipped>(
-                         {.name = "skipped", .help = "steps that bounds decide without a fetch of the map"})},
+        .params = params(),
+        .points = {"shaft_steps=16", "shaft_steps=64", "shaft_taps=1", "shaft_resolution=half", "shaft_segment=8",
+                   "shaft_steps=128 shaft_segment=8"},
+        .counters = counters(),
         .counter_bytes = sizeof(MarchCounters),
         .views = views(),
         .claims = claims(),
