@@ -40,9 +40,8 @@ std::vector<DebugView> camera_views() {
 
 std::vector<DebugTable> camera_tables() {
     return {{.name = "exposure",
-             .help =
-                 "mean luminance as measured, the exposure that it asks for, this frame's exposure and the previous frame's; a "
-                 "luminance of 0 and factors of 1: no adaptation; previous 0: there was none",
+             .help = "mean luminance, the exposure it asks for, this frame's and the previous one's; luminance 0: no adaptation; "
+                     "previous 0: there was none",
              .columns = {{"luminance", "exposed radiance"},
                          {"target", "x recorded exposure"},
                          {"exposure", "x recorded exposure"},

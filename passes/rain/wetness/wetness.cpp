@@ -243,19 +243,19 @@ std::vector<Param> look_params() {
 }
 
 std::vector<Param> wind_params() {
-    return {
-        param<&WetnessParams::directions>(
-            {.name = "rain_directions",
-             .group = "wind",
-             .low = 1,
-             .high = most_directions,
-             .fallback = 1,
-             .help = "rain maps, tilted around the recorded direction as in a wind that turns; more: softer edges, each a map"}),
-        param<&WetnessParams::spread>({.name = "rain_spread",
-                                       .low = 0,
-                                       .high = 45,
-                                       .fallback = wind_spread,
-                                       .help = "degrees by which the directions are tilted (rain_directions above 1)"})};
+    return {param<&WetnessParams::directions>({.name = "rain_directions",
+                                               .group = "wind",
+                                               .low = 1,
+                                               .high = most_directions,
+                                               .fallback = 1,
+                                               .help = "number of rain maps, tilted around the recorded direction as in a "
+                                                       "turning wind; more: smoother borders, more memory"}),
+            param<&WetnessParams::spread>(
+                {.name = "rain_spread",
+                 .low = 0,
+                 .high = 45,
+                 .fallback = wind_spread,
+                 .help = "tilt in degrees of the directions from the recorded one (rain_directions above 1)"})};
 }
 
 std::vector<Param> params() {
