@@ -8,7 +8,6 @@
 #include "capture_format/view.h"
 #include "passes/lens/depth_of_field/focus_model.h"
 #include "passes/lens/depth_of_field/truth.h"
-#include "passes/reference/difference.h"
 #include "tests/support/thin_lens.h"
 
 namespace strata::lens {
@@ -56,22 +55,29 @@ Pictures pictures_of(const Frame& frame) {
     return made;
 }
 
-double rmse(const ReferenceImage& a, const ReferenceImage& b) { return difference(a, b).rmse; }
+/// Over the pixels whose blur does not reach the picture's border: what is outside of it is unknown, too.
+double rmse(const ReferenceImage& a, const ReferenceImage& b) {
+    constexpr std::uint32_t border = 8;
+    double sum = 0;
+    for (std::uint32_t y = border; y < extent - border; ++y)
+        for (std::uint32_t x = border; x < extent - border; ++x) sum += std::pow(a.at(x, y).x - b.at(x, y).x, 2);
+    return std::sqrt(sum) / (extent - 2 * border);
+}
 
-/// Stripes of a floor from before the plane in focus to far behind it: every lens sees what the picture shows.
+/// Stripes of 3 rows of pixels on a floor, from before the plane in focus to behind it: every lens sees what the picture shows.
 Frame striped_floor() {
     Frame frame = before_the_lens();
-    double begin = .9;
-    for (int i = 0; i < 16; ++i, begin *= 1.18)
-        add_rectangle(frame, {-40, -.8, begin}, {40, -.8, begin * 1.18}, i % 2 == 0 ? .8f : .1f);
+    const auto depth_of_row = [](int below_middle) { return float(.8 * extent / 2 / below_middle); };
+    for (int row = 3; row < 36; row += 3)
+        add_rectangle(frame, {-40, -.8f, depth_of_row(row + 3)}, {40, -.8f, depth_of_row(row)}, row % 2 == 0 ? .8f : .1f);
     return frame;
 }
 
-/// A blurred post of 5 pixels before a wall that is blurred, too.
+/// A blurred post of 4 pixels before a wall that is blurred, too.
 Frame post_before_wall() {
     Frame frame = before_the_lens();
     add_rectangle(frame, {-20, -20, 4}, {20, 20, 4}, .5f);
-    add_rectangle(frame, {-.1f, -3, 1}, {.1f, 3, 1}, .9f);
+    add_rectangle(frame, {-1 / 12.f, -3, 1}, {1 / 12.f, 3, 1}, .9f);
     return frame;
 }
 
@@ -107,16 +113,16 @@ TEST(ThinLens, SeesAFloorAsTruthAndTechniqueDo) {
     const Pictures made = pictures_of(striped_floor());
     RecordProperty("truth", std::to_string(rmse(made.truth, made.traced)));
     RecordProperty("technique", std::to_string(rmse(made.gathered, made.traced)));
-    EXPECT_LT(rmse(made.truth, made.traced), .03);
-    EXPECT_LT(rmse(made.gathered, made.traced), .05);
+    EXPECT_LT(rmse(made.truth, made.traced), .02);
+    EXPECT_LT(rmse(made.gathered, made.traced), .035);
 }
 
 TEST(ThinLens, SeesAnEvenWallBehindAPostAsTruthAndTechniqueGuess) {
     const Pictures made = pictures_of(post_before_wall());
     RecordProperty("truth", std::to_string(rmse(made.truth, made.traced)));
     RecordProperty("technique", std::to_string(rmse(made.gathered, made.traced)));
-    EXPECT_LT(rmse(made.truth, made.traced), .01);
-    EXPECT_LT(rmse(made.gathered, made.traced), .02);
+    EXPECT_LT(rmse(made.truth, made.traced), .004);
+    EXPECT_LT(rmse(made.gathered, made.traced), .005);
 }
 
 TEST(ThinLens, SeesALightThatNoPictureFromItsMiddleKnows) {
@@ -125,9 +131,9 @@ TEST(ThinLens, SeesALightThatNoPictureFromItsMiddleKnows) {
     EXPECT_EQ(rmse(made.gathered, without.gathered), 0);
     RecordProperty("truth", std::to_string(rmse(made.truth, made.traced)));
     RecordProperty("technique", std::to_string(rmse(made.gathered, made.traced)));
-    EXPECT_GT(rmse(made.truth, made.traced), .1);
-    EXPECT_GT(rmse(made.gathered, made.traced), .1);
-    EXPECT_LT(rmse(made.truth, made.gathered), .03) << "held against each other, they are right";
+    EXPECT_GT(rmse(made.truth, made.traced), .25);
+    EXPECT_GT(rmse(made.gathered, made.traced), .25);
+    EXPECT_LT(rmse(made.truth, made.gathered), .005) << "held against each other, they are right";
 }
 
 }  // namespace
