@@ -19,5 +19,10 @@ struct Look {
 
 /// Of the truth that wet_form=xray approximates.
 inline constexpr std::string_view xray_truth_name = "xray";
+/// Of those that rain_directions above 1 approximates.
+inline constexpr std::string_view wind_truth_name = "wind", xray_wind_truth_name = "xray in wind";
+
+/// Degrees by which a turning wind tilts the rain.
+inline constexpr double wind_spread = 15;
 
 }  // namespace strata::rain

@@ -1,6 +1,12 @@
 #include "passes/rain/truth.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include <tbb/parallel_for.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "passes/rain/formulas.h"
 #include "passes/rain/look.h"
@@ -29,9 +35,22 @@ void for_every_surface(const StageInput& input, const Visit& visit) {
     });
 }
 
-ImageSet wet_images(const StageInput& input, const rain::Look& look) {
+std::vector<glm::dvec3> recorded_direction(const StageInput& input) { return {glm::dvec3(input.frame.rain.direction)}; }
+
+/// All around the recorded direction.
+std::vector<glm::dvec3> turning_directions(const StageInput& input) {
+    constexpr int count = 64;
+    const glm::dvec3 mean = glm::normalize(glm::dvec3(input.frame.rain.direction));
+    const glm::dvec3 aside = glm::normalize(glm::cross(mean, std::abs(mean.x) < .5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
+    const glm::dvec3 tilted = glm::angleAxis(glm::radians(rain::wind_spread), aside) * mean;
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i < count; ++i) directions.push_back(glm::angleAxis(2 * std::numbers::pi * i / count, mean) * tilted);
+    return directions;
+}
+
+ImageSet wet_images(const StageInput& input, const rain::Look& look, const std::vector<glm::dvec3>& directions) {
     if (!input.before.contains("surface_normal")) return {};
-    const ReferenceImage arriving = rain::traced_rain(input);
+    const ReferenceImage arriving = rain::traced_rain(input, directions);
     ImageSet images{{"surface_color", input.before.at("surface_color")},
                     {"surface_normal", input.before.at("surface_normal")},
                     {"surface_material", input.before.at("surface_material")}};
@@ -47,22 +66,32 @@ ImageSet wet_images(const StageInput& input, const rain::Look& look) {
 
 namespace rain {
 
-ReferenceImage traced_rain(const StageInput& input) {
+ReferenceImage traced_rain(const StageInput& input, std::span<const glm::dvec3> directions) {
     const RayScene scene(input.frame, RayMask::shadow_casters);
-    const glm::dvec3 towards = -(input.frame.view.to_view * glm::dvec3(input.frame.rain.direction));
     const ReferenceImage& shape = input.before.at("surface_normal");
     ReferenceImage arriving(shape.width, shape.height, shape.layers);
     for_every_surface(input, [&](std::size_t i, const SurfacePoint& p) {
         const glm::dvec3 start = ray_start(p.position, facing_normal(p));
-        arriving.texels[i].x = scene.clear(start, towards, 0, above_everything) ? 1 : 0;
+        const auto arrives = [&](const glm::dvec3& direction) {
+            return scene.clear(start, -(input.frame.view.to_view * direction), 0, above_everything);
+        };
+        arriving.texels[i].x = double(std::ranges::count_if(directions, arrives)) / double(directions.size());
     });
     return arriving;
 }
 
 }  // namespace rain
 
-ImageSet rain_truth(const StageInput& input) { return wet_images(input, {}); }
+ImageSet rain_truth(const StageInput& input) { return wet_images(input, {}, recorded_direction(input)); }
 
-ImageSet xray_rain_truth(const StageInput& input) { return wet_images(input, {.form = rain::form_xray}); }
+ImageSet xray_rain_truth(const StageInput& input) {
+    return wet_images(input, {.form = rain::form_xray}, recorded_direction(input));
+}
+
+ImageSet rain_in_wind_truth(const StageInput& input) { return wet_images(input, {}, turning_directions(input)); }
+
+ImageSet xray_rain_in_wind_truth(const StageInput& input) {
+    return wet_images(input, {.form = rain::form_xray}, turning_directions(input));
+}
 
 }  // namespace strata

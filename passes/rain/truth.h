@@ -1,6 +1,8 @@
 // The wet surface under every sample: what the formulas give where rain is traced.
 #pragma once
 
+#include <span>
+
 #include "passes/stages.h"
 
 namespace strata {
@@ -10,11 +12,15 @@ namespace strata {
 ImageSet rain_truth(const StageInput&);
 /// The same with wet_form=xray.
 ImageSet xray_rain_truth(const StageInput&);
+/// The same two in a wind that turns: the mean of 64 directions, tilted from the recorded one by rain::wind_spread.
+ImageSet rain_in_wind_truth(const StageInput&);
+ImageSet xray_rain_in_wind_truth(const StageInput&);
 
 namespace rain {
 
-/// Whether rain arrives at every sample, from 0 to 1; 0 where there is no surface.
-ReferenceImage traced_rain(const StageInput&);
+/// Whether rain arrives at every sample, from 0 to 1; 0 where there is no surface. From several directions of the world their
+/// mean.
+ReferenceImage traced_rain(const StageInput&, std::span<const glm::dvec3> directions);
 
 }  // namespace rain
 }  // namespace strata

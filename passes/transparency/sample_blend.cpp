@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "passes/indirect/volume_light.h"
+#include "passes/luminance.h"
 #include "passes/reference/ordering.h"
 
 namespace strata::transparency {
@@ -89,7 +90,7 @@ ReferenceImage blended_by_object(ReferenceImage color, const StageInput& input, 
     return color;
 }
 
-double luminance(glm::dvec3 color) { return glm::dot(color, glm::dvec3(.2126, .7152, .0722)); }
+double luminance(glm::dvec3 color) { return strata::luminance(color); }
 
 double coverage(const Fragment& f) { return 1 - (f.transmittance.x + f.transmittance.y + f.transmittance.z) / 3; }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "capture_format/srgb.h"
+#include "passes/luminance.h"
 #include "replay/measure/observer.h"
 
 namespace strata {
@@ -34,8 +35,8 @@ constexpr float darkest = 1e-30f;
 std::vector<float> luminances(const ColorPlanes& picture) {
     std::vector<float> all(picture.rgb[0].size());
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = std::max(0.f, .2126f * std::max(0.f, picture.rgb[0][i]) + .7152f * std::max(0.f, picture.rgb[1][i]) +
-                                   .0722f * std::max(0.f, picture.rgb[2][i]));
+        all[i] = std::max(
+            0.f, luminance(std::max(0.f, picture.rgb[0][i]), std::max(0.f, picture.rgb[1][i]), std::max(0.f, picture.rgb[2][i])));
     return all;
 }
 

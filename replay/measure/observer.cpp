@@ -9,6 +9,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "passes/luminance.h"
+
 namespace strata {
 namespace {
 
@@ -145,7 +147,7 @@ void exposed_row(const float* const* in, float* const* out, std::size_t count, f
     if (curve.of_luminance) {
         opponent_row(in, out, count, [=](float r, float g, float b) {
             const Light light{smaller(exposed(r), brightest), smaller(exposed(g), brightest), smaller(exposed(b), brightest)};
-            const float luminance = .2126f * light.r + .7152f * light.g + .0722f * light.b;
+            const float luminance = strata::luminance(light.r, light.g, light.b);
             const float share = luminance > 0 ? tone_mapped(curve, luminance) / luminance : 0.f;
             return Light{on_display(light.r * share), on_display(light.g * share), on_display(light.b * share)};
         });

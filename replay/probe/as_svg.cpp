@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "passes/luminance.h"
 #include "passes/transparency/sample_blend.h"
 #include "replay/images/image_io.h"
 #include "replay/plural.h"
@@ -21,8 +22,6 @@ constexpr Box through_box{70, 64, 800, 340}, error_box{70, 428, 800, 150}, fragm
 // Okabe and Ito's colors but black and yellow: told apart by color-blind eyes, on white and on black.
 constexpr std::string_view colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#a0522d"};
 constexpr std::string_view dashes[] = {"", "7 3", "2 2", "9 3 2 3"};
-
-double luminance(const glm::dvec3& v) { return glm::dot(v, glm::dvec3(.2126, .7152, .0722)); }
 
 Pen pen_of(std::size_t curve) {
     return {colors[curve % std::size(colors)], "curve", 1.6, dashes[curve / std::size(colors) % std::size(dashes)]};

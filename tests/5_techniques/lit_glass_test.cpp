@@ -110,8 +110,8 @@ void add_volumes(Frame& frame) {
     frame.light_volumes = {part,
                            {.kind = VolumeKind::cascaded_global,
                             .occlusion = VolumeOcclusion::axial,
-                            .half_extent = glm::vec3(8),
-                            .cells = glm::uvec3(32),
+                            .half_extent = glm::vec3(4),
+                            .cells = glm::uvec3(16),
                             .cascades = 2,
                             .iterations = 16}};
 }

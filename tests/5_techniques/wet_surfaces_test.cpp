@@ -223,6 +223,48 @@ TEST(WetSurfaces, DoNotKnowParticles) {
     for (const auto& [name, image] : clear.images) EXPECT_EQ(hash_of(image), hash_of(behind.images.at(name))) << name;
 }
 
+// --- wind -------------------------------------------------------------------------------------------------------------------
+
+std::size_t steps_named(const Run& run, std::string_view name) {
+    return std::size_t(std::ranges::count(run.steps, name, &StepRecord::name));
+}
+
+void expect_model_in_wind(const Request& request) {
+    const Technique& wetness = *techniques_of(Stage::rain).front();
+    const Accuracy accuracy = must(session_of_scenarios().judge(request, Stage::rain, Against::model));
+    expect_within_tolerance(accuracy, wetness, request);
+    EXPECT_LT(double(accuracy.undecided), .2 * double(accuracy.compared + accuracy.undecided));
+}
+
+TEST(WetSurfaces, InATurningWindAreWhatTheModelSays) {
+    Request request = on_scenario(scenario);
+    request.choices = chosen({}, {"rain_directions=3", "rain_spread=20", "ripple_filter=off"});
+    expect_model_in_wind(request);
+}
+
+TEST(ExhaustiveWetSurfaces, InATurningWindAreWhatTheModelSays) {
+    for (const std::string_view name : {scenario, std::string_view("zone_at_dusk")})
+        for (const char* directions : {"rain_directions=2", "rain_directions=5", "rain_directions=8"}) {
+            Request request = on_scenario(name, 4);
+            request.choices = chosen({}, {directions, "ripple_filter=off"});
+            expect_model_in_wind(request);
+        }
+}
+
+TEST(WetSurfaces, InATurningWindCostAMapPerDirection) {
+    const auto session = session_of({shelter()});
+    Request request{.outputs = {"gbuffer0"}};
+    const auto still = must(session->run(request));
+    request.choices = chosen({}, {"rain_directions=5"});
+    const auto windy = must(session->run(request));
+    EXPECT_EQ(steps_named(still, "rain/wetness/record.comp"), 0u);
+    EXPECT_EQ(steps_named(windy, "rain/wetness/record.comp"), 5u);
+    EXPECT_GT(steps_named(still, "rain/wetness/cast"), 0u);
+    EXPECT_EQ(steps_named(windy, "rain/wetness/cast"), 5 * steps_named(still, "rain/wetness/cast"));
+    // Of 1024 x 1024 texels of 4 bytes.
+    EXPECT_GE(windy.stage_bytes.at("rain"), still.stage_bytes.at("rain") + 4 * (4u << 20));
+}
+
 // --- far and late -----------------------------------------------------------------------------------------------------------
 
 /// H18, H19: cells and phases are told in whole ones and a rest, so floats see small numbers wherever and whenever it rains.

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/luminance.h"
 #include "replay/images/image_io.h"
 
 namespace strata::ui {
 namespace {
 
 std::byte byte_of(double share) { return static_cast<std::byte>(std::lround(std::clamp(share, 0.0, 1.0) * 255)); }
-
-double luminance(const glm::dvec4& texel) { return .2126 * texel.x + .7152 * texel.y + .0722 * texel.z; }
 
 /// A polynomial fit of the Turbo map (A. Mikhailov, "Turbo, an improved rainbow colormap", 2019), as the shader has it.
 std::array<std::byte, 3> turbo(double x) {
@@ -54,7 +53,7 @@ std::array<std::byte, 3> shown_bytes(const Look& look, const glm::dvec4& texel) 
         case Channels::false_color:
             return turbo(std::clamp(scaled(texel.x), 0.0, 1.0));
         case Channels::luminance: {
-            const std::byte grey = encoded(luminance(texel));
+            const std::byte grey = encoded(luminance(glm::dvec3(texel)));
             return {grey, grey, grey};
         }
         default: {

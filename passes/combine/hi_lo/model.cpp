@@ -5,6 +5,7 @@
 #include "passes/combine/formulas.h"
 #include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/luminance.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -35,7 +36,7 @@ glm::dvec3 weighted_mean(std::span<const glm::dvec3> values) {
     double weights = 0;
     for (glm::dvec3 value : values) {
         value = glm::clamp(value, 0.0, 1e30);
-        const double weight = 1 / (1 + 0.2126 * value.x + 0.7152 * value.y + 0.0722 * value.z);
+        const double weight = 1 / (1 + luminance(value));
         sum += value * weight;
         weights += weight;
     }

@@ -14,13 +14,15 @@ ComputePass read_color(ComputePass pass, const FrameImages& frame) {
 
 Extent half_of(const Extent& extent) { return {(extent.width + 1) / 2, (extent.height + 1) / 2}; }
 
+constexpr const char *first_level = "glow 1", *first_mean = "mean glow 1", *xray_blurred = "blurred glow";
+
 Image level_of(Graph& graph, const std::string& name, const Extent& extent) {
     return graph.create(name, {.extent = extent, .format = Format::rgba16f});
 }
 
 std::vector<Image> make_levels(Graph& graph, const FrameImages& frame, std::uint32_t count) {
     Extent extent = half_of(frame.extent);
-    std::vector<Image> levels{level_of(graph, "glow 1", extent)};
+    std::vector<Image> levels{level_of(graph, first_level, extent)};
     read_color(graph.compute("lens/bloom/bright.comp"), frame)
         .stores("level", levels.front())
         .push(BrightPush{frame.recorded->lens.bloom_threshold})
@@ -39,7 +41,7 @@ Image mean_of(Graph& graph, const std::vector<Image>& levels) {
     Image mean = levels.back();
     for (std::size_t i = levels.size() - 1; i-- > 0;) {
         const Extent extent = graph.shape(levels[i]).extent;
-        Image finer = level_of(graph, "mean glow " + std::to_string(i + 1), extent);
+        Image finer = level_of(graph, i == 0 ? first_mean : "mean glow " + std::to_string(i + 1), extent);
         graph.compute("lens/bloom/up.comp")
             .samples("coarser", mean)
             .samples("level", levels[i])
@@ -70,7 +72,7 @@ Image xray_glow(Graph& graph, const FrameImages& frame) {
     Image glow = level_of(graph, "glow", extent);
     read_color(graph.compute("lens/bloom/xray_bright.comp"), frame).stores("glow", glow).over(extent);
     for (const std::uint32_t along_y : {0u, 1u}) {
-        Image blurred = level_of(graph, along_y != 0 ? "blurred glow" : "glow blurred along x", extent);
+        Image blurred = level_of(graph, along_y != 0 ? xray_blurred : "glow blurred along x", extent);
         graph.compute("lens/bloom/xray_blur.comp")
             .samples("glow", glow)
             .stores("blurred", blurred)
@@ -82,6 +84,15 @@ Image xray_glow(Graph& graph, const FrameImages& frame) {
     return glow;
 }
 
+/// For shaders that include passes/lens/bloom/added.glsl.
+ComputePass read_glow(ComputePass pass, const FrameImages& frame, const LensParams& params, const Image& glow) {
+    return pass.samples("glow", glow)
+        .samples("exposure", frame.exposure)
+        .fixes("form", params.bloom)
+        .fixes("has_exposure", frame.exposure ? 1u : 0u)
+        .push(GlowPush{frame.recorded->lens.bloom});
+}
+
 }  // namespace
 
 std::uint32_t glow_levels(double reach, std::uint32_t height) {
@@ -90,18 +101,29 @@ std::uint32_t glow_levels(double reach, std::uint32_t height) {
     return static_cast<std::uint32_t>(std::clamp(std::round(levels), 1., 12.));
 }
 
+bool glows(const FrameImages& frame, const LensParams& params) {
+    return frame.features->has(Feature::bloom) && params.bloom != bloom_off;
+}
+
 void add_bloom(Graph& graph, FrameImages& frame, const LensParams& params) {
     const bool is_pyramid = params.bloom == bloom_pyramid;
     const std::uint32_t levels = glow_levels(double(params.bloom_reach), frame.extent.height);
     const Image glow = is_pyramid ? mean_of(graph, make_levels(graph, frame, levels)) : xray_glow(graph, frame);
-    graph.compute("lens/bloom/add.comp")
-        .updates("color", frame.color)
-        .samples("glow", glow)
-        .samples("exposure", frame.exposure)
-        .fixes("form", params.bloom)
-        .fixes("has_exposure", frame.exposure ? 1u : 0u)
-        .push(GlowPush{frame.recorded->lens.bloom})
+    read_glow(graph.compute("lens/bloom/add.comp"), frame, params, glow).updates("color", frame.color).over(frame.extent);
+}
+
+Image show_glow(Graph& graph, const FrameImages& frame, const LensParams& params) {
+    Image picture = graph.create("shown glow", {.extent = frame.extent, .format = Format::rgba32f});
+    if (!glows(frame, params)) {
+        graph.clear(picture, {});
+        return picture;
+    }
+    const bool has_mean = glow_levels(double(params.bloom_reach), frame.extent.height) > 1;
+    const char* name = params.bloom == bloom_xray ? xray_blurred : has_mean ? first_mean : first_level;
+    read_glow(graph.compute("lens/bloom/show.comp"), frame, params, graph.find_image(name))
+        .stores("shown", picture)
         .over(frame.extent);
+    return picture;
 }
 
 }  // namespace strata::lens

@@ -2,6 +2,7 @@
 // before the lens; defocus and distortion happen in the lens, and what it scatters is scattered from the picture that they made.
 #include "passes/choice_names.h"
 #include "passes/lens/bloom/glow.h"
+#include "passes/lens/camera/views.h"
 #include "passes/lens/depth_of_field/focus.h"
 #include "passes/lens/distortion/radial.h"
 #include "passes/lens/exposure/adaptation.h"
@@ -44,9 +45,9 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const Features& wanted = *frame.features;
     const Image found = frame.color;
     if (wanted.has(Feature::auto_exposure)) expose(graph, frame, params);
-    if (wanted.has(Feature::depth_of_field) && params.focus != focus_off) blur_by_depth(graph, frame, params);
+    if (blurs(frame, params)) blur_by_depth(graph, frame, params);
     if (distorts(frame, params)) distort(graph, frame, params);
-    if (wanted.has(Feature::bloom) && params.bloom != bloom_off) add_bloom(graph, frame, params);
+    if (glows(frame, params)) add_bloom(graph, frame, params);
     const bool wants_color =
         wanted.has(Feature::depth_of_field) || wanted.has(Feature::lens_distortion) || wanted.has(Feature::bloom);
     if (!wants_color || frame.color != found) return;
@@ -139,6 +140,8 @@ Technique camera() {
                        "bloom_reach=0.03", "focus=xray", "focus=off", "focus_taps=16", "focus_taps=64", "focus_taps=256",
                        "focus_reach=0.03", "distortion=off", "k1=-0.2", "bloom=off focus=off distortion=off",
                        "exposure=xray bloom=xray focus=xray distortion=off"},
+            .views = camera_views(),
+            .tables = camera_tables(),
             .abilities = {.is_time_unit = true},
             .claims = claims(),
             .declare = declare,

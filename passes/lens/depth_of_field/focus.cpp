@@ -7,6 +7,7 @@ namespace strata::lens {
 namespace {
 
 constexpr std::uint32_t tap_counts[] = {16, 64, 128, 256};  // focus_taps_* of lens.shared.h
+constexpr const char* spread_name = "blur that reaches tiles";
 
 BlurPush push_of(const FrameImages& frame, const LensParams& params) {
     const View& view = frame.recorded->view;
@@ -31,14 +32,22 @@ Image tiles_of(Graph& graph, const char* name, const FrameImages& frame) {
 }
 
 Image reach_of(Graph& graph, const FrameImages& frame, const BlurPush& push) {
-    Image reach = tiles_of(graph, "blur of tiles", frame), spread = tiles_of(graph, "blur that reaches tiles", frame);
+    Image reach = tiles_of(graph, "blur of tiles", frame), spread = tiles_of(graph, spread_name, frame);
     const Extent tiles = graph.shape(reach).extent;
     read_samples(graph.compute("lens/depth_of_field/reach.comp"), frame).stores("reach", reach).push(push).groups(tiles);
     graph.compute("lens/depth_of_field/spread.comp").samples("reach", reach).stores("spread", spread).push(push).over(tiles);
     return spread;
 }
 
+Image shown(Graph& graph, const FrameImages& frame, const char* name) {
+    return graph.create(name, {.extent = frame.extent, .format = Format::rgba32f});
+}
+
 }  // namespace
+
+bool blurs(const FrameImages& frame, const LensParams& params) {
+    return frame.features->has(Feature::depth_of_field) && params.focus != focus_off;
+}
 
 void blur_by_depth(Graph& graph, FrameImages& frame, const LensParams& params) {
     const BlurPush push = push_of(frame, params);
@@ -56,6 +65,32 @@ void blur_by_depth(Graph& graph, FrameImages& frame, const LensParams& params) {
         read_samples(graph.compute("lens/depth_of_field/xray.comp"), frame).stores("blurred", blurred).push(push).over(threads);
     }
     frame.color = blurred;
+}
+
+Image show_blur(Graph& graph, const FrameImages& frame, const LensParams& params) {
+    Image picture = shown(graph, frame, "shown circle of confusion");
+    if (!blurs(frame, params)) graph.clear(picture, {});
+    else
+        read_samples(graph.compute("lens/depth_of_field/show_blur.comp"), frame)
+            .stores("shown", picture)
+            .fixes("form", params.focus)
+            .push(push_of(frame, params))
+            .over(frame.extent);
+    return picture;
+}
+
+Image show_taps(Graph& graph, const FrameImages& frame, const LensParams& params) {
+    Image picture = shown(graph, frame, "shown taps");
+    if (!blurs(frame, params)) {
+        graph.clear(picture, {});
+        return picture;
+    }
+    const bool gathers = params.focus == focus_gather;
+    ComputePass count = read_samples(
+        graph.compute(gathers ? "lens/depth_of_field/show_taps.comp" : "lens/depth_of_field/show_xray_taps.comp"), frame);
+    count.stores("shown", picture).push(push_of(frame, params)).over(frame.extent);
+    if (gathers) count.samples("spread", graph.find_image(spread_name)).fixes("taps", tap_counts[params.focus_taps]);
+    return picture;
 }
 
 }  // namespace strata::lens

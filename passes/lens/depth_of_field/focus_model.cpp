@@ -25,9 +25,11 @@ bool is_number(const glm::dvec4& c) { return std::isfinite(c.x) && std::isfinite
 struct Layer {
     glm::dvec3 sum{0};
     double covered = 0;
+    int taps = 0;  ///< that fall on it
     void add(const glm::dvec4& color, double share) {
         sum += share * glm::dvec3(color);
         covered += share;
+        taps += share > 0;
     }
     glm::dvec3 mean() const { return covered > 0 ? sum / covered : glm::dvec3(0); }
 };
@@ -58,27 +60,46 @@ public:
         const glm::dvec4& own = color.texels[i];
         bool doubtful = doubtful_tiles[tile] || std::abs(std::abs(blurs[i]) - sharp) < 1e-5;
         if (reach[tile] <= sharp) return {glm::dvec3(own), doubtful && std::abs(reach[tile] - sharp) < 1e-5};
+        Layers layers;
+        if (is_number(own)) layers.on.add(own, 1 / disc_area(blurs[i]));
+        doubtful |= add_taps(p, layers);
+        if (std::abs(blurs[i]) > sharp) return {composed(layers, own), doubtful};
+        if (layers.before.covered == 0) return {glm::dvec3(own), doubtful};
+        const double share = std::min(layers.before.covered, 1.);
+        return {(1 - share) * glm::dvec3(own) + share * layers.before.mean(), doubtful};
+    }
+
+    /// Taps that fall before a sample's surface, on it and behind it.
+    glm::dvec3 counted(const Pixel& p) const {
+        if (reach[p.y / 8 * across + p.x / 8] <= sharp) return glm::dvec3(0);
+        Layers layers;
+        add_taps(p, layers);
+        if (std::abs(blurs[color.index(p.x, p.y, p.sample)]) <= sharp) return glm::dvec3(layers.before.taps, 0, 0);
+        return {layers.before.taps, layers.on.taps, layers.behind.taps};
+    }
+
+private:
+    struct Layers {
         Layer before, on, behind;
-        if (is_number(own)) on.add(own, 1 / disc_area(blurs[i]));
-        const double outer = reach[tile] + .5, inner = std::min(std::abs(blurs[i]) + .5, outer);
+    };
+
+    /// Adds all taps of a sample; whether rounding may move one to another.
+    bool add_taps(const Pixel& p, Layers& layers) const {
+        const double outer = reach[p.y / 8 * across + p.x / 8] + .5;
+        const double inner = std::min(std::abs(blurs[color.index(p.x, p.y, p.sample)]) + .5, outer);
         const std::uint32_t hash = pcg(pcg(pcg(std::uint32_t(input.frame.seed) ^ p.x) ^ p.y));
         const double turn = 2 * std::atan((hash >> 16) / 32768. - 1);
-        bool taps_doubtful = false;
+        bool doubtful = false;
         for (int k = 0; k < 2 * half_taps; ++k) {
             const double angle = turn + (k / 2) * pi * (3 - std::sqrt(5.)) + (k % 2) * pi;
             const double away = std::sqrt((k / 2 + .5) / half_taps) * (k % 2 == 0 ? outer : inner);
             const glm::dvec2 at = glm::dvec2(p.x, p.y) + .5 + away * glm::dvec2(std::cos(angle), std::sin(angle));
-            taps_doubtful |= hangs_on_rounding(at);
-            add_tap(p, at, {outer, inner}, before, on, behind);
+            doubtful |= hangs_on_rounding(at);
+            add_tap(p, at, {outer, inner}, layers);
         }
-        doubtful |= taps_doubtful;
-        if (std::abs(blurs[i]) > sharp) return {composed(before, on, behind, own), doubtful};
-        if (before.covered == 0) return {glm::dvec3(own), doubtful};
-        const double share = std::min(before.covered, 1.);
-        return {(1 - share) * glm::dvec3(own) + share * before.mean(), doubtful};
+        return doubtful;
     }
 
-private:
     struct Discs {
         double outer, inner;
     };
@@ -114,7 +135,7 @@ private:
             }
     }
 
-    void add_tap(const Pixel& p, const glm::dvec2& at, const Discs& discs, Layer& before, Layer& on, Layer& behind) const {
+    void add_tap(const Pixel& p, const glm::dvec2& at, const Discs& discs, Layers& layers) const {
         const auto x = std::uint32_t(std::clamp(std::floor(at.x), 0., color.width - 1.));
         const auto y = std::uint32_t(std::clamp(std::floor(at.y), 0., color.height - 1.));
         const std::size_t tap = color.index(x, y, p.sample);
@@ -124,12 +145,13 @@ private:
         const double in_inner = std::clamp(discs.inner - away + .5, 0., 1.);
         const double density = half_taps / pi * (1 / (discs.outer * discs.outer) + in_inner / (discs.inner * discs.inner));
         const double thrown = std::clamp(std::abs(blur) - away + .5, 0., 1.) / disc_area(blur) / density;
-        if (deeper < 0) before.add(color.texels[tap], std::min(-deeper, 1.) * thrown);
-        if (deeper > 0) behind.add(color.texels[tap], std::min(deeper, 1.) * in_inner / density / (away * away));
-        on.add(color.texels[tap], std::max(0., 1 - std::abs(deeper)) * thrown);
+        if (deeper < 0) layers.before.add(color.texels[tap], std::min(-deeper, 1.) * thrown);
+        if (deeper > 0) layers.behind.add(color.texels[tap], std::min(deeper, 1.) * in_inner / density / (away * away));
+        layers.on.add(color.texels[tap], std::max(0., 1 - std::abs(deeper)) * thrown);
     }
 
-    static glm::dvec3 composed(const Layer& before, const Layer& on, const Layer& behind, const glm::dvec4& own) {
+    static glm::dvec3 composed(const Layers& layers, const glm::dvec4& own) {
+        const auto& [before, on, behind] = layers;
         const double first = std::min(before.covered, 1.), second = std::min(on.covered, 1 - first);
         const double third = behind.covered > 0 ? 1 - first - second : 0;
         if (first + second + third == 0) return glm::dvec3(own);
@@ -175,6 +197,15 @@ ReferenceImage focus_model(const StageInput& input, const ReferenceImage& color,
     });
     result.undecided.assign(doubtful.begin(), doubtful.end());
     return result;
+}
+
+ReferenceImage counted_taps(const StageInput& input, const LensParams& params) {
+    const ReferenceImage& color = input.before.at("color");
+    const Gather gather(input, color, params);
+    ReferenceImage counts(color.width, color.height);
+    for (std::uint32_t y = 0; y < color.height; ++y)
+        for (std::uint32_t x = 0; x < color.width; ++x) counts.at(x, y) = glm::dvec4(gather.counted({x, y, 0}), 1);
+    return counts;
 }
 
 }  // namespace strata::lens

@@ -19,4 +19,7 @@ double depth_of(const StageInput&, std::uint32_t x, std::uint32_t y, std::uint32
 /// `color` as the lens sees it. Texels are undecided where rounding decides which sample a tap reads.
 ReferenceImage focus_model(const StageInput&, const ReferenceImage& color, const LensParams&);
 
+/// Taps of focus=gather that fall before the surface of each pixel's first sample, on it and behind it.
+ReferenceImage counted_taps(const StageInput&, const LensParams&);
+
 }  // namespace strata::lens

@@ -2,24 +2,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "passes/lens/lens.shared.h"
+#include "passes/lens/exposure/measured.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(constant_id = 1) const uint form = exposure_exponential;
 
 layout(set = 0, binding = 0, r32f) writeonly uniform image2D exposure;
-layout(set = 0, binding = 1, scalar) readonly buffer Tiles { MeterRecord tiles[]; };
 layout(set = 0, binding = 2) uniform sampler2D held;
 layout(set = 0, binding = 3, scalar) writeonly buffer State { ExposureState state; };
-layout(push_constant, scalar) uniform Push { AdaptPush push; };
-
-shared vec2 sums[meter_threads];
-
-float target_of(float luminance) {
-    const vec3 m = mix(vec3(1.0, 0.0, 1.0), vec3(push.grey, 1.0, exposure_low), push.amount);
-    return clamp(m.x / (luminance * m.y + m.z), least_exposure, most_exposure);
-}
 
 // The share of the way to the target.
 float share_of(vec4 before) {
@@ -39,13 +30,6 @@ void adapt(vec2 sum) {
 }
 
 void main() {
-    const uint i = gl_LocalInvocationIndex;
-    vec2 sum = vec2(0.0);
-    for (uint tile = i; tile < push.tiles; tile += meter_threads) sum += vec2(tiles[tile].sum, tiles[tile].count);
-    sums[i] = sum;
-    for (uint half_of = meter_threads / 2u; half_of > 0u; half_of /= 2u) {
-        barrier();
-        if (i < half_of) sums[i] += sums[i + half_of];
-    }
-    if (i == 0u) adapt(sums[0]);
+    const vec2 sum = measured_sum();
+    if (gl_LocalInvocationIndex == 0u) adapt(sum);
 }

@@ -6,7 +6,7 @@
 namespace strata::lens {
 namespace {
 
-constexpr const char* state_name = "exposure state";
+constexpr const char *state_name = "exposure state", *held_name = "held exposure", *tiles_name = "luminance of tiles";
 
 /// Ticks of 2^-20 s: differences between frames are right after hours, where a float of seconds has steps of milliseconds (H18).
 uvec2 ticks_of(const Frame& frame) {
@@ -18,11 +18,25 @@ uvec2 ticks_of(const Frame& frame) {
 
 Image one_texel(Graph& graph, const char* name, Format format) { return graph.create(name, {.extent = {}, .format = format}); }
 
+/// Groups of pixels that are measured.
+Extent tiles_of(const FrameImages& frame) {
+    return {(frame.extent.width + meter_tile - 1) / meter_tile, (frame.extent.height + meter_tile - 1) / meter_tile};
+}
+
+AdaptPush push_of(const FrameImages& frame, const LensParams& params) {
+    const Extent tiles = tiles_of(frame);
+    return {.ticks = ticks_of(*frame.recorded),
+            .tiles = tiles.width * tiles.height,
+            .speed = frame.recorded->lens.exposure_speed,
+            .amount = params.exposure_amount,
+            .grey = params.exposure_grey};
+}
+
 }  // namespace
 
 void recall_exposure(Graph& graph, FrameImages& frame) {
     const Buffer state = graph.remember(state_name, sizeof(ExposureState));
-    frame.exposure = one_texel(graph, "held exposure", Format::rgba32f);
+    frame.exposure = one_texel(graph, held_name, Format::rgba32f);
     graph.compute("lens/exposure/held.comp")
         .stores("held", frame.exposure)
         .loads("State", state)
@@ -31,10 +45,9 @@ void recall_exposure(Graph& graph, FrameImages& frame) {
 }
 
 void adapt_exposure(Graph& graph, FrameImages& frame, const LensParams& params) {
-    const Extent tiles{(frame.extent.width + meter_tile - 1) / meter_tile, (frame.extent.height + meter_tile - 1) / meter_tile};
-    const std::uint32_t count = tiles.width * tiles.height;
+    const Extent tiles = tiles_of(frame);
     const Image held = frame.exposure;
-    Buffer measured = graph.create("luminance of tiles", count * sizeof(MeterRecord));
+    Buffer measured = graph.create(tiles_name, tiles.width * tiles.height * sizeof(MeterRecord));
     Buffer state = graph.find_buffer(state_name);
     frame.exposure = one_texel(graph, "exposure", Format::r32f);
     graph.compute("lens/exposure/meter.comp")
@@ -49,17 +62,30 @@ void adapt_exposure(Graph& graph, FrameImages& frame, const LensParams& params) 
         .samples("held", held)
         .stores("State", state)
         .fixes("form", params.exposure)
-        .push(AdaptPush{.ticks = ticks_of(*frame.recorded),
-                        .tiles = count,
-                        .speed = frame.recorded->lens.exposure_speed,
-                        .amount = params.exposure_amount,
-                        .grey = params.exposure_grey})
+        .push(push_of(frame, params))
         .groups({1, 1, 1});
 }
 
 void keep_exposure(Graph& graph, FrameImages& frame) {
     frame.exposure = one_texel(graph, "exposure", Format::r32f);
     graph.clear(frame.exposure, {{1, 0, 0, 0}});
+}
+
+Image list_exposure(Graph& graph, const FrameImages& frame, const LensParams& params) {
+    Image numbers = one_texel(graph, "exposure, row", Format::rgba32f);
+    const Buffer measured = graph.find_buffer(tiles_name);
+    if (!measured) {
+        graph.clear(numbers, {{0, 1, 1, 0}});
+        return numbers;
+    }
+    graph.compute("lens/exposure/table.comp")
+        .stores("numbers", numbers)
+        .loads("Tiles", measured)
+        .samples("held", graph.find_image(held_name))
+        .samples("exposure", frame.exposure)
+        .push(push_of(frame, params))
+        .groups({1, 1, 1});
+    return numbers;
 }
 
 }  // namespace strata::lens

@@ -13,4 +13,8 @@ void adapt_exposure(Graph&, FrameImages&, const LensParams&);
 /// A factor of 1.
 void keep_exposure(Graph&, FrameImages&);
 
+/// One row: mean luminance measured, the exposure it asks for, the frame's, and that of the frame before (0: there was none). A
+/// luminance of 0 and factors of 1 where exposure does not adapt.
+Image list_exposure(Graph&, const FrameImages&, const LensParams&);
+
 }  // namespace strata::lens

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/luminance.h"
+
 namespace strata::lens {
 namespace {
 
@@ -38,8 +40,7 @@ std::optional<double> measured_luminance(const Frame& frame, const ReferenceImag
         if (std::isnan(texel.x) || std::isnan(texel.y) || std::isnan(texel.z)) continue;
         const glm::dvec3 exposed = glm::clamp(glm::dvec3(texel) * double(frame.view.exposure), 0., 65504.);
         const glm::dvec3 hi = glm::min(exposed * held / 9., 1.);
-        sum += form == exposure_xray ? 9 * (.3 * hi.x + .38 * hi.y + .22 * hi.z)
-                                     : .2126 * exposed.x + .7152 * exposed.y + .0722 * exposed.z;
+        sum += form == exposure_xray ? 9 * (.3 * hi.x + .38 * hi.y + .22 * hi.z) : luminance(exposed);
         ++count;
     }
     if (count == 0) return std::nullopt;

@@ -24,7 +24,8 @@ struct Scene {
     const StageInput& input;
     WetnessParams params;
     Look look;
-    TracedMap map;
+    CastersInRain casters;
+    std::vector<TracedMap> maps;  ///< one for each direction of the rain
 
     Scene(const StageInput& given, const WetnessParams& settings)
         : input(given),
@@ -35,7 +36,10 @@ struct Scene {
                .ripple_height = double(settings.ripple_height) * 1e-3,
                .flow_height = double(settings.flow_height) * 1e-3,
                .puddles = double(settings.puddles)},
-          map(given.frame, settings) {}
+          casters(given.frame, settings) {
+        for (const glm::dvec3& direction : falling_directions(given.frame, settings))
+            maps.emplace_back(casters, given.frame, settings, direction);
+    }
 };
 
 struct Arriving {
@@ -64,13 +68,13 @@ glm::dvec2 tap_offset(const WetnessParams& params, std::uint32_t noise, std::uin
 }
 
 /// A tap between two texels, but for rounding, may read either.
-Reached tap(const Scene& scene, const glm::dvec2& at, double depth, double doubt) {
-    const double slack = doubt / scene.map.texel() + 5e-4;
+Reached tap(const TracedMap& map, const glm::dvec2& at, double depth, double doubt) {
+    const double slack = doubt / map.texel() + 5e-4;
     const glm::ivec2 texel(glm::floor(at));
-    Reached result = scene.map.is_reached(texel, depth, doubt);
+    Reached result = map.is_reached(texel, depth, doubt);
     for (const glm::dvec2 aside : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
         const glm::ivec2 other(glm::floor(at + slack * aside));
-        if (other != texel && scene.map.is_reached(other, depth, doubt).open != result.open) result.undecided = true;
+        if (other != texel && map.is_reached(other, depth, doubt).open != result.open) result.undecided = true;
     }
     return result;
 }
@@ -88,23 +92,45 @@ std::vector<glm::dvec3> cells_at(const glm::dvec3& world, double distance) {
     return cells;
 }
 
-Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
+/// A place of a rain map around which taps lie.
+struct Taps {
+    const TracedMap& map;
+    glm::dvec3 at;
+    double disc;  ///< radius in texels
+};
+
+Taps taps_around(const Scene& scene, const TracedMap& map, const SurfacePoint& p) {
     const glm::dvec3 normal = facing_normal(p);
-    const double up = cosine_to_rain(scene.input.frame, normal), lean = std::sqrt(std::max(0.0, 1 - up * up));
-    const double disc = disc_radius(scene.params, lean), aside = (disc + 1) * scene.map.texel() * lean;
-    const glm::dvec3 at = scene.map.place(p.position + normal * aside);
+    const double up = glm::dot(normal, map.along()), lean = std::sqrt(std::max(0.0, 1 - up * up));
+    const double disc = disc_radius(scene.params, lean), aside = (disc + 1) * map.texel() * lean;
+    return {map, map.place(p.position + normal * aside), disc};
+}
+
+/// Of four taps those that rain reaches, from 0 to 1.
+Arriving share_of_taps(const Scene& scene, const Taps& taps, std::uint32_t noise, double doubt) {
+    Arriving result{.share = 0};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const glm::dvec2 place = glm::dvec2(taps.at) + tap_offset(scene.params, noise, i, taps.disc);
+        const Reached reached = tap(taps.map, place, taps.at.z - double(scene.params.bias), doubt);
+        result.share += reached.open ? .25 : 0;
+        result.undecided = result.undecided || reached.undecided;
+    }
+    return result;
+}
+
+/// The mean of all directions.
+Arriving looked_up(const Scene& scene, const SurfacePoint& p) {
     const double distance = glm::length(p.position), doubt = 1e-4 + rounding * (1 + distance);
     Arriving result;
     std::vector<double> shares;
     for (const glm::dvec3& cell : cells_at(to_world(scene.input.frame, p.position), distance)) {
-        double open = 0;
-        for (std::uint32_t i = 0; i < 4; ++i) {
-            const glm::dvec2 place = glm::dvec2(at) + tap_offset(scene.params, noise_of(cell), i, disc);
-            const Reached reached = tap(scene, place, at.z - double(scene.params.bias), doubt);
-            open += reached.open;
-            result.undecided = result.undecided || reached.undecided;
+        double sum = 0;
+        for (std::uint32_t i = 0; i < scene.maps.size(); ++i) {
+            const Arriving one = share_of_taps(scene, taps_around(scene, scene.maps[i], p), noise_of(cell) + 4 * i, doubt);
+            sum += one.share;
+            result.undecided = result.undecided || one.undecided;
         }
-        shares.push_back(open / 4);
+        shares.push_back(sum / double(scene.maps.size()));
     }
     result.share = shares.front();
     result.undecided = result.undecided || std::ranges::any_of(shares, [&](double share) { return share != shares.front(); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "passes/scene/light_pyramids.h"
 
@@ -22,10 +23,27 @@ double margin(const RainMapShape& shape) { return std::min(2 * shape.radius + 3,
 
 }  // namespace
 
+std::vector<glm::dvec3> rain_directions(const glm::dvec3& recorded, std::uint32_t count, double spread) {
+    if (count <= 1) return {recorded};
+    const ParallelAxes axes = parallel_axes(recorded);
+    std::vector<glm::dvec3> directions;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double around = 2 * std::numbers::pi * i / count;
+        directions.push_back(axes.along * std::cos(spread) +
+                             (axes.u * std::cos(around) + axes.v * std::sin(around)) * std::sin(spread));
+    }
+    return directions;
+}
+
 RainMap rain_map(const Frame& frame, std::span<const BoundingSphere> casters, const RainMapShape& shape) {
+    return rain_map_along(glm::dvec3(frame.rain.direction), frame, casters, shape);
+}
+
+RainMap rain_map_along(const glm::dvec3& direction, const Frame& frame, std::span<const BoundingSphere> casters,
+                       const RainMapShape& shape) {
     const BoundingSphere seen = view_sphere(frame.view, shape.reach);
     const double texel = 2 * seen.radius / (shape.size - 2 * margin(shape));
-    const ParallelAxes axes = parallel_axes(glm::dvec3(frame.rain.direction));
+    const ParallelAxes axes = parallel_axes(direction);
     const auto row = [&](const glm::dvec3& axis) {
         const glm::dvec3 in_view = frame.view.to_view * axis;
         const double eye = glm::dot(frame.view.origin, axis);
@@ -43,7 +61,8 @@ RainMap rain_map(const Frame& frame, std::span<const BoundingSphere> casters, co
             .v = row(axes.v),
             .depth = glm::dvec4(-along, last) / (last - first),
             .texel = texel,
-            .range = last - first};
+            .range = last - first,
+            .towards_rain = -along};
 }
 
 }  // namespace strata::rain

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include <glm/gtc/quaternion.hpp>
 
 namespace strata::rain {
 namespace {
@@ -44,30 +47,65 @@ glm::dvec2 sphere_around_view(const View& view, double reach) {
     return middle < reach ? glm::dvec2(middle, middle) : glm::dvec2(corner, reach);
 }
 
+/// Of the world, across the rain.
+struct MapAxes {
+    glm::dvec3 u, v;
+};
+MapAxes axes_along(const glm::dvec3& direction) {
+    const glm::dvec3 helper = std::abs(direction.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, direction));
+    return {u, glm::cross(direction, u)};
+}
+
 }  // namespace
 
-TracedMap::TracedMap(const Frame& frame, const WetnessParams& params)
+CastersInRain::CastersInRain(const Frame& frame, const WetnessParams& params)
     : solid_(with_solid_casters(frame, params.casters)),
       through_solid_(solid_, RayMask::shadow_casters),
-      open_(without_masked_casters(frame, solid_)),
-      size_(64u << params.map_size) {
+      open_(without_masked_casters(frame, solid_)) {
     if (open_) through_open_.emplace(*open_, RayMask::shadow_casters);
+}
+
+std::vector<std::optional<double>> CastersInRain::distances(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                            double end) const {
+    std::vector<std::optional<double>> found;
+    const auto see = [&](const RayScene& scene) {
+        const auto hit = scene.closest(origin, direction, 0, end);
+        found.push_back(hit ? std::optional(hit->distance) : std::nullopt);
+    };
+    see(through_solid_);
+    if (through_open_) see(*through_open_);
+    return found;
+}
+
+std::vector<glm::dvec3> falling_directions(const Frame& frame, const WetnessParams& params) {
+    const glm::dvec3 recorded = glm::normalize(glm::dvec3(frame.rain.direction));
+    if (params.directions <= 1) return {recorded};
+    // Turning about v tilts the rain towards u; turning that about the rain itself is the wind.
+    const MapAxes axes = axes_along(recorded);
+    const glm::dvec3 first = glm::angleAxis(glm::radians(double(params.spread)), axes.v) * recorded;
+    std::vector<glm::dvec3> directions;
+    for (std::uint32_t i = 0; i < params.directions; ++i)
+        directions.push_back(glm::angleAxis(2 * std::numbers::pi * i / params.directions, recorded) * first);
+    return directions;
+}
+
+TracedMap::TracedMap(const CastersInRain& casters, const Frame& frame, const WetnessParams& params, const glm::dvec3& direction)
+    : casters_(&casters), size_(64u << params.map_size) {
     const View& view = frame.view;
     const glm::dvec2 sphere = sphere_around_view(view, double(params.reach));
     const double margin = std::min(2 * double(params.radius) + 3, size_ / 4.0);
     texel_ = 2 * sphere.x / (size_ - 2 * margin);
-    const glm::dvec3 along = glm::normalize(glm::dvec3(frame.rain.direction));
-    const glm::dvec3 helper = std::abs(along.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(helper, along)), v = glm::cross(along, u);
+    const MapAxes axes = axes_along(direction);
     const glm::dvec3 center = view.origin + glm::transpose(view.to_view) * glm::dvec3(0, 0, sphere.y);
     const auto corner = [&](const glm::dvec3& axis) {
         const double on_grid = std::round(glm::dot(center, axis) / texel_) * texel_;
         return on_grid - 0.5 * size_ * texel_ - glm::dot(view.origin, axis);
     };
-    corner_ = {corner(u), corner(v)};
-    u_ = view.to_view * u;
-    v_ = view.to_view * v;
-    along_ = view.to_view * along;
+    corner_ = {corner(axes.u), corner(axes.v)};
+    u_ = view.to_view * axes.u;
+    v_ = view.to_view * axes.v;
+    along_ = view.to_view * direction;
 }
 
 glm::dvec3 TracedMap::place(const glm::dvec3& position) const {
@@ -83,13 +121,10 @@ const TracedMap::Depths& TracedMap::depths(glm::ivec2 texel) const {
     for (const glm::dvec2 aside :
          {glm::dvec2(0, 0), glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
         const glm::dvec2 at = corner_ + (glm::dvec2(texel) + 0.5 + aside * snap) * texel_;
-        const auto see = [&](const RayScene& scene) {
-            const auto hit = scene.closest(u_ * at.x + v_ * at.y - along_ * above, along_, 0, 2 * above);
-            const double depth = hit ? hit->distance - above : nothing;
+        for (const auto& distance : casters_->distances(u_ * at.x + v_ * at.y - along_ * above, along_, 2 * above)) {
+            const double depth = distance ? *distance - above : nothing;
             seen = {std::min(seen.least, depth), std::max(seen.most, depth)};
-        };
-        see(through_solid_);
-        if (through_open_) see(*through_open_);
+        }
     }
     return found->second = seen;
 }

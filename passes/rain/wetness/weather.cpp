@@ -17,16 +17,22 @@ Turns turns_of(double time, double rate) {
     return {wrapped(whole), static_cast<float>(turns - whole)};
 }
 
+RainRecord record_of(const RainMap& map, const WetnessParams& params) {
+    const glm::dvec4 biased = map.depth + glm::dvec4(0, 0, 0, double(params.bias) / map.range);
+    return {.u = glm::vec4(map.u),
+            .v = glm::vec4(map.v),
+            .depth = glm::vec4(biased),
+            .towards_rain = glm::vec3(map.towards_rain),
+            .texel = static_cast<float>(map.texel)};
+}
+
 WetnessPush weather_push(const Frame& frame, const RainMap& map, const WetnessParams& params) {
     constexpr double cube = 4;  // metres
     const glm::dvec3 whole = glm::floor(frame.view.origin / cube);
     const Turns rings = turns_of(frame.time, double(ring_rate)), flow = turns_of(frame.time, double(flow_rate));
-    const glm::dvec4 biased = map.depth + glm::dvec4(0, 0, 0, double(params.bias) / map.range);
-    return {.map_u = glm::vec4(map.u),
-            .map_v = glm::vec4(map.v),
-            .map_depth = glm::vec4(biased),
-            .towards_rain = glm::vec3(-(frame.view.to_view * glm::dvec3(frame.rain.direction))),
-            .texel = static_cast<float>(map.texel),
+    RainRecord record = record_of(map, params);
+    record.towards_rain = glm::vec3(-(frame.view.to_view * glm::dvec3(frame.rain.direction)));
+    return {.map = record,
             .cubes = {wrapped(whole.x), wrapped(whole.y), wrapped(whole.z)},
             .place = glm::vec3(frame.view.origin - cube * whole),
             .ring_turns = rings.whole,

@@ -13,6 +13,8 @@ struct Turns {
 };
 Turns turns_of(double time, double rate);
 
+RainRecord record_of(const RainMap&, const WetnessParams&);
+/// With the map of the only direction, or of the first. Slopes are told to the recorded direction, whichever the map's is.
 WetnessPush weather_push(const Frame&, const RainMap&, const WetnessParams&);
 
 }  // namespace strata::rain

@@ -32,7 +32,7 @@ void count(float visibility) {
 }
 
 Weight weight_of(vec3 position, vec3 normal) {
-    const float up = dot(normal, push.towards_rain);
+    const float up = dot(normal, push.map.towards_rain);
     const float slope = clamp(10.0 * up + 5.5, 0.0, 1.0);
     const float fade = 1.0 - smoothstep(fade_begin, reach, position.z), known = fade * fade;
     float visibility = beyond == beyond_open ? 1.0 : 0.0;

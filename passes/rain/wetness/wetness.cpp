@@ -23,13 +23,19 @@ constexpr auto caster_choices = choice_names({{casters_all, "all"}, {casters_fix
 constexpr auto beyond_choices = choice_names({{beyond_open, "open"}, {beyond_dry, "dry"}});
 constexpr auto forms = choice_names({{form_porosity, "porosity"}, {form_xray, "xray"}});
 constexpr std::string_view switches[] = {"off", "on"};
-constexpr std::string_view map_name = "rain map";
+constexpr std::string_view map_name = "rain map", records_name = "places of rain maps";
 
-RainMap map_of(const FrameImages& frame, const WetnessParams& params) {
+/// One for each direction of the rain.
+std::vector<RainMap> maps_of(const FrameImages& frame, const WetnessParams& params) {
     std::vector<BoundingSphere> casters;
     for (const std::uint32_t draw : frame.facts->lists().casters) casters.push_back(frame.facts->bounds().spheres[draw]);
-    return rain_map(*frame.recorded, casters,
-                    {.size = smallest_map << params.map_size, .radius = double(params.radius), .reach = double(params.reach)});
+    const RainMapShape shape{
+        .size = smallest_map << params.map_size, .radius = double(params.radius), .reach = double(params.reach)};
+    const double spread = glm::radians(double(params.spread));
+    std::vector<RainMap> maps;
+    for (const glm::dvec3& along : rain_directions(glm::dvec3(frame.recorded->rain.direction), params.directions, spread))
+        maps.push_back(rain_map_along(along, *frame.recorded, casters, shape));
+    return maps;
 }
 
 /// Runs of the casters that keep rain away.
@@ -52,25 +58,45 @@ std::vector<DrawList> caster_runs(const FrameImages& frame, std::uint32_t which)
     return runs;
 }
 
-Image draw_map(Graph& graph, const FrameImages& frame, const WetnessParams& params, const RainMap& at) {
-    const std::uint32_t size = smallest_map << params.map_size;
-    Image map = graph.create(std::string(map_name), {.extent = {size, size}, .format = Format::d32f});
-    graph.clear(map, {});
-    const glm::dvec4 one(0, 0, 0, 1);
-    const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));
-    for (const DrawList& run : caster_runs(frame, params.casters)) {
-        if (run.count == 0) continue;
-        DrawPass cast = graph.draw("rain/wetness/cast", run);
-        fix_materials(cast, frame, Surfaces::opaque)
-            .writes_depth(map)
-            .within({size, size})
-            .push(RainMapPush{.view_to_map = glm::mat4(to_map)});
+/// Where several maps lie; one is told by push constants.
+void keep_records(Graph& graph, const std::vector<RainMap>& maps, const WetnessParams& params) {
+    if (maps.size() == 1) return;
+    const auto count = static_cast<std::uint32_t>(maps.size());
+    Image records = graph.create(std::string(records_name), {.extent = {4, count}, .format = Format::rgba32f});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ComputePass keep = graph.compute("rain/wetness/record.comp");
+        i == 0 ? keep.stores("records", records) : keep.updates("records", records);
+        keep.push(RecordPush{.map = record_of(maps[i], params), .place = i}).groups({1, 1, 1});
     }
-    return map;
 }
 
-ComputePass read_map(ComputePass pass, const Image& map, const WetnessParams& params) {
-    return pass.samples("rain_map", map)
+void draw_maps(Graph& graph, const FrameImages& frame, const WetnessParams& params, const std::vector<RainMap>& maps) {
+    const std::uint32_t size = smallest_map << params.map_size;
+    const auto count = static_cast<std::uint32_t>(maps.size());
+    Image layers = graph.create(std::string(map_name), {.extent = {size, size}, .format = Format::d32f, .layers = count});
+    graph.clear(layers, {});
+    const std::vector<DrawList> runs = caster_runs(frame, params.casters);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const RainMap& at = maps[i];
+        const glm::dvec4 one(0, 0, 0, 1);
+        const glm::dmat4 to_map = glm::transpose(glm::dmat4(at.u * (2. / size) - one, at.v * (2. / size) - one, at.depth, one));
+        for (const DrawList& run : runs) {
+            if (run.count == 0) continue;
+            DrawPass cast = graph.draw("rain/wetness/cast", run);
+            fix_materials(cast, frame, Surfaces::opaque)
+                .writes_depth(layers, count > 1 ? Part{.layer = i} : Part{})
+                .within({size, size})
+                .push(RainMapPush{.view_to_map = glm::mat4(to_map)});
+        }
+    }
+    keep_records(graph, maps, params);
+}
+
+/// Binds the maps in a step whose shader includes passes/rain/wetness/lookup.glsl.
+ComputePass read_maps(Graph& graph, ComputePass pass, const WetnessParams& params) {
+    return pass.samples("rain_map", graph.find_image(map_name))
+        .samples("records", graph.find_image(records_name))
+        .fixes("directions", params.directions)
         .fixes("map_size", static_cast<std::int32_t>(smallest_map << params.map_size))
         .fixes("jitter", params.jitter)
         .fixes("radius", params.radius);
@@ -82,9 +108,8 @@ void wet_surfaces(Graph& graph, FrameImages& frame, const WetnessParams& params,
     const auto like = [&](const char* name, const Image& dry) { return graph.create(name, graph.shape(dry)); };
     Image wet0 = like("gbuffer0", frame.gbuffer0), wet1 = like("gbuffer1", frame.gbuffer1);
     Image wet2 = has_third ? like("gbuffer2", frame.gbuffer2) : Image{};
-    const Image map = graph.find_image(map_name);
     ComputePass pass = graph.compute(has_third ? "rain/wetness/wet_three.comp" : "rain/wetness/wet_two.comp");
-    read_map(sample_edges(sample_gbuffer(pass, frame), frame), map, params)
+    read_maps(graph, sample_edges(sample_gbuffer(pass, frame), frame), params)
         .stores("wet0", wet0)
         .stores("wet1", wet1)
         .fixes("form", params.form)
@@ -109,19 +134,19 @@ void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     const Rain& rain = frame.recorded->rain;
     if (rain.intensity <= 0 && rain.wetness <= 0) return;  // the stage was forced
     const auto params = settings.as<WetnessParams>();
-    const RainMap at = map_of(frame, params);
-    draw_map(graph, frame, params, at);
-    wet_surfaces(graph, frame, params, weather_push(*frame.recorded, at, params));
+    const std::vector<RainMap> maps = maps_of(frame, params);
+    draw_maps(graph, frame, params, maps);
+    wet_surfaces(graph, frame, params, weather_push(*frame.recorded, maps.front(), params));
     gbuffer::add_surfaces(graph, frame);
 }
 
 Image show(Graph& graph, const FrameImages& frame, const Settings& settings, std::uint32_t shows_map) {
     const auto params = settings.as<WetnessParams>();
     Image picture = graph.create("shown rain", {.extent = frame.extent, .format = Format::rgba32f});
-    read_map(sample_gbuffer(graph.compute("rain/wetness/show.comp"), frame), graph.find_image(map_name), params)
+    read_maps(graph, sample_gbuffer(graph.compute("rain/wetness/show.comp"), frame), params)
         .stores("picture", picture)
         .fixes("shows_map", shows_map)
-        .push(weather_push(*frame.recorded, map_of(frame, params), params))
+        .push(weather_push(*frame.recorded, maps_of(frame, params).front(), params))
         .over(frame.extent);
     return picture;
 }
@@ -131,7 +156,9 @@ Image show_map(Graph& graph, FrameImages& frame, const Settings& settings) { ret
 Image show_arriving(Graph& graph, FrameImages& frame, const Settings& settings) { return show(graph, frame, settings, 0); }
 
 std::string_view approximates(const Settings& settings) {
-    return settings.as<WetnessParams>().form == form_xray ? xray_truth_name : std::string_view();
+    const auto params = settings.as<WetnessParams>();
+    if (params.directions > 1) return params.form == form_xray ? xray_wind_truth_name : wind_truth_name;
+    return params.form == form_xray ? xray_truth_name : std::string_view();
 }
 
 std::vector<Param> map_params() {
@@ -215,9 +242,25 @@ std::vector<Param> look_params() {
                  .choices = switches})};
 }
 
+std::vector<Param> wind_params() {
+    return {param<&WetnessParams::directions>({.name = "rain_directions",
+                                               .group = "wind",
+                                               .low = 1,
+                                               .high = most_directions,
+                                               .fallback = 1,
+                                               .help = "number of rain maps, tilted around the recorded direction as in a "
+                                                       "turning wind; more: smoother borders, more memory"}),
+            param<&WetnessParams::spread>(
+                {.name = "rain_spread",
+                 .low = 0,
+                 .high = 45,
+                 .fallback = wind_spread,
+                 .help = "tilt in degrees of the directions from the recorded one (rain_directions above 1)"})};
+}
+
 std::vector<Param> params() {
     std::vector<Param> rows = map_params();
-    for (const Param& row : look_params()) rows.push_back(row);
+    for (const std::vector<Param>& more : {look_params(), wind_params()}) rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 
@@ -227,6 +270,7 @@ Claims claims() {
             .name = name, .of = of, .against = against, .scenario = "roof_in_rain", .counters = {"looked_up", "wet"}};
     };
     return {.ratios = {ratio("a map of 2048 texels, against 256", "rain_map_size=2048", "rain_map_size=256"),
+                       ratio("maps of five directions, against one", "rain_directions=5", ""),
                        ratio("rings, streams and puddles, against none", "", "ripple_height=0 flow_height=0 puddles=0")}};
 }
 
@@ -244,10 +288,16 @@ Technique wetness() {
             "Darkens and smooths surfaces that a map of the rain reaches, with rings, streams and puddles; edges of dry areas "
             "are as wide as the lookup, and low shelters near walls are missed.",
         .params = params(),
-        .points = {"rain_map_size=64", "rain_map_size=256", "rain_map_size=512", "rain_map_size=2048", "rain_radius=0",
-                   "rain_radius=4", "rain_radius=8", "rain_jitter=none", "rain_casters=fixed",
-                   "rain_beyond=dry rain_reach=20 rain_fade=0.25", "wet_form=xray", "wet_form=xray puddles=0", "ripple_height=0",
-                   "flow_height=0", "puddles=0", "puddles=1", "ripple_filter=off"},
+        .points = {"rain_map_size=64",   "rain_map_size=256",
+                   "rain_map_size=512",  "rain_map_size=2048",
+                   "rain_radius=0",      "rain_radius=4",
+                   "rain_radius=8",      "rain_jitter=none",
+                   "rain_casters=fixed", "rain_beyond=dry rain_reach=20 rain_fade=0.25",
+                   "wet_form=xray",      "wet_form=xray puddles=0",
+                   "ripple_height=0",    "flow_height=0",
+                   "puddles=0",          "puddles=1",
+                   "ripple_filter=off",  "rain_directions=3",
+                   "rain_directions=5",  "rain_directions=8"},
         .counters =
             {counter<&WetnessCounters::looked_up>(
                  {.name = "looked_up", .help = "samples for which the rain map was looked up, one for all of a plain pixel"}),
@@ -259,7 +309,8 @@ Technique wetness() {
                    .help = "share of rain that arrives at each pixel's first sample, with normals as the waves have left them",
                    .declare = show_arriving},
                   {.name = "rain map",
-                   .help = "the rain map over the picture: brighter towards the rain, black where nothing was drawn",
+                   .help = "the rain map (of several, the first) over the picture: brighter towards the rain, black where "
+                           "nothing was drawn",
                    .declare = show_map}},
         .abilities = {.is_time_unit = true},
         .claims = claims(),

@@ -24,6 +24,9 @@ const uint beyond_dry = 1u;
 const float noise_cells = 32.0f;
 const float noise_shift = 0.37f;
 
+// rain_directions
+const uint most_directions = 8u;
+
 // Of a vertical surface, the disc of taps is smaller by this share: all of it must be moved out of what stands above.
 const float disc_loss = 0.75f;
 
@@ -43,17 +46,29 @@ struct WetnessParams {
     float flow_height;    // millimetres
     float puddles;
     uint ripple_filter;
+    uint directions;
+    float spread;  // degrees
 };
 
 struct RainMapPush {
     mat4 view_to_map;
 };
 
-struct WetnessPush {
-    // Of a view-space point (p, 1): texels along both axes of the map, and depth there, 1 where the map begins, with the bias.
-    vec4 map_u, map_v, map_depth;
+// Where the rain map of one direction lies. Of a view-space point (p, 1): texels along both axes of the map, and depth there, 1
+// where the map begins, with the bias.
+struct RainRecord {
+    vec4 u, v, depth;
     vec3 towards_rain;  // view space, unit
     float texel;        // metres
+};
+
+struct RecordPush {
+    RainRecord map;
+    uint place;
+};
+
+struct WetnessPush {
+    RainRecord map;  // of the recorded direction; with more directions than that, of the first but for towards_rain
     // The eye's place in the world: whole cubes of 4 m modulo 2^32, and metres from there.
     uvec3 cubes;
     vec3 place;

@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "capture_format/view.h"
 #include "passes/rain/formulas.h"
+#include "passes/rain/truth.h"
 #include "passes/rain/wetness/rain_map.h"
 #include "passes/rain/wetness/weather.h"
 #include "passes/technique.h"
@@ -165,11 +167,12 @@ struct Floor {
     }
 };
 
-void add_roof(Frame& frame) {
+/// 4 m by 4 m.
+void add_roof(Frame& frame, float height = 3) {
     frame.materials.emplace_back();
     Mesh plate;
     for (const glm::vec2 corner : {glm::vec2(-2, -2), {-2, 2}, {2, 2}, {2, -2}})
-        plate.positions.emplace_back(corner.x, 3, corner.y);
+        plate.positions.emplace_back(corner.x, height, corner.y);
     plate.indices = {0, 1, 2, 0, 2, 3};
     frame.meshes.push_back(plate);
     frame.draws.emplace_back();
@@ -209,6 +212,85 @@ TEST(RainLookup, FadesAsXRaysDoesWhereItIsToldTo) {  // docs/algorithms/deferred
             {{"rain_beyond", "dry"}, {"rain_reach", "20"}, {"rain_fade", "0.25"}, {"puddles", "0"}, {"wet_form", "xray"}});
         EXPECT_NEAR(1 - roughness.at(32, 32).x, .8 * .99 * fade, .003) << z;
         EXPECT_NEAR(1 - floor.roughness({{"rain_reach", "20"}, {"puddles", "0"}}).at(32, 32).x, .8, .003) << "open beyond";
+    }
+}
+
+// --- wind -------------------------------------------------------------------------------------------------------------------
+
+TEST(RainDirections, AreTiltedByTheSpreadAllAroundTheRecordedOne) {
+    const glm::dvec3 recorded = glm::normalize(glm::dvec3(.2, -1, .1));
+    EXPECT_EQ(rain_directions(recorded, 1, .3), std::vector{recorded});
+    for (const std::uint32_t count : {2u, 3u, 5u, 8u}) {
+        glm::dvec3 sum(0);
+        for (const glm::dvec3& direction : rain_directions(recorded, count, .3)) {
+            EXPECT_NEAR(glm::dot(direction, recorded), std::cos(.3), 1e-12);
+            sum += direction;
+        }
+        EXPECT_NEAR(glm::length(sum - recorded * (count * std::cos(.3))), 0, 1e-12) << count;
+    }
+}
+
+/// The share of the rain that arrives on a pixel of the floor, of its roughness when wet.
+double share_of(const glm::dvec4& roughness) { return (1 - roughness.x) / .8; }
+
+constexpr double tilt = 15 * std::numbers::pi / 180;
+constexpr double code = .004;  // of 8 bits of roughness
+
+ReferenceImage in_wind(const Floor& floor, const std::string& directions) {
+    return floor.roughness(
+        {{"rain_directions", directions}, {"rain_radius", "0"}, {"rain_reach", "20"}, {"rain_fade", "0.95"}, {"puddles", "0"}});
+}
+
+TEST(RainInWind, ReachesWhatAsManyRaysDo) {
+    Floor floor(18);
+    add_roof(floor.frame);
+    const double edge = 1.5 * rain_map(floor.frame, {}, {.size = 1024, .radius = 0, .reach = 20}).texel;
+    for (const std::uint32_t count : {3u, 5u}) {
+        const ReferenceImage roughness = in_wind(floor, std::to_string(count));
+        std::size_t compared = 0, partly = 0;
+        for (std::uint32_t y = 0; y < 64; ++y)
+            for (std::uint32_t x = 0; x < 64; ++x) {
+                const glm::dvec3 place = to_world(floor.frame, pixel_ray(floor.frame, x + .5, y + .5) * 18.);
+                double open = 0;
+                bool is_near_edge = false;
+                for (const glm::dvec3& falls : rain_directions({0, -1, 0}, count, tilt)) {
+                    const glm::dvec3 at_roof = place + falls * (3 / falls.y);
+                    const double outside = std::max(std::abs(at_roof.x), std::abs(at_roof.z)) - 2;
+                    is_near_edge = is_near_edge || std::abs(outside) < edge;
+                    open += outside > 0 ? 1. / count : 0;
+                }
+                if (is_near_edge) continue;
+                EXPECT_NEAR(share_of(roughness.at(x, y)), open, code) << count << " at " << x << ", " << y;
+                ++compared;
+                partly += open > .1 && open < .9;
+            }
+        EXPECT_GT(compared, 3500u);
+        EXPECT_GT(partly, 300u);
+    }
+}
+
+/// Of wind from all around, at a straight edge at height h: 1/2 + asin(x / w) / pi at x metres outside, w = h tan(tilt).
+double share_at_edge(double outside, double height) {
+    return .5 + std::asin(std::clamp(outside / (height * std::tan(tilt)), -1., 1.)) / std::numbers::pi;
+}
+
+TEST(RainInWind, HasAPenumbraAsWideAsTheRoofIsHigh) {
+    // The truth has puddles, of which color tells nothing: a soaked white floor is .5.
+    for (const float height : {3.f, 6.f}) {
+        Floor floor(18);
+        add_roof(floor.frame, height);
+        const ReferenceImage roughness = in_wind(floor, "8");
+        const ReferenceImage truth = rain_in_wind_truth({floor.frame, floor.images}).at("surface_color");
+        for (std::uint32_t x = 32; x < 64; ++x) {
+            const double outside = std::abs(pixel_ray(floor.frame, x + .5, 32).x) * 18 - 2,
+                         wanted = share_at_edge(outside, height);
+            // Eight directions meet the edge at 0, .707 and 1 w: steps of an eighth to a quarter around the curve.
+            EXPECT_NEAR(share_of(roughness.at(x, 32)), wanted, .15) << height << " m, " << outside;
+            EXPECT_NEAR(2 * (1 - truth.at(x, 32).x), wanted, .02) << height << " m, " << outside;
+            if (std::abs(outside) > 1.05 * height * std::tan(tilt)) {
+                EXPECT_NEAR(share_of(roughness.at(x, 32)), outside < 0 ? 0 : 1, code) << outside;
+            }
+        }
     }
 }
 

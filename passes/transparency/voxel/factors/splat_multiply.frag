@@ -2,6 +2,7 @@
 // attachment of a layered draw has as many layers, so opaque depth is tested here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/shaders/luminance.glsl"
 #include "passes/transparency/event.glsl"
 #include "passes/transparency/voxel/voxel.shared.h"
 
@@ -13,6 +14,5 @@ void main() {
     const Event event = transparent_event();
     const bool hidden = gl_FragCoord.z < texelFetch(depth_layers, ivec3(gl_FragCoord.xy, 0), 0).r;
     if (hidden || !event.visible) discard;
-    const float luminance = dot(event.t, vec3(0.2126, 0.7152, 0.0722));
-    out_factor = push.channels == 1u ? vec4(luminance) : vec4(event.t, 1.0);
+    out_factor = push.channels == 1u ? vec4(luminance(event.t)) : vec4(event.t, 1.0);
 }
