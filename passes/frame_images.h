@@ -44,7 +44,8 @@ struct FrameImages {
     // shadows
     Image shadow_maps;           ///< d32f, maps in its layers (ShadowRecord of scene.shared.h), 0 nothing, 1 at the light
     ShadowFilter shadow_filter;  ///< how they are looked up: fixes the constants of passes/shaders/shadow_filter.glsl
-    Image shadow_bounds;  ///< rgba32f, layers as shadow_maps: what blocks of texels hold; none unless a technique makes them
+    Image shadow_bounds;  ///< rg32f or rgba32f, layers as shadow_maps: bounds of blocks of texels; none unless a technique makes
+                          ///< them
     Image visibility;     ///< r16f, layer = LightRecord::visibility_layer + sample: 1 lit, 0 shadowed
     // gbuffer
     Image depth;                         ///< d32f, `samples` samples: reversed, near / z

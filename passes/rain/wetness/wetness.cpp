@@ -148,11 +148,11 @@ std::vector<Param> map_params() {
              .high = 16,
              .fallback = 2,
              .help = "radius in texels of the disc that four taps sample; larger: softer edges of dry areas"}),
-        param<&WetnessParams::jitter>(
-            {.name = "rain_jitter",
-             .fallback = jitter_world,
-             .help = "world places taps at random in the disc, fixed to surfaces; none: half a texel aside, with visible blocks",
-             .choices = jitters}),
+        param<&WetnessParams::jitter>({.name = "rain_jitter",
+                                       .fallback = jitter_world,
+                                       .help = "places of the taps: random in the disc and fixed to the world, or half a texel "
+                                               "aside (none), with visible blocks",
+                                       .choices = jitters}),
         param<&WetnessParams::casters>({.name = "rain_casters",
                                         .fallback = casters_all,
                                         .help = "draws that keep rain away: all shadow casters, or only those of fixed mobility",
