@@ -30,14 +30,24 @@ glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const Surf
 
 }  // namespace
 
-glm::dvec3 composed(const StageInput& input, const ComposedSample& at) {
+double fog_path(const SurfacePoint& p, FogPath path) {
+    return path == FogPath::distance ? glm::length(p.position) : p.position.z;
+}
+
+Fogged recorded_fog(const Frame& frame, FogPath path) {
+    return [&frame, path](const glm::dvec3& radiance, const SurfacePoint& p) {
+        const FogAt fog = fog_at(frame, fog_path(p, path));
+        return radiance * fog.remains + fog.added;
+    };
+}
+
+glm::dvec3 composed(const StageInput& input, const ComposedSample& at, const Fogged& fogged) {
     const glm::dvec4 emission = texel(input, "emission", at, glm::dvec4(0));
     const glm::dvec3 shafts(texel(input, "shafts", at, glm::dvec4(0)));
     if (emission.w == 0) return glm::dvec3(input.frame.background) + shafts;
     const SurfacePoint p = surface(input, at);
     const glm::dvec3 light(texel(input, "light", at, glm::dvec4(0)));
-    const FogAt fog = fog_at(input.frame, p.position.z);
-    return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added + shafts;
+    return fogged(glm::dvec3(emission) + light + ambient(input, at, p), p) + shafts;
 }
 
 double tone_mapped(double exposed, double white) {

@@ -1,6 +1,9 @@
 // Combining and developing a picture in double, from docs/algorithms/deferred.md 8: what truth and models compute with.
 #pragma once
 
+#include <functional>
+
+#include "passes/combine/fog.h"
 #include "passes/reference/shade.h"
 #include "passes/stages.h"
 
@@ -11,7 +14,14 @@ namespace strata::combine {
 struct ComposedSample {
     std::uint32_t x = 0, y = 0, sample = 0;
 };
-glm::dvec3 composed(const StageInput&, const ComposedSample&);
+/// What fog makes of the radiance of a surface.
+using Fogged = std::function<glm::dvec3(const glm::dvec3& radiance, const SurfacePoint&)>;
+glm::dvec3 composed(const StageInput&, const ComposedSample&, const Fogged&);
+
+/// The recorded fog, exponential: the share that remains of what is at a surface, and the fog's own color.
+Fogged recorded_fog(const Frame&, FogPath);
+/// The way from a surface to the eye, meters.
+double fog_path(const SurfacePoint&, FogPath);
 
 /// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
 double tone_mapped(double exposed, double white);

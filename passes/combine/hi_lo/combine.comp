@@ -3,6 +3,7 @@
 // (docs/algorithms/deferred.md 3.1).
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.glsl"
 #include "passes/gbuffer/surface_at.glsl"
 #include "passes/shaders/lights.glsl"
@@ -13,6 +14,10 @@ layout(constant_id = 2) const uint has_light = 0u;
 layout(constant_id = 3) const uint has_occlusion = 0u;
 layout(constant_id = 4) const uint has_indirect = 0u;
 layout(constant_id = 5) const uint has_shafts = 0u;
+layout(constant_id = 104) const uint has_fog = 0u;
+layout(constant_id = 105) const uint fog = fog_exponential;
+layout(constant_id = 106) const uint fog_distance = fog_by_view_depth;
+layout(constant_id = 107) const uint fog_sky = fog_sky_apart;
 
 layout(set = 0, binding = 3) uniform sampler2DArray emission;
 layout(set = 0, binding = 4) uniform sampler2DArray light;
@@ -20,6 +25,7 @@ layout(set = 0, binding = 5) uniform sampler2DArray occlusion;
 layout(set = 0, binding = 6) uniform sampler2DArray indirect;
 layout(set = 0, binding = 7) uniform sampler2DArray shafts;
 layout(set = 0, binding = 8, rgba32f) writeonly uniform image2DArray color;
+layout(push_constant, scalar) uniform Push { LinearFog linear_fog; };
 
 vec3 light_at(ivec3 at) { return has_light != 0u ? texelFetch(light, at, 0).rgb : vec3(0.0); }
 
@@ -31,12 +37,25 @@ vec3 ambient(MaterialPoint m, ivec3 at) {
     return has_occlusion != 0u ? sum * texelFetch(occlusion, at, 0).r : sum;
 }
 
+// Fog over a surface that is so many meters away (docs/algorithms/deferred.md 8.2).
+vec3 fogged(vec3 radiance, float meters) {
+    if (fog == fog_exponential && fog_sky == fog_sky_apart) return apply_fog(radiance, meters);
+    float share = 1.0 - fog_remains(meters);
+    if (fog == fog_linear) share = clamp(linear_fog.factor * meters + linear_fog.offset, 0.0, 1.0);
+    const vec3 sum = mix(radiance, view.fog_color, share);
+    if (fog_sky == fog_sky_apart) return sum;
+    return mix(sum, view.background, share * share);
+}
+
 vec3 composed(ivec3 at) {
     if (has_surfaces == 0u) return view.background;
     const vec4 own = texelFetch(emission, at, 0);
     if (own.a == 0.0) return view.background;
     const Surface s = surface_at(at);
-    return apply_fog(own.rgb + light_at(at) + ambient(lit_point(s, uvec2(at.xy)), at), s.z);
+    const MaterialPoint m = lit_point(s, uvec2(at.xy));
+    const vec3 radiance = own.rgb + light_at(at) + ambient(m, at);
+    if (has_fog == 0u) return radiance;
+    return fogged(radiance, fog_distance == fog_by_distance ? length(m.position) : s.z);
 }
 
 void main() {

@@ -82,14 +82,30 @@ Quantized display_at(const StageInput& input, const ReferenceImage& color, std::
     return {developed(input, color, x, y)};
 }
 
-ReferenceImage combined(const StageInput& input) {
+/// Fog as the settings have it: F = clamp(fw d + fx) or 1 - exp(-density d), and the sky by F^2
+/// (docs/algorithms/deferred.md 8.2).
+Fogged chosen_fog(const Frame& frame, const HiLoParams& params) {
+    return [&frame, params](const glm::dvec3& radiance, const SurfacePoint& p) {
+        const double density = double(frame.fog.density), near = double(params.fog_near), far = double(params.fog_far);
+        const double free_paths =
+            density * fog_path(p, params.fog_distance == fog_by_distance ? FogPath::distance : FogPath::view_depth);
+        double share = 1 - std::exp(-free_paths);
+        if (params.fog == fog_linear)
+            share = std::clamp((free_paths - near) / std::max(far - near, double(least_fog_length)), 0.0, 1.0);
+        const glm::dvec3 sum = glm::mix(radiance, glm::dvec3(frame.fog.color), share);
+        return params.fog_sky == fog_sky_blended ? glm::mix(sum, glm::dvec3(frame.background), share * share) : sum;
+    };
+}
+
+ReferenceImage combined(const StageInput& input, const HiLoParams& params) {
     const View& view = input.frame.view;
+    const Fogged fogged = chosen_fog(input.frame, params);
     ReferenceImage color(view.width, view.height, view.samples);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x) {
                 const std::uint32_t shaded = is_plain_pixel(input, x, y) ? 0 : sample;
-                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, shaded}), 1);
+                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, shaded}, fogged), 1);
             }
     return color;
 }
@@ -100,16 +116,16 @@ ImageSet hi_lo_model(const StageInput& input, const Settings& settings) {
     const View& view = input.frame.view;
     ReferenceImage display(view.width, view.height);
     display.undecided.assign(display.texels.size(), false);
-    const std::uint32_t resolve = settings.as<HiLoParams>().resolve;
+    const auto params = settings.as<HiLoParams>();
     const ReferenceImage& found = input.before.at("color");
     for (std::uint32_t y = 0; y < view.height; ++y)
         for (std::uint32_t x = 0; x < view.width; ++x) {
-            const Quantized shown = display_at(input, found, x, y, resolve);
+            const Quantized shown = display_at(input, found, x, y, params.resolve);
             display.at(x, y) = glm::dvec4(shown.value, 1);
             display.undecided[display.index(x, y)] = shown.undecided;
         }
     ImageSet images{{"display", display}};
-    if (!is_drawn_over(input.frame)) images.emplace("color", combined(input));
+    if (!is_drawn_over(input.frame)) images.emplace("color", combined(input, params));
     return images;
 }
 
