@@ -14,12 +14,17 @@ namespace strata::combine {
 struct ComposedSample {
     std::uint32_t x = 0, y = 0, sample = 0;
 };
-/// What fog makes of the radiance of a surface.
-using Fogged = std::function<glm::dvec3(const glm::dvec3& radiance, const SurfacePoint&)>;
-glm::dvec3 composed(const StageInput&, const ComposedSample&, const Fogged&);
+/// What settings may change of a surface.
+struct Look {
+    /// Fog over the radiance of a surface.
+    std::function<glm::dvec3(const glm::dvec3& radiance, const SurfacePoint&)> fogged;
+    /// Light of sky and ground, the material's occlusion in it; none: hemisphere_light().
+    std::function<glm::dvec3(const SurfacePoint&)> hemisphere = {};
+};
+glm::dvec3 composed(const StageInput&, const ComposedSample&, const Look&);
 
 /// The recorded fog, exponential: the share that remains of what is at a surface, and the fog's own color.
-Fogged recorded_fog(const Frame&, FogPath);
+Look recorded_look(const Frame&, FogPath);
 /// The way from a surface to the eye, meters.
 double fog_path(const SurfacePoint&, FogPath);
 

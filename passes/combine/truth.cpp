@@ -8,11 +8,11 @@ namespace {
 ImageSet truth_with(const StageInput& input, combine::FogPath path) {
     const View& view = input.frame.view;
     ReferenceImage color(view.width, view.height, view.samples), display(view.width, view.height);
-    const combine::Fogged fogged = combine::recorded_fog(input.frame, path);
+    const combine::Look look = combine::recorded_look(input.frame, path);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x)
-                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample}, fogged), 1);
+                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample}, look), 1);
     // What was drawn over the combined color is given: it is another stage's to judge.
     const bool drawn_over = combine::is_drawn_over(input.frame);
     const ReferenceImage& final_color = drawn_over ? input.before.at("color") : color;

@@ -6,6 +6,7 @@
 #include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
+#include "passes/lighting/material_table.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -18,6 +19,7 @@ constexpr auto resolves = choice_names(
     {{resolve_tone_mapped, "tone_mapped"}, {resolve_linear, "linear"}, {resolve_weighted, "weighted"}, {resolve_lo_hi, "lo_hi"}});
 constexpr auto fogs = choice_names({{fog_exponential, "exponential"}, {fog_linear, "linear"}});
 constexpr auto fog_distances = choice_names({{fog_by_view_depth, "view_depth"}, {fog_by_distance, "distance"}});
+constexpr auto hemispheres = choice_names({{hemisphere_recorded, "recorded"}, {hemisphere_table, "table"}});
 constexpr auto fog_skies = choice_names({{fog_sky_apart, "apart"}, {fog_sky_blended, "blended"}});
 
 LinearFog linear_fog(const Frame& frame, const HiLoParams& params) {
@@ -31,6 +33,7 @@ void add_color(Graph& graph, FrameImages& frame, const Settings& settings) {
     // Where nothing opaque is drawn there is a background alone, and nothing to read.
     const bool has_surfaces = frame.emission && frame.all_opaque.count > 0;
     const FrameImages read = has_surfaces ? frame : FrameImages{};
+    const bool has_table = has_surfaces && params.hemisphere == hemisphere_table && frame.features->has(Feature::hemisphere);
     sample_edges(sample_gbuffer(graph.compute("combine/hi_lo/combine.comp"), read), read)
         .samples("emission", read.emission)
         .samples("light", read.light)
@@ -43,6 +46,8 @@ void add_color(Graph& graph, FrameImages& frame, const Settings& settings) {
         .fixes("has_occlusion", read.occlusion ? 1u : 0u)
         .fixes("has_indirect", read.indirect ? 1u : 0u)
         .fixes("has_shafts", read.shafts ? 1u : 0u)
+        .samples("material_table", has_table ? lighting::material_table(graph) : Image{})
+        .fixes("hemisphere", has_table ? hemisphere_table : hemisphere_recorded)
         .fixes("has_fog", frame.features->has(Feature::fog) ? 1u : 0u)
         .fixes("fog", params.fog)
         .fixes("fog_distance", params.fog_distance)
@@ -107,7 +112,12 @@ std::vector<Param> params() {
              .low = 0.1,
              .high = 10,
              .fallback = 2,
-             .help = "where linear fog hides everything, in mean free paths; larger: thinner fog; fog=linear"})};
+             .help = "where linear fog hides everything, in mean free paths; larger: thinner fog; fog=linear"}),
+        param<&HiLoParams::hemisphere>({.name = "hemisphere",
+                                        .fallback = hemisphere_recorded,
+                                        .help = "light of sky and ground: as recorded, or through an 8-bit table of four "
+                                                "materials (X-Ray)",
+                                        .choices = hemispheres})};
 }
 
 }  // namespace
@@ -122,7 +132,7 @@ Technique hi_lo() {
                 "that bright saturated colors turn white.",
             .params = params(),
             .points = {"resolve=linear", "resolve=weighted", "resolve=lo_hi", "fog=linear", "fog_distance=distance",
-                       "fog=linear fog_distance=distance fog_sky=blended"},
+                       "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
             .views = {{.name = "highlights",
                        .help = "the 8-bit target Hi of the original: a ninth of the exposed radiance, clipped at 9",
                        .unit = "of 9",

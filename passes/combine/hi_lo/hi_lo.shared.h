@@ -23,6 +23,10 @@ const uint fog_by_distance = 1u;
 const uint fog_sky_apart = 0u;
 const uint fog_sky_blended = 1u;
 
+// Light of sky and ground: as recorded, or through the talk's table of materials (docs/algorithms/deferred.md 8.3).
+const uint hemisphere_recorded = 0u;
+const uint hemisphere_table = 1u;
+
 struct HiLoParams {
     uint resolve;
     uint fog;
@@ -30,6 +34,7 @@ struct HiLoParams {
     uint fog_sky;
     float fog_near;  // of linear fog, in mean free paths: meters times the recorded density
     float fog_far;
+    uint hemisphere;
 };
 const float least_fog_length = 1e-3f;  // from near to far, in mean free paths: as good as a wall
 

@@ -5,6 +5,7 @@
 #include "passes/combine/formulas.h"
 #include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
+#include "passes/lighting/material_table_model.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -84,7 +85,7 @@ Quantized display_at(const StageInput& input, const ReferenceImage& color, std::
 
 /// Fog as the settings have it: F = clamp(fw d + fx) or 1 - exp(-density d), and the sky by F^2
 /// (docs/algorithms/deferred.md 8.2).
-Fogged chosen_fog(const Frame& frame, const HiLoParams& params) {
+auto chosen_fog(const Frame& frame, const HiLoParams& params) {
     return [&frame, params](const glm::dvec3& radiance, const SurfacePoint& p) {
         const double density = double(frame.fog.density), near = double(params.fog_near), far = double(params.fog_far);
         const double free_paths =
@@ -97,15 +98,44 @@ Fogged chosen_fog(const Frame& frame, const HiLoParams& params) {
     };
 }
 
+/// Sky and ground in a direction of the world, which need not be unit.
+glm::dvec3 hemisphere_towards(const Frame& frame, const glm::dvec3& direction) {
+    const double height = direction.y / glm::length(direction);
+    return glm::mix(glm::dvec3(frame.hemisphere.ground), glm::dvec3(frame.hemisphere.sky), (1 + height) / 2);
+}
+
+/// X-Ray's (docs/algorithms/deferred.md 8.3): LUT(AO, .5 + .5 dot(R, V)), V being the way to the surface, R mirrored from it.
+/// `doubts` becomes true where the table's rounding is open.
+auto hemisphere_by_table(const Frame& frame, bool& doubts) {
+    return [&](const SurfacePoint& p) {
+        const glm::dvec3 n = facing_normal(p), v = glm::normalize(p.position), r = v - 2 * glm::dot(v, n) * n;
+        const std::uint32_t slice = lighting::material_slice(p);
+        const lighting::TableShares at = lighting::material_in_table(slice, p.occlusion, 0.5 + 0.5 * glm::dot(r, v));
+        doubts = at.undecided;
+        const glm::dmat3 to_world = glm::transpose(frame.view.to_view);
+        const glm::dvec3 mirrored = to_world * r;
+        const glm::dvec3 highlight = hemisphere_towards(frame, {mirrored.x, 2 * mirrored.y - 1, mirrored.z});
+        return p.base_color * at.shares.x * hemisphere_towards(frame, to_world * n) +
+               lighting::material_gloss(p, slice) * at.shares.y * highlight;
+    };
+}
+
 ReferenceImage combined(const StageInput& input, const HiLoParams& params) {
     const View& view = input.frame.view;
-    const Fogged fogged = chosen_fog(input.frame, params);
+    bool doubts = false;
+    Look look{.fogged = chosen_fog(input.frame, params)};
+    const Hemisphere& hemisphere = input.frame.hemisphere;
+    const bool is_lit = hemisphere.sky != glm::vec3(0) || hemisphere.ground != glm::vec3(0);
+    if (params.hemisphere == hemisphere_table && is_lit) look.hemisphere = hemisphere_by_table(input.frame, doubts);
     ReferenceImage color(view.width, view.height, view.samples);
+    color.undecided.assign(color.texels.size(), false);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x) {
                 const std::uint32_t shaded = is_plain_pixel(input, x, y) ? 0 : sample;
-                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, shaded}, fogged), 1);
+                doubts = false;
+                color.at(x, y, sample) = glm::dvec4(composed(input, {x, y, shaded}, look), 1);
+                color.undecided[color.index(x, y, sample)] = doubts;
             }
     return color;
 }

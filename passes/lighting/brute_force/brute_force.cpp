@@ -5,6 +5,7 @@
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/brute_force/brute_force.shared.h"
 #include "passes/lighting/every_light.h"
+#include "passes/lighting/material_table.h"
 #include "passes/scene/scene_facts.h"
 #include "passes/technique.h"
 
@@ -16,14 +17,6 @@ namespace {
 
 constexpr auto material_sources = choice_names({{materials_recorded, "recorded"}, {materials_table, "table"}});
 constexpr auto speculars = choice_names({{specular_colored, "colored"}, {specular_white, "white"}});
-
-Image material_table(Graph& graph) {
-    const Extent extent{table_width, table_height, table_slices};
-    Image table = graph.create("material table",
-                               {.extent = {table_width, table_height}, .format = Format::rgba8_unorm, .layers = table_slices});
-    graph.compute("lighting/brute_force/material_table.comp").stores("table", table).over(extent);
-    return table;
-}
 
 void declare(Graph& graph, FrameImages& frame, const Settings& settings) {
     if (!frame.gbuffer0) return;

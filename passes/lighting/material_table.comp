@@ -2,7 +2,7 @@
 // and roots, where they are whole or halves of halves: a device's pow() is too coarse for the 128th.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/material_table.shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
