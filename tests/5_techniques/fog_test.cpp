@@ -12,7 +12,7 @@ namespace strata {
 namespace {
 
 /// A ground that is seen up to its horizon by a wide lens, under uniform light.
-Frame ground(float density, std::uint32_t samples = 1) {
+Frame foggy_ground(float density, std::uint32_t samples = 1) {
     Frame frame;
     frame.view = look_at({.eye = {0, 1.7, 0}, .target = {2, 1.2, -4}, .vertical_fov = 1.18f, .width = 64, .height = 36});
     frame.view.samples = samples;
@@ -29,7 +29,7 @@ Frame ground(float density, std::uint32_t samples = 1) {
     return frame;
 }
 
-const std::vector<std::vector<std::string>>& settings() {
+const std::vector<std::vector<std::string>>& fog_settings() {
     static const std::vector<std::vector<std::string>> all = {
         {},
         {"fog_distance=distance"},
@@ -47,8 +47,8 @@ const std::vector<std::vector<std::string>>& settings() {
 TEST(Fog, AtEverySettingIsWhatTheModelSays) {
     const Technique& technique = *must(find_technique("combine/hi_lo"));
     for (const std::uint32_t samples : {1u, 4u}) {
-        const auto session = session_of(std::vector<Frame>{ground(.15f, samples)});
-        for (const std::vector<std::string>& sets : settings()) {
+        const auto session = session_of(std::vector<Frame>{foggy_ground(.15f, samples)});
+        for (const std::vector<std::string>& sets : fog_settings()) {
             SCOPED_TRACE(testing::PrintToString(sets));
             const Request request{.choices = chosen({}, sets)};
             const Accuracy accuracy = must(session->judge(request, Stage::combine, Against::model));
@@ -59,25 +59,25 @@ TEST(Fog, AtEverySettingIsWhatTheModelSays) {
 }
 
 /// Radiance relative to the truth that the settings approximate.
-double error_of(Session& session, const std::vector<std::string>& sets) {
+double fog_error(Session& session, const std::vector<std::string>& sets) {
     const Accuracy accuracy = must(session.judge({.choices = chosen({}, sets)}, Stage::combine, Against::truth));
     return accuracy.method.at(2).value;
 }
 
 TEST(Fog, IsExactAlongEitherPathAndARampIsNot) {
-    const auto session = session_of(std::vector<Frame>{ground(.15f)});
-    EXPECT_LT(error_of(*session, {}), 1e-5);
-    EXPECT_LT(error_of(*session, {"fog_distance=distance"}), 1e-5);
-    EXPECT_GT(error_of(*session, {"fog=linear"}), .01);
+    const auto session = session_of(std::vector<Frame>{foggy_ground(.15f)});
+    EXPECT_LT(fog_error(*session, {}), 1e-5);
+    EXPECT_LT(fog_error(*session, {"fog_distance=distance"}), 1e-5);
+    EXPECT_GT(fog_error(*session, {"fog=linear"}), .01);
 }
 
 TEST(Fog, ThatIsNotThereChangesNoBitAtAnySetting) {
-    const auto session = session_of(std::vector<Frame>{ground(0)});
+    const auto session = session_of(std::vector<Frame>{foggy_ground(0)});
     const auto color = [&](const std::vector<std::string>& sets) {
         return must(session->run({.choices = chosen({}, sets), .outputs = {"color"}})).images.at("color").texels;
     };
     const auto plain = color({});
-    for (const std::vector<std::string>& sets : settings()) EXPECT_EQ(color(sets), plain) << testing::PrintToString(sets);
+    for (const std::vector<std::string>& sets : fog_settings()) EXPECT_EQ(color(sets), plain) << testing::PrintToString(sets);
 }
 
 }  // namespace strata

@@ -13,7 +13,7 @@ namespace strata {
 namespace {
 
 /// The scenario by its sun, with a red lamp and a blue spot at the eye.
-Frame lit(std::string_view scenario) {
+Frame under_colored_lights(std::string_view scenario) {
     Frame frame = scenario_frames(scenario).front();
     const glm::dvec3 forward = glm::transpose(frame.view.to_view) * glm::dvec3(0, 0, 1);
     Light lamp;
@@ -31,7 +31,7 @@ Frame lit(std::string_view scenario) {
     return frame;
 }
 
-const std::vector<std::vector<std::string>>& settings() {
+const std::vector<std::vector<std::string>>& light_buffer_settings() {
     static const std::vector<std::vector<std::string>> all = {
         {"materials=table"}, {"specular=white"}, {"materials=table", "specular=white"}};
     return all;
@@ -47,8 +47,8 @@ bool makes_a_table(const Run& run) {
 TEST(LightBuffer, IsWhatTheModelSaysOnAllModelsUnderColoredLights) {
     const Technique& technique = *must(find_technique("lighting/brute_force"));
     for (const char* scenario : {"materials", "lighting_models"}) {
-        const auto session = session_of(std::vector<Frame>{lit(scenario)});
-        for (const std::vector<std::string>& sets : settings()) {
+        const auto session = session_of(std::vector<Frame>{under_colored_lights(scenario)});
+        for (const std::vector<std::string>& sets : light_buffer_settings()) {
             SCOPED_TRACE(scenario + testing::PrintToString(sets));
             const Request request{.choices = chosen({}, sets)};
             const Accuracy accuracy = must(session->judge(request, Stage::lighting, Against::model));
