@@ -49,6 +49,7 @@ TEST(Fog, AtEverySettingIsWhatTheModelSays) {
     for (const std::uint32_t samples : {1u, 4u}) {
         const auto session = session_of(std::vector<Frame>{foggy_ground(.15f, samples)});
         for (const std::vector<std::string>& sets : fog_settings()) {
+            if (samples > 1 && sets.size() < 4) continue;  // one of many parameters is enough there
             SCOPED_TRACE(testing::PrintToString(sets));
             const Request request{.choices = chosen({}, sets)};
             const Accuracy accuracy = must(session->judge(request, Stage::combine, Against::model));

@@ -34,6 +34,7 @@ void add_color(Graph& graph, FrameImages& frame, const Settings& settings) {
     const bool has_surfaces = frame.emission && frame.all_opaque.count > 0;
     const FrameImages read = has_surfaces ? frame : FrameImages{};
     const bool has_table = has_surfaces && params.hemisphere == hemisphere_table && frame.features->has(Feature::hemisphere);
+    const Image table = has_table ? lighting::material_table(graph) : Image{};
     sample_edges(sample_gbuffer(graph.compute("combine/hi_lo/combine.comp"), read), read)
         .samples("emission", read.emission)
         .samples("light", read.light)
@@ -46,7 +47,7 @@ void add_color(Graph& graph, FrameImages& frame, const Settings& settings) {
         .fixes("has_occlusion", read.occlusion ? 1u : 0u)
         .fixes("has_indirect", read.indirect ? 1u : 0u)
         .fixes("has_shafts", read.shafts ? 1u : 0u)
-        .samples("material_table", has_table ? lighting::material_table(graph) : Image{})
+        .samples("material_table", table)
         .fixes("hemisphere", has_table ? hemisphere_table : hemisphere_recorded)
         .fixes("has_fog", frame.features->has(Feature::fog) ? 1u : 0u)
         .fixes("fog", params.fog)

@@ -78,6 +78,7 @@ bool has_highlight_of_its_own(LightingModel model) {
 }  // namespace
 
 Accumulated accumulated(const Frame& frame, const SurfacePoint& surface, const Light& light, const BruteForceParams& params) {
+    if (surface.model == LightingModel::unlit) return {};
     const bool by_formula = params.materials == materials_recorded;
     if (is_area(light.type) || (by_formula && !has_highlight_of_its_own(surface.model)))
         return {reflected(frame, surface, light)};
