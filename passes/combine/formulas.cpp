@@ -21,23 +21,34 @@ SurfacePoint surface(const StageInput& input, const ComposedSample& at) {
 
 /// Diffuse light that comes from everywhere, after the material's and the screen's occlusion (docs/algorithms/deferred.md 8.3:
 /// both multiply).
-glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const SurfacePoint& p) {
+glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const SurfacePoint& p, const Look& look) {
     if (p.model == LightingModel::unlit) return glm::dvec3(0);
     const glm::dvec3 indirect(texel(input, "indirect", at, glm::dvec4(0)));
     const double visible = texel(input, "occlusion", at, glm::dvec4(1)).x;
-    return visible * (hemisphere_light(input.frame, p) + p.base_color * (1 - p.metallic) * p.occlusion * indirect);
+    const glm::dvec3 hemisphere = look.hemisphere ? look.hemisphere(p) : hemisphere_light(input.frame, p);
+    return visible * (hemisphere + p.base_color * (1 - p.metallic) * p.occlusion * indirect);
 }
 
 }  // namespace
 
-glm::dvec3 composed(const StageInput& input, const ComposedSample& at) {
+double fog_path(const SurfacePoint& p, FogPath path) {
+    return path == FogPath::distance ? glm::length(p.position) : p.position.z;
+}
+
+Look recorded_look(const Frame& frame, FogPath path) {
+    return {.fogged = [&frame, path](const glm::dvec3& radiance, const SurfacePoint& p) {
+        const FogAt fog = fog_at(frame, fog_path(p, path));
+        return radiance * fog.remains + fog.added;
+    }};
+}
+
+glm::dvec3 composed(const StageInput& input, const ComposedSample& at, const Look& look) {
     const glm::dvec4 emission = texel(input, "emission", at, glm::dvec4(0));
     const glm::dvec3 shafts(texel(input, "shafts", at, glm::dvec4(0)));
     if (emission.w == 0) return glm::dvec3(input.frame.background) + shafts;
     const SurfacePoint p = surface(input, at);
     const glm::dvec3 light(texel(input, "light", at, glm::dvec4(0)));
-    const FogAt fog = fog_at(input.frame, p.position.z);
-    return (glm::dvec3(emission) + light + ambient(input, at, p)) * fog.remains + fog.added + shafts;
+    return look.fogged(glm::dvec3(emission) + light + ambient(input, at, p, look), p) + shafts;
 }
 
 double tone_mapped(double exposed, double white) {

@@ -1,6 +1,9 @@
 // Combining and developing a picture in double, from docs/algorithms/deferred.md 8: what truth and models compute with.
 #pragma once
 
+#include <functional>
+
+#include "passes/combine/fog.h"
 #include "passes/reference/shade.h"
 #include "passes/stages.h"
 
@@ -11,7 +14,19 @@ namespace strata::combine {
 struct ComposedSample {
     std::uint32_t x = 0, y = 0, sample = 0;
 };
-glm::dvec3 composed(const StageInput&, const ComposedSample&);
+/// What settings may change of a surface.
+struct Look {
+    /// Fog over the radiance of a surface.
+    std::function<glm::dvec3(const glm::dvec3& radiance, const SurfacePoint&)> fogged;
+    /// Light of sky and ground, the material's occlusion in it; none: hemisphere_light().
+    std::function<glm::dvec3(const SurfacePoint&)> hemisphere = {};
+};
+glm::dvec3 composed(const StageInput&, const ComposedSample&, const Look&);
+
+/// The recorded fog, exponential: the share that remains of what is at a surface, and the fog's own color.
+Look recorded_look(const Frame&, FogPath);
+/// The way from a surface to the eye, meters.
+double fog_path(const SurfacePoint&, FogPath);
 
 /// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
 double tone_mapped(double exposed, double white);

@@ -3,14 +3,16 @@
 #include "passes/combine/formulas.h"
 
 namespace strata {
+namespace {
 
-ImageSet combine_truth(const StageInput& input) {
+ImageSet truth_with(const StageInput& input, combine::FogPath path) {
     const View& view = input.frame.view;
     ReferenceImage color(view.width, view.height, view.samples), display(view.width, view.height);
+    const combine::Look look = combine::recorded_look(input.frame, path);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x)
-                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample}), 1);
+                color.at(x, y, sample) = glm::dvec4(combine::composed(input, {x, y, sample}, look), 1);
     // What was drawn over the combined color is given: it is another stage's to judge.
     const bool drawn_over = combine::is_drawn_over(input.frame);
     const ReferenceImage& final_color = drawn_over ? input.before.at("color") : color;
@@ -20,6 +22,16 @@ ImageSet combine_truth(const StageInput& input) {
     ImageSet images{{"display", display}};
     if (!drawn_over) images.emplace("color", color);
     return images;
+}
+
+ImageSet truth_by_distance(const StageInput& input) { return truth_with(input, combine::FogPath::distance); }
+
+}  // namespace
+
+ImageSet combine_truth(const StageInput& input) { return truth_with(input, combine::FogPath::view_depth); }
+
+std::vector<TruthRow> other_combine_truths() {
+    return {{.name = combine::fog_by_distance_truth, .make = truth_by_distance, .is = "exact, in double, with fog by distance"}};
 }
 
 }  // namespace strata

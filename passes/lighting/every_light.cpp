@@ -51,7 +51,8 @@ glm::dvec3 EveryLight::arriving(const ShadowedLight& l, const SurfacePoint& p) c
     const glm::dvec3 above = off_surface(p.position, facing_normal(p));
     if (form_ == LightForm::real_time || !is_area(l.light.type)) {
         if (!lets_through(l.blockers, l.from, above)) return glm::dvec3(0);
-        return form_ == LightForm::exact ? exact_reflected(*frame_, p, l.light) : reflected(*frame_, p, l.light);
+        if (form_ == LightForm::exact) return exact_reflected(*frame_, p, l.light);
+        return filter_.reflects ? filter_.reflects(*frame_, p, l.light) : reflected(*frame_, p, l.light);
     }
     ExactOptions options;
     if (!l.blockers.blockers.empty())

@@ -14,11 +14,13 @@ namespace strata::lighting {
 /// As the shaders do it, or with area lights integrated (passes/reference/lights.h).
 enum class LightForm { real_time, exact };
 
-/// What is left out.
+/// What is left out, or done otherwise.
 struct LightFilter {
     /// Whether the pixel's list has the light, by its place in shining_lights(); none: all are listed.
     std::function<bool(glm::uvec2 pixel, std::size_t light)> lists = {};
     bool asks_blockers = true;  ///< else they let light through
+    /// What a surface reflects of a light in real time; none: reflected() of passes/reference/lights.h.
+    std::function<glm::dvec3(const Frame&, const SurfacePoint&, const Light&)> reflects = {};
 };
 
 class EveryLight {

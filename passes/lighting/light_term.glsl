@@ -14,11 +14,15 @@ float visibility_of(LightRecord light, ivec3 at) {
     return texelFetch(visibility, ivec3(at.xy, int(light.visibility_layer) + at.z), 0).r;
 }
 
+// 0 where range, blockers or shadow end it.
+float share_that_arrives(LightRecord light, MaterialPoint m, vec3 above, ivec3 at) {
+    return light_arrives(light, m, above, all_asked(light), features) ? visibility_of(light, at) : 0.0;
+}
+
 // `precise`, so that no variant of the shader rounds otherwise than the next.
 vec3 light_term(uint index, MaterialPoint m, vec3 above, ivec3 at) {
     const LightRecord light = lights[index];
-    if (!light_arrives(light, m, above, all_asked(light), features)) return vec3(0.0);
-    const float visible = visibility_of(light, at);
+    const float visible = share_that_arrives(light, m, above, at);
     if (visible <= 0.0) return vec3(0.0);
     precise const vec3 term = visible * reflected(m, light, features);
     return term;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/indirect/lpv/grids_model.h"
 #include "passes/indirect/lpv/model.h"
 #include "passes/indirect/lpv/occlusion/occlusion_model.h"
 #include "passes/reference/decoded.h"

@@ -12,8 +12,36 @@ const uint resolve_linear = 1u;
 const uint resolve_weighted = 2u;
 const uint resolve_lo_hi = 3u;
 
+// The share of a surface that fog hides, F of docs/algorithms/deferred.md 8.2: exponential is what is recorded, linear what the
+// talk's engine has.
+const uint fog_exponential = 0u;
+const uint fog_linear = 1u;
+// What fog is measured along: both are of the pixel's center.
+const uint fog_by_view_depth = 0u;
+const uint fog_by_distance = 1u;
+// What fogged surfaces end as: the fog's color, or the background, by F^2.
+const uint fog_sky_apart = 0u;
+const uint fog_sky_blended = 1u;
+
+// Light of sky and ground: as recorded, or through the talk's table of materials (docs/algorithms/deferred.md 8.3).
+const uint hemisphere_recorded = 0u;
+const uint hemisphere_table = 1u;
+
 struct HiLoParams {
     uint resolve;
+    uint fog;
+    uint fog_distance;
+    uint fog_sky;
+    float fog_near;  // of linear fog, in mean free paths: meters times the recorded density
+    float fog_far;
+    uint hemisphere;
+};
+const float least_fog_length = 1e-3f;  // from near to far, in mean free paths: as good as a wall
+
+// F = clamp(factor * meters + offset) of linear fog: fw and fx of docs/algorithms/deferred.md 8.2.
+struct LinearFog {
+    float factor;
+    float offset;
 };
 
 // Hi = x / 9 in 8 bits: what is brighter clips.

@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "passes/edges/routing/routed.glsl"
 #include "passes/gbuffer/surface_at.glsl"
-#include "passes/lighting/brute_force/brute_force.shared.h"
+#include "passes/lighting/brute_force/light_buffer.glsl"
 #include "passes/lighting/light_term.glsl"
 #include "passes/lighting/stored_light.glsl"
 #include "passes/shaders/finished.glsl"
@@ -14,10 +14,17 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 6, scalar) buffer Counters { BruteForceCounters counters; };
 
+vec3 term_of(uint i, MaterialPoint m, vec3 above, ivec3 at) {
+    if (material_source == materials_recorded && specular == specular_colored) return light_term(i, m, above, at);
+    const LightRecord light = lights[i];
+    const float visible = share_that_arrives(light, m, above, at);
+    return visible > 0.0 ? visible * accumulated(m, light, features) : vec3(0.0);
+}
+
 vec3 every_light(MaterialPoint m, ivec3 at) {
     const vec3 above = lifted(m);
     precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < view.light_count; ++i) sum += light_term(i, m, above, at);
+    for (uint i = 0u; i < view.light_count; ++i) sum += term_of(i, m, above, at);
     return sum;
 }
 

@@ -1,0 +1,84 @@
+// Fog on opaque surfaces at every setting of combining, on the device.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "capture_format/view.h"
+#include "passes/registry.h"
+#include "tests/support/agreement.h"
+
+namespace strata {
+namespace {
+
+/// A ground that is seen up to its horizon by a wide lens, under uniform light.
+Frame foggy_ground(float density, std::uint32_t samples = 1) {
+    Frame frame;
+    frame.view = look_at({.eye = {0, 1.7, 0}, .target = {2, 1.2, -4}, .vertical_fov = 1.18f, .width = 64, .height = 36});
+    frame.view.samples = samples;
+    Mesh mesh;
+    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})
+        mesh.positions.emplace_back(1000 * corner.x, 0, 1000 * corner.y);
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    frame.meshes.push_back(mesh);
+    frame.materials.push_back({.lighting_model = LightingModel::lambert, .double_sided = true});
+    frame.draws.push_back({});
+    frame.hemisphere = {.sky = glm::vec3(1), .ground = glm::vec3(1)};
+    frame.background = {.2f, .3f, .6f};
+    frame.fog = {.density = density, .color = {.6f, .5f, .4f}};
+    return frame;
+}
+
+const std::vector<std::vector<std::string>>& fog_settings() {
+    static const std::vector<std::vector<std::string>> all = {
+        {},
+        {"fog_distance=distance"},
+        {"fog_sky=blended"},
+        {"fog_sky=blended", "fog_distance=distance"},
+        {"fog=linear"},
+        {"fog=linear", "fog_distance=distance", "fog_near=.5", "fog_far=3"},
+        {"fog=linear", "fog_sky=blended", "fog_near=.2"},
+        {"fog=linear", "fog_sky=blended", "fog_distance=distance", "fog_far=.7"}};
+    return all;
+}
+
+}  // namespace
+
+TEST(Fog, AtEverySettingIsWhatTheModelSays) {
+    const Technique& technique = *must(find_technique("combine/hi_lo"));
+    for (const std::uint32_t samples : {1u, 4u}) {
+        const auto session = session_of(std::vector<Frame>{foggy_ground(.15f, samples)});
+        for (const std::vector<std::string>& sets : fog_settings()) {
+            if (samples > 1 && sets.size() < 4) continue;  // one of many parameters is enough there
+            SCOPED_TRACE(testing::PrintToString(sets));
+            const Request request{.choices = chosen({}, sets)};
+            const Accuracy accuracy = must(session->judge(request, Stage::combine, Against::model));
+            expect_within_tolerance(accuracy, technique, request);
+            EXPECT_GE(accuracy.compared - accuracy.trivial, 1000u);
+        }
+    }
+}
+
+/// Radiance relative to the truth that the settings approximate.
+double fog_error(Session& session, const std::vector<std::string>& sets) {
+    const Accuracy accuracy = must(session.judge({.choices = chosen({}, sets)}, Stage::combine, Against::truth));
+    return accuracy.method.at(2).value;
+}
+
+TEST(Fog, IsExactAlongEitherPathAndARampIsNot) {
+    const auto session = session_of(std::vector<Frame>{foggy_ground(.15f)});
+    EXPECT_LT(fog_error(*session, {}), 1e-5);
+    EXPECT_LT(fog_error(*session, {"fog_distance=distance"}), 1e-5);
+    EXPECT_GT(fog_error(*session, {"fog=linear"}), .01);
+}
+
+TEST(Fog, ThatIsNotThereChangesNoBitAtAnySetting) {
+    const auto session = session_of(std::vector<Frame>{foggy_ground(0)});
+    const auto color = [&](const std::vector<std::string>& sets) {
+        return must(session->run({.choices = chosen({}, sets), .outputs = {"color"}})).images.at("color").texels;
+    };
+    const auto plain = color({});
+    for (const std::vector<std::string>& sets : fog_settings()) EXPECT_EQ(color(sets), plain) << testing::PrintToString(sets);
+}
+
+}  // namespace strata
