@@ -256,7 +256,8 @@ TEST(pcss, filters_a_light_that_is_not_soft_with_the_fixed_kernel) {
     const ImageSet images = before(frame, traced_maps(frame));
     const Technique technique = pcss();
     const Settings settings(technique.params);
-    const ReferenceImage fixed = visibility_model({frame, images}, settings.as<ShadowMapParams>().filter, fixed_lookup).at("visibility");
+    const ReferenceImage fixed =
+        visibility_model({frame, images}, settings.as<ShadowMapParams>().filter, fixed_lookup).at("visibility");
     EXPECT_EQ(pictures(frame).soft.texels, fixed.texels);
     EXPECT_FALSE(all(fixed, 1));
 }
