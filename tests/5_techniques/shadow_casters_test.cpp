@@ -224,7 +224,8 @@ TEST(CasterMasks, KeepAFencesShadowFarAway) {
         }
         RecordProperty(fmt::format("panel {}", numbers[panel]), text);
         EXPECT_EQ(lost[0], 100) << text;
-        EXPECT_LT(std::abs(lost[2]), wanted > 100 ? 10 : 30) << text << ", of so few texels";
+        // A dither keeps alpha's mean, which is not quite the share above the cutoff; far away there are 13 texels.
+        EXPECT_LT(std::abs(lost[2]), wanted > 100 ? 15 : 30) << text;
     }
 }
 
