@@ -233,8 +233,8 @@ TEST(ShadowBounds, OfWindowsATexelShortOnOneSideAnswerWrongly) {
         for (const glm::ivec2 shift : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
             const MinMaxParams params = params_of(shadows::form_overlapping, kernel, 1);
             const Answers found =
-                ask_device({.scene = 2, .count = 100'000, .params = params, .bounds = params.bounds(), .shift = shift});
-            EXPECT_GT(found.mismatches, 50u) << "kernel " << (2u << kernel) << ", shifted by " << shift.x << ", " << shift.y;
+                ask_device({.scene = 2, .count = 400'000, .params = params, .bounds = params.bounds(), .shift = shift});
+            EXPECT_GT(found.mismatches, 30u) << "kernel " << (2u << kernel) << ", shifted by " << shift.x << ", " << shift.y;
         }
 }
 

@@ -80,7 +80,7 @@ std::vector<Param> params() {
     rows.push_back(param<&MarchParams::bounds>(
         {.name = "shaft_bounds",
          .fallback = bounds_as_narrow,
-         .help = "which bounds of shadows/min_max are asked: those as narrow as own ones, or shared: any wide enough",
+         .help = "which bounds built for the shadows are asked: those as narrow as own ones, or shared: any wide enough",
          .choices = bounds_choices}));
     return rows;
 }
