@@ -164,6 +164,12 @@ struct Wet {
     SurfacePoint point;
 };
 
+/// Whether rounding decides which code of 8 bits stores the roughness. Rain of 5/8, as several directions make it, gives 127.5.
+bool is_between_codes(double roughness) {
+    const double codes = 255 * roughness;
+    return std::abs(codes - std::floor(codes) - 0.5) < 1e-4;
+}
+
 Wet wet_at(const Scene& scene, const DecodedTexels& texels, std::uint32_t x, std::uint32_t y) {
     if (texels.normal.w <= 0) return {};
     const SurfacePoint dry = decoded_surface(scene.input.frame, texels, x, y);
@@ -171,8 +177,10 @@ Wet wet_at(const Scene& scene, const DecodedTexels& texels, std::uint32_t x, std
     if (dry.model == LightingModel::unlit || slope_weight(up) <= 0) return {};
     const Arriving arriving = arriving_at(scene, dry);
     Wet wet{.is_wet = arriving.share > 0, .undecided = arriving.undecided || is_between_flow_steps(up)};
-    if (wet.is_wet)
-        wet.point = gbuffer::stored_color(wet_surface(scene.input.frame, dry, scene.look, arriving.share, shown_at(scene, dry)));
+    if (!wet.is_wet) return wet;
+    const SurfacePoint exact = wet_surface(scene.input.frame, dry, scene.look, arriving.share, shown_at(scene, dry));
+    wet.undecided = wet.undecided || is_between_codes(exact.roughness);
+    wet.point = gbuffer::stored_color(exact);
     return wet;
 }
 
