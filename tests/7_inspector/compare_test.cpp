@@ -273,7 +273,7 @@ TEST(Expectation, APictureThatIsKeptIsWhatTheRecordedChoicesGave) {
     const Subject subject{"display", std::nullopt};
     {
         const auto session = must(Session::open(folder() / "panes.strata", {}));
-        EXPECT_THAT(expected_picture(*session, {}, subject).error().sentence, HasSubstr("only the hash of 'display' is kept"));
+        EXPECT_THAT(expected_picture(*session, {}, subject).error().sentence, HasSubstr("only a hash of 'display' is stored"));
     }
     ASSERT_EQ(strata("accept panes.strata --with-images").code, 0);
     const auto session = must(Session::open(folder() / "panes.strata", {}));

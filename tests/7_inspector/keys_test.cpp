@@ -214,7 +214,7 @@ TEST(Keys, WithTheRightButtonHeldWFliesAndHomeReturns) {
     EXPECT_NEAR(std::hypot(desk.model().edits().variant.eye.dolly, desk.model().edits().variant.eye.truck), 1, .1)
         << "2 m/s for half a second";
     EXPECT_GT(desk.model().edits().variant.eye.pan, .1);
-    EXPECT_THAT(desk.said("Image/eye"), HasSubstr("expects does not apply"));
+    EXPECT_THAT(desk.said("Image/eye"), HasSubstr("expected results are not compared"));
     EXPECT_THAT(desk.model().command_line(), HasSubstr("--eye"));
     EXPECT_NE(shown_hash(desk), before);
     must(desk.player->key("ctrl+z"));

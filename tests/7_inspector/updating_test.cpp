@@ -187,7 +187,7 @@ TEST(Updating, OtherShadersDimWhatTheOldOnesMadeUntilTheNewPictureIsThere) {
     expect_dimmed_until_made(desk, {"shaders", reload, {"Image/picture", "Image/pinned"}});
     shaders.change("passes/combine/hi_lo/film.comp", "void main", "void  main(; void main");
     expect_dimmed_until_made(desk, {"broken shader", reload, {"Image/picture", "Image/pinned"}});
-    EXPECT_THAT(desk.said("top/shaders"), HasSubstr("shown with the shaders before"));
+    EXPECT_THAT(desk.said("top/shaders"), HasSubstr("the picture uses the shaders before the change"));
     shaders.restore("passes/combine/hi_lo/film.comp");
     must(desk.player->click("tabs/Compare"));
     must(desk.player->wait());
@@ -257,7 +257,7 @@ TEST(Updating, ComparisonsAndViewsChangeNothingOfWhatTheLastChangeExecuted) {
     desk.model().look_from({.dolly = .123});
     must(desk.player->wait());
     const std::string executed = desk.said("Frame/executed");
-    EXPECT_THAT(executed, testing::EndsWith(", 0 kept")) << executed;
+    EXPECT_THAT(executed, testing::EndsWith(", 0 reused")) << executed;
     EXPECT_THAT(desk.inspector->log().back().text, HasSubstr(executed));
     desk.model().image = {.name = "lighting/tiled:LDS bytes"};
     must(desk.player->click("tabs/Image"));

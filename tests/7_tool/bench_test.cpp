@@ -135,7 +135,7 @@ TEST(BenchVerb, WrongRequestsEndWithASentence) {
     const Refusal wrongs[] = {
         {misspelled, 2, "did you mean " + stating},
         {silent, 2, silent + " lists no ratios to measure; these techniques do: "},
-        {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name: "},
+        {stating + " --only nothing_like_it", 2, "has 'nothing_like_it' in its name; its ratios: "},
         {stating + " --size 48by27", 2, "WIDTHxHEIGHT"},
         {stating + " --repeats 0", 2, "--repeats"},
         {"device --only wrap", 2, "--only selects ratios of a technique"},
