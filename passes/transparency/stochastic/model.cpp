@@ -20,6 +20,8 @@ namespace {
 constexpr double alpha_rounding = 4e-6;
 // And a threshold: its octave comes from a float logarithm.
 constexpr double threshold_rounding = 1e-4;
+// And a point, relative to its distance and that of its object: some roundings to float.
+constexpr double place_rounding = 0x1p-21;
 
 /// What a fragment draws lots with.
 double lot_coverage(const Fragment& f) {
@@ -29,9 +31,23 @@ double lot_coverage(const Fragment& f) {
 
 std::uint32_t subsample_count(const StochasticParams& params) { return params.mode == mode_hashed ? 1 : 4u << params.samples; }
 
-double lattice_number(const glm::dvec3& position, double scale, std::uint32_t seed) {
-    const glm::uvec3 cell(glm::ivec3(glm::floor(position * scale + .5)));
-    return ((hashed(hashed(seed), cell) >> 8) + .5) * 0x1p-24;
+double cell_number(const glm::ivec3& cell, std::uint32_t seed) {
+    return ((hashed(hashed(seed), glm::uvec3(cell)) >> 8) + .5) * 0x1p-24;
+}
+
+/// Of all cells of the lattice that a cube around the point touches.
+ThresholdRange lattice_numbers(const glm::dvec3& position, double reach, double scale, std::uint32_t seed) {
+    const auto cell_of = [&](double aside) { return glm::ivec3(glm::floor((position + aside) * scale + .5)); };
+    const glm::ivec3 low = cell_of(-reach), high = cell_of(reach);
+    if (glm::any(glm::greaterThan(high - low, glm::ivec3(1)))) return {0, 1};  // so far away that any cell may be meant
+    ThresholdRange range{1, 0};
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
+                const double number = cell_number({x, y, z}, seed);
+                range = {std::min(range.least, number), std::max(range.most, number)};
+            }
+    return range;
 }
 
 struct CoveredSubset {
@@ -43,7 +59,8 @@ CoveredSubset covered_by(const SeededFragment& fragment, const StochasticParams&
     const double alpha = lot_coverage(fragment.event);
     if (alpha == 0) return {};
     if (params.mode == mode_hashed)
-        return {alpha >= fragment.threshold, std::abs(alpha - fragment.threshold) < threshold_rounding};
+        return {alpha >= fragment.threshold.most,
+                alpha > fragment.threshold.least - threshold_rounding && alpha < fragment.threshold.most + threshold_rounding};
     const auto subset = [&](double a) { return covered_subset(a, fragment.key, subsample_count(params), params.subset); };
     return {subset(alpha), subset(alpha - alpha_rounding) != subset(alpha + alpha_rounding)};
 }
@@ -76,11 +93,16 @@ double mixed_uniformly(double u1, double u2, double l) {
     return 1 - (1 - m) * (1 - m) / (2 * a * (1 - a));
 }
 
-double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed) {
+ThresholdRange hashed_thresholds(const glm::dvec3& position, double reach, double octave, std::uint32_t seed) {
     const double coarse = std::floor(octave);
-    const double mixed = mixed_uniformly(lattice_number(position, std::exp2(coarse), seed),
-                                         lattice_number(position, std::exp2(coarse + 1), seed), octave - coarse);
-    return std::clamp(mixed, 1e-6, 1.);
+    const ThresholdRange u1 = lattice_numbers(position, reach, std::exp2(coarse), seed);
+    const ThresholdRange u2 = lattice_numbers(position, reach, std::exp2(coarse + 1), seed);
+    const auto mixed = [&](double a, double b) { return std::clamp(mixed_uniformly(a, b, octave - coarse), 1e-6, 1.); };
+    return {mixed(u1.least, u2.least), mixed(u1.most, u2.most)};
+}
+
+double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed) {
+    return hashed_thresholds(position, 0, octave, seed).least;
 }
 
 BlendedSample stochastic_blend(std::span<const SeededFragment> fragments, glm::dvec3 behind, const StochasticParams& params,
@@ -144,7 +166,7 @@ public:
         const Origin& origin = *--std::ranges::upper_bound(origins_, fragment.submission, {}, &Origin::first_ordinal);
         const std::uint32_t triangle = fragment.submission - origin.first_ordinal;
         SeededFragment result{fragment, subset_key(params.seed, at, origin.draw, triangle)};
-        if (params.mode == mode_hashed) result.threshold = threshold(origin, triangle, at, params);
+        if (params.mode == mode_hashed) result.threshold = thresholds(origin, triangle, at, params);
         return result;
     }
 
@@ -155,7 +177,7 @@ private:
     };
 
     /// Cells are as large as a pixel on a surface that faces the eye there.
-    double threshold(const Origin& origin, std::uint32_t triangle, glm::uvec3 at, const StochasticParams& params) const {
+    ThresholdRange thresholds(const Origin& origin, std::uint32_t triangle, glm::uvec3 at, const StochasticParams& params) const {
         const View& view = frame_.view;
         const glm::dvec2 pixel = glm::dvec2(at) + sample_position(view.samples, at.z);
         const glm::dvec3 ray = pixel_ray(frame_, pixel.x, pixel.y);
@@ -166,7 +188,9 @@ private:
         const glm::dvec2 size(2 * z / (double(view.projection[0][0]) * view.width),
                               2 * z / (std::abs(double(view.projection[1][1])) * view.height));
         const double footprint = std::max(glm::length(to_object[0]) * size.x, glm::length(to_object[1]) * size.y);
-        return hashed_threshold(to_object * (position - origin.space.offset), -std::log2(footprint), params.seed);
+        const double stretch = std::max({glm::length(to_object[0]), glm::length(to_object[1]), glm::length(to_object[2])});
+        const double reach = place_rounding * stretch * (glm::length(position) + glm::length(origin.space.offset));
+        return hashed_thresholds(to_object * (position - origin.space.offset), reach, -std::log2(footprint), params.seed);
     }
 
     const Frame& frame_;

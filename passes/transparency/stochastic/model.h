@@ -12,11 +12,16 @@
 
 namespace strata::transparency {
 
+/// Of hashed alpha: what the threshold of a fragment may be, wherever rounding puts its point among the cells.
+struct ThresholdRange {
+    double least = 0, most = 0;
+};
+
 /// A fragment with what its subset is made from.
 struct SeededFragment {
     Fragment event;
     std::uint32_t key = 0;  ///< subset_key()
-    double threshold = 0;   ///< of hashed alpha
+    ThresholdRange threshold = {};
 };
 
 /// What a fragment of a sample (x, y, sample) draws lots with: a number for every two triangles of a draw.
@@ -27,11 +32,14 @@ std::uint64_t covered_subset(double alpha, std::uint32_t key, std::uint32_t subs
 
 /// Uniform in 0..1 if u1 and u2 are; l from 0 (u1 alone) to 1 (u2 alone).
 double mixed_uniformly(double u1, double u2, double l);
-/// At a point in object space, where cells have the size 2^-octave.
+/// Of the points within `reach` of one in object space, where cells have the size 2^-octave.
+ThresholdRange hashed_thresholds(const glm::dvec3& position, double reach, double octave, std::uint32_t seed);
+/// At a point.
 double hashed_threshold(const glm::dvec3& position, double octave, std::uint32_t seed);
 
-/// One sample. Undecided where an alpha is within float rounding of covering one subsample more or less.
-/// With `half` sums and products are half floats, rounded at every blend.
+/// One sample. Undecided where an alpha is within float rounding of covering one subsample more or less, or a point within
+/// rounding of another cell of the hash, whose threshold lies on the other side of alpha. With `half` sums and products are half
+/// floats, rounded at every blend.
 BlendedSample stochastic_blend(std::span<const SeededFragment>, glm::dvec3 behind, const StochasticParams&,
                                std::optional<Rounding> half = {});
 

@@ -222,10 +222,38 @@ TEST(HashedAlpha, StaysWithTheSurface) {
         << "octaves meet without a jump";
 }
 
+TEST(HashedAlpha, KnowsEveryThresholdThatRoundingOfThePointMayMean) {
+    // At octave 3 and 4 cells end at odd multiples of 1/16 and 1/32: x is at an end of the first, y and z are within both.
+    const glm::dvec3 border{5. / 16, .01, .01}, aside{1e-6, 0, 0};
+    const ThresholdRange range = hashed_thresholds(border, 1e-5, 3, 0);
+    const double below = hashed_threshold(border - aside, 3, 0), above = hashed_threshold(border + aside, 3, 0);
+    EXPECT_NE(below, above);
+    EXPECT_EQ(range.least, std::min(below, above));
+    EXPECT_EQ(range.most, std::max(below, above));
+    const ThresholdRange inside = hashed_thresholds({.3, .01, .01}, 1e-5, 3, 0);
+    EXPECT_EQ(inside.least, inside.most);
+    const ThresholdRange anywhere = hashed_thresholds(border, 1, 3, 0);
+    EXPECT_LT(anywhere.least, 1e-5);
+    EXPECT_GT(anywhere.most, 1 - 1e-5);
+}
+
+TEST(HashedAlpha, IsUndecidedWhereRoundingMayCoverOrNot) {
+    const StochasticParams params{.correction = correction_none, .mode = mode_hashed};
+    const auto undecided = [&](ThresholdRange range) {
+        const std::array one{SeededFragment{layer(1, .5, 1), 0, range}};
+        return stochastic_blend(one, glm::dvec3(7), params).undecided;
+    };
+    EXPECT_TRUE(undecided({.3, .7}));
+    EXPECT_FALSE(undecided({.3, .4}));
+    EXPECT_FALSE(undecided({.6, .7}));
+    EXPECT_TRUE(undecided({.49999, .49999}));
+}
+
 TEST(HashedAlpha, ShowsTheNearestFragmentAboveItsThreshold) {
     const StochasticParams params{.correction = correction_none, .mode = mode_hashed};
     const auto seen = [&](double first, double second) {
-        const std::array two{SeededFragment{layer(1, .5, 1), 0, first}, SeededFragment{layer(2, .5, .25), 0, second}};
+        const std::array two{SeededFragment{layer(1, .5, 1), 0, {first, first}},
+                             SeededFragment{layer(2, .5, .25), 0, {second, second}}};
         return stochastic_blend(two, glm::dvec3(7), params).radiance.x;
     };
     EXPECT_EQ(seen(.4, .4), 1);
