@@ -2,6 +2,7 @@
 // how much.
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/kept_files.h"
@@ -74,8 +75,8 @@ public:
             return problem ? Result<void>(fail(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
                            : Result<void>();
         }
-        const auto side = [](const SideOptions& of, const std::string& choice) {
-            return choice.empty() ? of.file.filename().string() : choice;
+        const auto side = [&](const SideOptions& of, const std::string& choice) {
+            return act.choice_a == act.choice_b ? asked_of(of) : choice;
         };
         const Canvas canvas =
             difference_picture(made, a, b,
@@ -90,6 +91,16 @@ public:
     const std::map<std::string, std::string>& artefacts() const { return artefacts_; }
 
 private:
+    /// What a side is besides a pass that both sides run alike: its file, or what it was asked to use of the file that both have.
+    std::string asked_of(const SideOptions& side) const {
+        if (options_.a.file != options_.b.file) return side.file.filename().string();
+        std::vector<std::string> asked = side.uses;
+        asked.insert(asked.end(), side.sets.begin(), side.sets.end());
+        if (asked.empty()) asked.push_back("as recorded");
+        if (options_.a.gpu != options_.b.gpu) asked.push_back(side.gpu.empty() ? "on the default device" : "on " + side.gpu);
+        return fmt::format("{}", fmt::join(asked, " "));
+    }
+
     const DiffArguments& options_;
     std::map<std::string, std::string> artefacts_;
 };

@@ -98,7 +98,7 @@ Result<EyeMove> eye_move_of(std::string_view text) {
         double& value = move.*axis->member;
         const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (problem != std::errc() || end != number.data() + number.size() || !std::isfinite(value))
-            return fail(Fault::usage, "the eye's {} is a number, not '{}'", name, number);
+            return fail(Fault::usage, "--eye: {} takes a finite number, not '{}'", name, number);
     }
     return move;
 }

@@ -1,8 +1,8 @@
 #include "replay/session/frame_plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "capture_format/nearest_name.h"
 
