@@ -28,15 +28,21 @@ fatal() { printf '%s\n' "$*" >&2; exit 2; }
 # The list as arrays: a mutant's edits and tests are lines of its element.
 names=() edits=() tests=()
 read_list() {
-    local line last file old
+    local line last file old=''
     while IFS= read -r line; do
         last=$((${#names[@]} - 1))
         case $line in
             '' | '#'*) ;;
             'mutant '*) names+=("${line#mutant }") edits+=('') tests+=('') ;;
             'file '*) file=${line#file } ;;
-            '- '*) old=${line#- } ;;
-            '+ '*) edits[last]+="$file"$'\t'"$old"$'\t'"${line#+ }"$'\n' ;;
+            '- '*)
+                [ -z "$old" ] || fatal "mutants.list: nothing replaces '$old'"
+                old=${line#- }
+                ;;
+            '+ '*)
+                [ -n "$old" ] || fatal "mutants.list: '$line' replaces nothing"
+                edits[last]+="$file"$'\t'"$old"$'\t'"${line#+ }"$'\n' old=''
+                ;;
             'test '*) tests[last]+="${line#test }"$'\n' ;;
             *) fatal "mutants.list: '$line' is none of mutant, file, -, +, test" ;;
         esac
