@@ -188,10 +188,10 @@ std::vector<Param> march_params() {
 }
 
 std::vector<Counter> march_counters() {
-    return {
-        counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
-        counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "1024 steps of all rays"}),
-        counter<&MarchCounters::kilofetches>({.name = "kilofetches", .help = "1024 texels of shadow maps read by all steps"})};
+    return {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
+            counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "steps of all rays, in units of 1024"}),
+            counter<&MarchCounters::kilofetches>(
+                {.name = "kilofetches", .help = "texels of shadow maps read by all steps, in units of 1024"})};
 }
 
 std::vector<DebugView> march_views() {

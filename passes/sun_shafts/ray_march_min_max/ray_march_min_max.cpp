@@ -80,7 +80,7 @@ std::vector<Param> params() {
     rows.push_back(param<&MarchParams::bounds>(
         {.name = "shaft_bounds",
          .fallback = bounds_as_narrow,
-         .help = "which bounds built for the shadows are asked: those as narrow as own ones, or shared: any wide enough",
+         .help = "bounds of the shadow technique to reuse: only windows as narrow as own ones, or any wide enough (shared)",
          .choices = bounds_choices}));
     return rows;
 }
@@ -95,12 +95,13 @@ std::vector<DebugView> views() {
 
 std::vector<Counter> counters() {
     std::vector<Counter> rows = march_counters();
-    rows.push_back(
-        counter<&MarchCounters::kilobounds>({.name = "kilobounds", .help = "1024 texels of bounds read by all steps"}));
+    rows.push_back(counter<&MarchCounters::kilobounds>(
+        {.name = "kilobounds", .help = "texels of bounds read by all steps, in units of 1024"}));
     rows.push_back(counter<&MarchCounters::kiloskipped>(
-        {.name = "kiloskipped", .help = "1024 steps that bounds decide without a fetch of the map"}));
+        {.name = "kiloskipped", .help = "steps that bounds decide without a fetch of the map, in units of 1024"}));
     rows.push_back(counter<&MarchCounters::kilosteps_in_segments>(
-        {.name = "kilosteps_in_segments", .help = "1024 of these steps, decided by one answer for a segment"}));
+        {.name = "kilosteps_in_segments",
+         .help = "skipped steps that one answer for a whole segment decides, in units of 1024"}));
     return rows;
 }
 
