@@ -10,11 +10,10 @@
 namespace strata {
 namespace {
 
-/// The G-buffer's method that cast.frag is compiled for. A dither of texels is one of its own, in place of `unbiased`, which has
-/// four steps at one sample.
+/// The method of passes/gbuffer/coverage/coverage.shared.h that cast.frag is compiled for.
 uint method_of(CasterMask mask) {
     if (mask == CasterMask::mip_coverage) return gbuffer::masked_mip_coverage;
-    return mask == CasterMask::dither ? gbuffer::masked_unbiased : gbuffer::masked_clip;
+    return mask == CasterMask::dither ? gbuffer::masked_dithered : gbuffer::masked_clip;
 }
 
 }  // namespace

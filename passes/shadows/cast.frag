@@ -1,5 +1,5 @@
 // Only depth is kept; masked casters have holes where the G-buffer has them, at the map's own level of detail. A texel is a pixel of
-// one sample: `masked` is clip, mip_coverage, or unbiased for a dither of texels (passes/shadows/shadow_map_params.h).
+// one sample: `masked` is clip, mip_coverage or dithered (passes/shadows/shadow_map_params.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/coverage/coverage.glsl"
@@ -19,7 +19,7 @@ float dither_step(uvec2 texel, uint surface) {
 
 bool is_filled(MaterialRecord material) {
     const uint surface = mask_surface(in_draw, in_triangle);
-    if (masked == masked_unbiased)
+    if (masked == masked_dithered)
         return alpha_of(material, footprint(in_uv), in_alpha) >= dither_step(uvec2(gl_FragCoord.xy), surface);
     return covered_samples(material, draws[in_draw].material, in_uv, in_alpha, surface) != 0u;
 }

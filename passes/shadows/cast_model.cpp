@@ -143,7 +143,7 @@ class Map {
 public:
     Map(const Frame& frame, const CasterMap& map, std::uint32_t mask)
         : map_(&map),
-          test_(mask == dithered_texels ? nullptr : gbuffer::point_mask_model(frame, mask)),
+          test_(mask == gbuffer::masked_dithered ? nullptr : gbuffer::point_mask_model(frame, mask)),
           texels_(std::size_t(map.size) * map.size) {}
 
     void draw(const Caster& caster, const MaskedCaster& masked) {

@@ -17,11 +17,8 @@ struct CasterMap {
     glm::uvec2 offset{0};       ///< of its upper left texel: dithers count texels of the layer
 };
 
-/// In place of a method: alpha against a dither of 16 steps.
-inline constexpr std::uint32_t dithered_texels = ~0u;
-
 /// size x size texels: in x the depth of the nearest caster, 0 where there is none, in y how far the device's may be from it.
-/// `mask` is a method of passes/gbuffer/coverage/coverage.shared.h or dithered_texels. Undecided: a triangle's side
+/// `mask` is a method of passes/gbuffer/coverage/coverage.shared.h. Undecided: a triangle's side
 /// within 1.5/256 texel, over which snapped positions may move the middle, and an alpha that a float may put on the other side of
 /// its cutoff.
 ReferenceImage cast_model(const Frame&, const CasterMap&, std::uint32_t mask);

@@ -4,26 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "capture_format/view.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"
+#include "tests/support/endless_ground.h"
 
 namespace strata {
 namespace {
 
-/// A ground that is seen up to its horizon by a wide lens, under uniform light.
+/// Seen by a wide lens.
 Frame foggy_ground(float density, std::uint32_t samples = 1) {
-    Frame frame;
-    frame.view = look_at({.eye = {0, 1.7, 0}, .target = {2, 1.2, -4}, .vertical_fov = 1.18f, .width = 64, .height = 36});
-    frame.view.samples = samples;
-    Mesh mesh;
-    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})
-        mesh.positions.emplace_back(1000 * corner.x, 0, 1000 * corner.y);
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    frame.meshes.push_back(mesh);
-    frame.materials.push_back({.lighting_model = LightingModel::lambert, .double_sided = true});
-    frame.draws.push_back({});
-    frame.hemisphere = {.sky = glm::vec3(1), .ground = glm::vec3(1)};
+    Frame frame =
+        endless_ground({.eye = {0, 1.7, 0}, .target = {2, 1.2, -4}, .vertical_fov = 1.18f, .width = 64, .height = 36}, samples);
     frame.background = {.2f, .3f, .6f};
     frame.fog = {.density = density, .color = {.6f, .5f, .4f}};
     return frame;

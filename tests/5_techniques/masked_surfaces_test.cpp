@@ -14,6 +14,7 @@
 #include "passes/gbuffer/coverage/coverage.shared.h"
 #include "passes/registry.h"
 #include "tests/support/agreement.h"
+#include "tests/support/chessboard.h"
 #include "tests/support/mean_coverages.h"
 #include "tests/support/print.h"
 #include "tests/support/session.h"
@@ -187,16 +188,10 @@ TEST(MaskedSurfaces, OfHalfPlanesStepAtTheSamplesPlaces) {
         }
 }
 
-/// A chessboard of single texels, 64 times over four pixels: its last mip, one texel of alpha .5, is all that is seen.
+/// A chessboard over four pixels.
 Frame minified_chessboard(float cutoff) {
     Frame frame = frame_of({card_over(0, 1)});
-    const float texels[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, .5f};
-    Texture& board = frame.textures.emplace_back(Texture{.format = TextureFormat::rgba32f, .width = 2, .height = 2, .mips = 2});
-    board.texels.resize(sizeof texels);
-    std::memcpy(board.texels.data(), texels, sizeof texels);
-    for (const glm::vec3& corner : frame.meshes[0].positions) frame.meshes[0].uv0.push_back(32.f * glm::vec2(corner));
-    frame.materials[0].base_color_texture.texture = 0;
-    frame.materials[0].mask_cutoff = cutoff;
+    paint_chessboard(frame, cutoff);
     return frame;
 }
 

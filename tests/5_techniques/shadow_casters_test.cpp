@@ -1,7 +1,6 @@
 // Which texels of a shadow map masked casters fill, by the parameter caster_mask: what docs/algorithms/deferred.md 4.4 says of
 // far textures (T-AT-1), what the model says of a fence and of foliage, and how much of a fence's shadow is left far away.
 #include <array>
-#include <cstring>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "passes/scene/shadow_views.h"
 #include "passes/shadows/cast_model.h"
 #include "replay/images/host_image.h"
+#include "tests/support/chessboard.h"
 #include "tests/support/session.h"
 
 namespace strata::shadow_casters {
@@ -23,7 +23,7 @@ struct Method {
     std::uint32_t of_gbuffer;
 };
 constexpr std::array methods{Method{"clip", gbuffer::masked_clip}, Method{"mip_coverage", gbuffer::masked_mip_coverage},
-                             Method{"dither", shadows::dithered_texels}};
+                             Method{"dither", gbuffer::masked_dithered}};
 
 Request maps_by(const Method& method, const char* allocation = "own") {
     return {.choices =
@@ -48,17 +48,10 @@ std::size_t texels_filled(Session& session, const Request& request, std::size_t 
     return texels_filled(maps_of(session, request), shadow_views(frame)[view]);
 }
 
-/// A card of 42 texels across before the sun, with a chessboard of 128 x 128 fields on it: its last mip, one texel of alpha .5,
-/// is all that is seen.
+/// A card of 42 texels across before the sun, with a chessboard on it.
 Frame far_chessboard(AlphaMode mode, float cutoff = .5f) {
     Frame frame = frame_of_cards(std::vector<Card>{{.center = {0, 0, 2}, .half = 1, .alpha_mode = mode}}, 32);
-    const float texels[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, .5f};
-    Texture& board = frame.textures.emplace_back(Texture{.format = TextureFormat::rgba32f, .width = 2, .height = 2, .mips = 2});
-    board.texels.resize(sizeof texels);
-    std::memcpy(board.texels.data(), texels, sizeof texels);
-    for (const glm::vec3& corner : frame.meshes[0].positions) frame.meshes[0].uv0.push_back(32.f * glm::vec2(corner));
-    frame.materials[0].base_color_texture.texture = 0;
-    frame.materials[0].mask_cutoff = cutoff;
+    paint_chessboard(frame, cutoff);
     frame.sun.direction = {0, 0, 1};
     frame.sun.irradiance = {1, 1, 1};
     frame.sun.cascades = 1;

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "capture_format/view.h"
 #include "replay/images/image_io.h"
+#include "tests/support/endless_ground.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -23,20 +23,8 @@ ReferenceImage occlusion_of(Session& session, const Request& request) {
     return in_double(must(session.run(request)).images.at("occlusion"));
 }
 
-/// A ground that is seen up to its horizon, under uniform light.
 Frame ground(std::uint32_t samples = 1) {
-    Frame frame;
-    frame.view = look_at({.eye = {0, 1.7, 0}, .target = {2, .9, -4}, .vertical_fov = 1, .width = 96, .height = 54});
-    frame.view.samples = samples;
-    Mesh mesh;
-    for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)})
-        mesh.positions.emplace_back(1000 * corner.x, 0, 1000 * corner.y);
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    frame.meshes.push_back(mesh);
-    frame.materials.push_back({.lighting_model = LightingModel::lambert, .double_sided = true});
-    frame.draws.push_back({});
-    frame.hemisphere = {.sky = glm::vec3(1), .ground = glm::vec3(1)};
-    return frame;
+    return endless_ground({.eye = {0, 1.7, 0}, .target = {2, .9, -4}, .vertical_fov = 1, .width = 96, .height = 54}, samples);
 }
 
 /// Texels below 1, and the least of all.
