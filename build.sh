@@ -3,9 +3,10 @@
 #   ./build.sh          set up and build build/strata
 #   ./build.sh demo     record a scenario, replay it with five techniques, print their errors against their times
 #   ./build.sh test     build and run the tests; ./build.sh test all: also the whole product of techniques, scenarios and choices
+#   ./build.sh format   check that clang-format would change no file
 #   ./build.sh sanitize build with clang and run the tests of the capture format under address and undefined-behavior sanitizers;
 #                       ./build.sh sanitize all: every test that needs no device
-#   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds; ./build.sh fuzz 600 for 600
+#   ./build.sh fuzz     build the fuzzers with clang and run each for 60 seconds, as many at once as there are cores; ./build.sh fuzz 600 for 600
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -20,7 +21,7 @@ packages=(
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format git xvfb xdotool x11-apps xclip libx11-dev chromium-common)
 clang_packages=(clang-14 libclang-rt-14-dev llvm-14)
 
-usage() { sed -n '2,8p' "$0" >&2; exit 2; }
+usage() { sed -n '2,9p' "$0" >&2; exit 2; }
 
 say() { printf '== %s\n' "$*" >&2; }
 
@@ -98,6 +99,10 @@ case "${1:-build}" in
             *) usage ;;
         esac
         ;;
+    format)
+        install_missing clang-format git
+        git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run -Werror
+        ;;
     sanitize)
         install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
         programs=(test_1_capture)
@@ -115,7 +120,8 @@ case "${1:-build}" in
     fuzz)
         install_missing "${packages[@]}" "${test_packages[@]}" "${clang_packages[@]}"
         build sanitize fuzzers
-        for name in reader gltf deep; do fuzz "$name" "${2:-60}"; done
+        export -f fuzz say
+        printf '%s\n' reader gltf deep | xargs -P "$(nproc)" -I NAME bash -euo pipefail -c "fuzz NAME ${2:-60}"
         ;;
     *) usage ;;
 esac

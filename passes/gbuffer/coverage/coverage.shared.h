@@ -17,7 +17,7 @@ const uint masked_unbiased = 7u;         // dithered so that the mean coverage i
 const uint masked_mip_coverage = 8u;     // alpha scaled mip by mip so that as much stays as in the finest mip
 const uint masked_sharpened = 9u;        // alpha steepened to one pixel around the cutoff, then bands
 const uint masked_hardware = 10u;        // the device's alpha to coverage, in a pass of its own before the fill
-const uint masked_dithered = 11u;        // of shadow maps alone: a dither of 16 steps over 4 x 4 texels (passes/shadows/cast.frag)
+const uint masked_dithered = 11u;  // of shadow maps alone: a dither of 16 steps over 4 x 4 texels (passes/shadows/cast.frag)
 
 // Mips of a texture that have a scale of their own; coarser ones take the last.
 const uint mask_scale_mips = 16u;
