@@ -2,11 +2,12 @@
 #include "passes/indirect/direct_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "passes/reference/directions.h"
 #include "passes/reference/light_sets.h"
+#include "passes/reference/lights.h"
 #include "passes/reference/textures.h"
 
 namespace strata::indirect {
@@ -18,19 +19,12 @@ using std::numbers::pi;
 // Metres between a ray's ends and the surfaces they belong to. Hits are exact to 1e-12 of their distance.
 constexpr double ray_gap = 1e-5;
 constexpr double endless = 1e9;  // metres to the sun
-// Metres: the inverse square law ends here (docs/algorithms/lighting.md 0.3).
-constexpr double nearest_light = 0.01;
 
 /// What a place of a light sends to a surface that faces it: irradiance, and where it comes from as light_point() says it.
 struct Sent {
     dvec3 irradiance{0};
     dvec4 from{0};
 };
-
-std::array<dvec3, 2> perpendiculars(const dvec3& axis) {
-    const dvec3 u = glm::normalize(glm::cross(std::abs(axis.x) < 0.7 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), axis));
-    return {u, glm::cross(axis, u)};
-}
 
 dvec2 on_disc(const dvec2& place) {
     const double radius = std::sqrt(place.x), angle = 2 * pi * place.y;

@@ -14,6 +14,12 @@ constexpr double least_lift = 1e-3, lift_per_metre = 5e-4;
 
 }  // namespace
 
+std::array<glm::dvec3, 2> perpendiculars(const glm::dvec3& axis) {
+    const glm::dvec3 helper = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, axis));
+    return {u, glm::cross(axis, u)};
+}
+
 std::uint64_t DrawnNumbers::next() {
     state_ += 0x9e3779b97f4a7c15u;
     std::uint64_t z = state_;
@@ -36,8 +42,7 @@ std::vector<glm::dvec2> shuffled(std::uint32_t side, DrawnNumbers& random) {
 }
 
 glm::dvec3 cosine_direction(const glm::dvec3& normal, const glm::dvec2& place) {
-    const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 u = glm::normalize(glm::cross(helper, normal)), v = glm::cross(normal, u);
+    const auto [u, v] = perpendiculars(normal);
     const double sine = std::sqrt(place.x), angle = 2 * std::numbers::pi * place.y;
     return sine * (std::cos(angle) * u + std::sin(angle) * v) + std::sqrt(1 - place.x) * normal;
 }

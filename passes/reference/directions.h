@@ -1,6 +1,7 @@
-// Directions over a surface for truths that are estimates: drawn at random, equal for equal keys on every platform.
+// Directions for truths: around an axis, and over a surface, drawn at random and equal for equal keys on every platform.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,6 +9,9 @@
 #include <glm/glm.hpp>
 
 namespace strata {
+
+/// Two unit vectors perpendicular to a unit one and to each other; the three are right-handed.
+std::array<glm::dvec3, 2> perpendiculars(const glm::dvec3& axis);
 
 /// SplitMix64 (Steele, Lea and Flood 2014), begun by what the numbers are for.
 class DrawnNumbers {

@@ -1,13 +1,13 @@
 // The truth of area lights: radiance times BRDF times cosine, integrated over the emitter's visible surface piece by piece. Every
 // piece is a smooth map from the unit square; what is hidden behind the emitter's own curve is not on it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "passes/reference/brdf.h"
 #include "passes/reference/cubature.h"
+#include "passes/reference/directions.h"
 #include "passes/reference/placed_light.h"
 
 namespace strata {
@@ -29,11 +29,6 @@ using Piece = std::function<EmitterPoint(dvec2)>;
 double solid_angle(const dvec3& to, const dvec3& normal, double area) {
     const double squared = glm::dot(to, to);
     return std::max(0.0, -glm::dot(to, normal)) * area / (squared * std::sqrt(squared));
-}
-
-std::array<dvec3, 2> perpendiculars(const dvec3& axis) {
-    const dvec3 x = glm::normalize(glm::cross(std::abs(axis.x) < 0.6 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), axis));
-    return {x, glm::cross(axis, x)};
 }
 
 Piece emitting_rectangle(const PlacedLight& at) {

@@ -10,8 +10,6 @@
 namespace strata {
 namespace {
 
-// Metres: the inverse square law ends here (docs/algorithms/lighting.md 0.3, e).
-constexpr double nearest_light = 0.01;
 // Share of a square spot's half width over which it fades (docs/algorithms/lighting.md 0.4, f).
 constexpr double square_feather = 0.1;
 // Least difference of the cosines of a round spot's angles.

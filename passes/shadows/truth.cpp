@@ -2,12 +2,12 @@
 #include "passes/shadows/truth.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <vector>
 
+#include "passes/reference/directions.h"
 #include "passes/reference/light_sets.h"
 #include "passes/reference/rays.h"
 #include "passes/shadows/receivers.h"
@@ -46,12 +46,6 @@ std::vector<glm::dvec2> made_disc_points() {
 const std::vector<glm::dvec2>& disc_points() {
     static const std::vector<glm::dvec2> points = made_disc_points();
     return points;
-}
-
-// Two directions perpendicular to a unit one and to each other.
-std::array<glm::dvec3, 2> perpendiculars(const glm::dvec3& axis) {
-    const glm::dvec3 u = glm::normalize(glm::cross(std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), axis));
-    return {u, glm::cross(axis, u)};
 }
 
 // Uniform over the directions of a cone. `length` gives a ray's length by the cosine of its angle to the axis.

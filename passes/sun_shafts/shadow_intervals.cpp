@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "passes/reference/directions.h"
 #include "passes/reference/fragments.h"
 #include "passes/reference/surfaces.h"
 #include "passes/reference/triangles.h"
@@ -48,9 +49,8 @@ std::vector<Interval> merged(std::vector<Interval> parts) {
 
 ShadowVolumes::ShadowVolumes(const Frame& frame) : frame_(&frame) {
     const glm::dvec3 to_sun = -(frame.view.to_view * glm::normalize(glm::dvec3(frame.sun.direction)));
-    const glm::dvec3 other = std::abs(to_sun.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(other, to_sun));
-    to_sun_space_ = glm::transpose(glm::dmat3(x, glm::cross(to_sun, x), to_sun));
+    const auto [x, y] = perpendiculars(to_sun);
+    to_sun_space_ = glm::transpose(glm::dmat3(x, y, to_sun));
     for (const std::uint32_t draw : opaque_draws(frame)) {
         if (!frame.draws[draw].casts_shadow) continue;
         const DrawSpace space = draw_space(frame, draw);
