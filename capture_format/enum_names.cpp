@@ -7,6 +7,7 @@ namespace strata {
 std::string_view name(TextureFormat value) { return schema::EnumNameTextureFormat(static_cast<schema::TextureFormat>(value)); }
 std::string_view name(AddressMode value) { return schema::EnumNameAddressMode(static_cast<schema::AddressMode>(value)); }
 std::string_view name(LightingModel value) { return schema::EnumNameLightingModel(static_cast<schema::LightingModel>(value)); }
+std::string_view name(FogPath value) { return schema::EnumNameFogPath(static_cast<schema::FogPath>(value)); }
 std::string_view name(AlphaMode value) { return schema::EnumNameAlphaMode(static_cast<schema::AlphaMode>(value)); }
 std::string_view name(Mobility value) { return schema::EnumNameMobility(static_cast<schema::Mobility>(value)); }
 std::string_view name(Resolution value) { return schema::EnumNameResolution(static_cast<schema::Resolution>(value)); }

@@ -11,6 +11,7 @@ std::string_view name(TextureFormat);
 std::string_view name(AddressMode);
 std::string_view name(LightingModel);
 std::string_view name(AlphaMode);
+std::string_view name(FogPath);
 std::string_view name(Mobility);
 std::string_view name(Resolution);
 std::string_view name(LightType);

@@ -212,10 +212,14 @@ struct Hemisphere {
     glm::vec3 sky{0}, ground{0};  ///< radiance
 };
 
-/// f(z) = exp(-density z) of what is behind remains, and (1 - f) color is added; z is view depth.
+/// The way through fog to a point: its view depth, or its distance from the eye.
+enum class FogPath : std::uint32_t { view_depth, distance };
+
+/// f = exp(-density way) of what is behind remains, and (1 - f) color is added.
 struct Fog {
     float density = 0;  ///< per metre; zero means there is no fog
     glm::vec3 color{0};
+    FogPath path = FogPath::view_depth;
 };
 
 enum class VolumeKind : std::uint32_t { cascaded_global, fixed_local };

@@ -47,6 +47,8 @@ void inspect_environment(Inspection& inspection, const Frame& frame) {
     inspection.expect(finite(frame.background), "the background is not finite");
     inspection.expect(finite(frame.fog.color), "the fog's color is not finite");
     inspection.expect(positive_or_zero(frame.fog.density), "the fog's density must be 0 or above, not {}", frame.fog.density);
+    inspection.expect(known(frame.fog.path, FogPath::distance), "there is no path of fog {}",
+                      static_cast<std::uint32_t>(frame.fog.path));
     inspection.expect(within(frame.rain.intensity, 0, 1), "the rain's intensity must be 0 to 1, not {}", frame.rain.intensity);
     inspection.expect(within(frame.rain.wetness, 0, 1), "the wetness must be 0 to 1, not {}", frame.rain.wetness);
     inspection.expect(finite(frame.rain.direction) && unit(frame.rain.direction), "the rain's direction must be unit");

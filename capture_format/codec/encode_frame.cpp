@@ -278,6 +278,7 @@ Offset<schema::Environment> Encoder::environment(const Frame& frame) {
     table.add_rain_intensity(frame.rain.intensity);
     table.add_rain_wetness(frame.rain.wetness);
     table.add_rain_direction(&rain);
+    table.add_fog_path(static_cast<schema::FogPath>(frame.fog.path));
     return table.Finish();
 }
 

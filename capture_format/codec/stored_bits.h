@@ -31,6 +31,7 @@ static_assert(static_cast<unsigned>(schema::AlphaMode::MAX) == static_cast<unsig
 static_assert(static_cast<unsigned>(schema::Mobility::MAX) == static_cast<unsigned>(Mobility::moving));
 static_assert(static_cast<unsigned>(schema::Resolution::MAX) == static_cast<unsigned>(Resolution::low));
 static_assert(static_cast<unsigned>(schema::LightType::MAX) == static_cast<unsigned>(LightType::directional));
+static_assert(static_cast<unsigned>(schema::FogPath::MAX) == static_cast<unsigned>(FogPath::distance));
 static_assert(static_cast<unsigned>(schema::VolumeKind::MAX) == static_cast<unsigned>(VolumeKind::fixed_local));
 static_assert(static_cast<unsigned>(schema::VolumeOcclusion::MAX) == static_cast<unsigned>(VolumeOcclusion::axial));
 

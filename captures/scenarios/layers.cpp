@@ -114,7 +114,7 @@ Frame foggy_panes(std::uint32_t frame, const ScenarioOptions& options) {
         const double depth = 2 + 1.5 * static_cast<double>(i);
         stage.add_pane(unlit("pane", colors[i]), {.position = {-0.6 + 0.6 * static_cast<double>(i), 0, -depth}});
     }
-    stage.builder.frame.fog = {.density = 0.2f, .color = {0.6f, 0.65f, 0.7f}};
+    stage.builder.frame.fog = {.density = 0.2f, .color = {0.6f, 0.65f, 0.7f}, .path = FogPath::distance};
     return std::move(stage.builder.frame);
 }
 

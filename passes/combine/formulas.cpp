@@ -31,13 +31,9 @@ glm::dvec3 ambient(const StageInput& input, const ComposedSample& at, const Surf
 
 }  // namespace
 
-double fog_path(const SurfacePoint& p, FogPath path) {
-    return path == FogPath::distance ? glm::length(p.position) : p.position.z;
-}
-
-Look recorded_look(const Frame& frame, FogPath path) {
-    return {.fogged = [&frame, path](const glm::dvec3& radiance, const SurfacePoint& p) {
-        const FogAt fog = fog_at(frame, fog_path(p, path));
+Look recorded_look(const Frame& frame) {
+    return {.fogged = [&frame](const glm::dvec3& radiance, const SurfacePoint& p) {
+        const FogAt fog = fog_at(frame, fog_way(frame.fog.path, p.position));
         return radiance * fog.remains + fog.added;
     }};
 }

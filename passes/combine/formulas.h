@@ -3,7 +3,6 @@
 
 #include <functional>
 
-#include "passes/combine/fog.h"
 #include "passes/reference/shade.h"
 #include "passes/stages.h"
 
@@ -24,9 +23,7 @@ struct Look {
 glm::dvec3 composed(const StageInput&, const ComposedSample&, const Look&);
 
 /// The recorded fog, exponential: the share that remains of what is at a surface, and the fog's own color.
-Look recorded_look(const Frame&, FogPath);
-/// The way from a surface to the eye, meters.
-double fog_path(const SurfacePoint&, FogPath);
+Look recorded_look(const Frame&);
 
 /// The tone curve x (1 + x / white^2) / (1 + x) of exposed radiance, 0 below 0 and 1 from white on.
 double tone_mapped(double exposed, double white);

@@ -15,7 +15,6 @@ StageInfo stage() {
             .unwanted = always_wanted,
             .outputs = {"color", "display"},
             .truth = combine_truth,
-            .other_truths = other_combine_truths(),
             .judge = combine_judge,
             .scenarios = {"one_sphere", "materials", "lighting_models", "opaque_only", "sun_and_boxes", "foggy_panes", "beams"}};
 }

@@ -3,12 +3,11 @@
 #include "passes/combine/formulas.h"
 
 namespace strata {
-namespace {
 
-ImageSet truth_with(const StageInput& input, combine::FogPath path) {
+ImageSet combine_truth(const StageInput& input) {
     const View& view = input.frame.view;
     ReferenceImage color(view.width, view.height, view.samples), display(view.width, view.height);
-    const combine::Look look = combine::recorded_look(input.frame, path);
+    const combine::Look look = combine::recorded_look(input.frame);
     for (std::uint32_t sample = 0; sample < view.samples; ++sample)
         for (std::uint32_t y = 0; y < view.height; ++y)
             for (std::uint32_t x = 0; x < view.width; ++x)
@@ -22,16 +21,6 @@ ImageSet truth_with(const StageInput& input, combine::FogPath path) {
     ImageSet images{{"display", display}};
     if (!drawn_over) images.emplace("color", color);
     return images;
-}
-
-ImageSet truth_by_distance(const StageInput& input) { return truth_with(input, combine::FogPath::distance); }
-
-}  // namespace
-
-ImageSet combine_truth(const StageInput& input) { return truth_with(input, combine::FogPath::view_depth); }
-
-std::vector<TruthRow> other_combine_truths() {
-    return {{.name = combine::fog_by_distance_truth, .make = truth_by_distance, .is = "exact, in double, with fog by distance"}};
 }
 
 }  // namespace strata

@@ -8,7 +8,4 @@ namespace strata {
 /// display; and color, where nothing transparent is drawn over it afterwards.
 ImageSet combine_truth(const StageInput&);
 
-/// The same with fog by the distance from the eye.
-std::vector<TruthRow> other_combine_truths();
-
 }  // namespace strata

@@ -91,8 +91,9 @@ Fragment particle_event(AlphaMode mode, double particle_alpha, const SurfacePoin
 
 double brightest(const glm::dvec3& color) { return std::max({color.x, color.y, color.z}); }
 
-void fog(const Frame& frame, double z, Fragment& fragment) {
-    const FogAt at = fog_at(frame, z);
+void fog(const Frame& frame, const glm::dvec3& position, Fragment& fragment) {
+    const FogAt at = fog_at(frame, fog_way(frame.fog.path, position));
+    fragment.fog = at.remains;
     fragment.color = fragment.color * at.remains + (1.0 - fragment.transmittance) * at.added;
     fragment.emission *= at.remains;
 }
@@ -122,7 +123,7 @@ std::optional<Fragment> event_at(const LitFrame& scene, const RasterPoint& point
         fragment.soft_fade = double(emitter.soft_depth_fade);
         depth_offset = particle.depth_offset;
     }
-    fog(frame, z, fragment);
+    fog(frame, surface.position, fragment);
     fragment.color = finite(fragment.color);
     fragment.emission = finite(fragment.emission);
     if (fragment.alpha < smallest_alpha && brightest(fragment.color) < smallest_alpha &&

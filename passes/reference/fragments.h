@@ -33,6 +33,7 @@ struct Fragment {
     glm::dvec3 emission{0};        ///< e, added without coverage
     double alpha = 0;              ///< scalar coverage
     glm::dvec2 distortion{0};      ///< d, in uv: how far from here what is behind is seen, added without coverage
+    double fog = 1;                ///< share of its radiance that reaches the eye through the fog before it
     double soft_fade = 0;          ///< metres over which its particle fades before opaque surfaces; 0 is hard
     std::uint32_t layer = 0;       ///< of interfaces, of which `depth` is made; 0 the world
     std::uint32_t submission = 0;  ///< later submissions are nearer at equal depth; one number per triangle

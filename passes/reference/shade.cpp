@@ -52,8 +52,12 @@ glm::dvec3 hemisphere_light(const Frame& frame, const SurfacePoint& surface) {
     return (diffuse + surface.metallic * hemisphere_in_metal(frame, surface)) * surface.occlusion;
 }
 
-FogAt fog_at(const Frame& frame, double z) {
-    const double remains = std::exp(-double(frame.fog.density) * z);
+double fog_way(FogPath path, const glm::dvec3& position) {
+    return path == FogPath::distance ? glm::length(position) : position.z;
+}
+
+FogAt fog_at(const Frame& frame, double metres) {
+    const double remains = std::exp(-double(frame.fog.density) * metres);
     return {.remains = remains, .added = (1 - remains) * glm::dvec3(frame.fog.color)};
 }
 

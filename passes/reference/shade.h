@@ -31,12 +31,15 @@ Light sun_light(const Frame&);
 /// of sky and ground through the lobe of linearly transformed cosines.
 glm::dvec3 hemisphere_light(const Frame&, const SurfacePoint&);
 
-/// Remaining share and added radiance of the fog at view depth z.
+/// Metres of fog before a point in view space.
+double fog_way(FogPath, const glm::dvec3& position);
+
+/// Remaining share and added radiance of so many metres of fog.
 struct FogAt {
     double remains = 1;
     glm::dvec3 added{0};
 };
-FogAt fog_at(const Frame&, double z);
+FogAt fog_at(const Frame&, double metres);
 
 /// World position to view space.
 glm::dvec3 to_view(const Frame&, const glm::dvec3& world);

@@ -14,12 +14,15 @@ float view_z(float device_depth) { return view.near / device_depth; }
 
 vec3 view_position(vec2 pixel, float z) { return view_ray(pixel) * z; }
 
-// Share of the radiance at view depth z that reaches the eye.
-float fog_remains(float z) { return exp(-view.fog_density * z); }
+// Metres of fog before a point in view space, along what they are measured along: fog_by_...
+float fog_way(vec3 position, uint path) { return path == fog_by_distance ? length(position) : position.z; }
 
-// Radiance the fog up to view depth z adds.
-vec3 fog_added(float z) { return (1.0 - fog_remains(z)) * view.fog_color; }
+// Share of the radiance behind so many metres of fog that reaches the eye.
+float fog_remains(float metres) { return exp(-view.fog_density * metres); }
 
-vec3 apply_fog(vec3 radiance, float z) { return radiance * fog_remains(z) + fog_added(z); }
+// Radiance that so many metres of fog add.
+vec3 fog_added(float metres) { return (1.0 - fog_remains(metres)) * view.fog_color; }
+
+vec3 apply_fog(vec3 radiance, float metres) { return radiance * fog_remains(metres) + fog_added(metres); }
 
 #endif

@@ -25,6 +25,10 @@ const uint alpha_blend = 2u;
 const uint alpha_premultiplied = 3u;
 const uint alpha_additive = 4u;
 
+// What the way through fog is: view depth, or distance from the eye.
+const uint fog_by_view_depth = 0u;
+const uint fog_by_distance = 1u;
+
 struct ViewRecord {
     mat4 projection;  // view to clip, jitter included; reversed depth, infinite far
     mat3 to_world;    // rotation, view to world (its transpose goes back)
@@ -38,6 +42,7 @@ struct ViewRecord {
     vec3 background;  // radiance where no surface is
     float fog_density;
     vec3 fog_color;
+    uint fog_path;       // fog_by_...
     vec3 sky;            // hemisphere radiance from above (world +y) ...
     vec3 ground;         // ... and below
     uint light_count;    // of lights, the sun first when there is one

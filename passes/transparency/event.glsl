@@ -112,11 +112,13 @@ Event particle_event(MaterialPoint m) {
     return event;
 }
 
+float fog_before_here() { return fog_remains(fog_way(position_here(), view.fog_path)); }
+
 // Fog between the eye and the event, before blending: sorted `over` of fogged events is then exact. What an event
 // hides of the fog in front of it is 1 - t per channel; alpha is the same for grey events only
 // (docs/algorithms/transparency.md 0.4).
 void add_fog(inout Event event) {
-    const float remains = fog_remains(position_here().z);
+    const float remains = fog_before_here();
     event.p = event.p * remains + (1.0 - event.t) * (1.0 - remains) * view.fog_color;
     event.e *= remains;
 }

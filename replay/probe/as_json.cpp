@@ -56,7 +56,7 @@ ordered_json curve_json(const ProbeCurve& curve) {
 
 std::string as_json(const Probe& probe) {
     ordered_json json{{"schema", "strata.probe"},
-                      {"version", 1},
+                      {"schema_version", 1},
                       {"device", probe.device.name},
                       {"driver", probe.device.driver},
                       {"frame", probe.frame},

@@ -23,6 +23,7 @@ ordered_json json_of(const Measurement& row, bool is_timed) {
     for (const Figure& figure : row.accuracy.touched)
         json["touched_error"].push_back({{"metric", figure.name}, {"unit", figure.unit}, {"value", figure.value}});
     if (!row.accuracy.touched.empty()) json["touched_share"] = row.accuracy.touched_share;
+    json["left_out_share"] = row.accuracy.left_out_share;
     const WorstTexel& worst = row.accuracy.worst;
     json["implementation_error"] = {{"model_is", name(row.model_is)},
                                     {"rmse", row.accuracy.model_rmse},

@@ -54,6 +54,11 @@ bool has_coverage_flicker(const Report& report) {
     return std::ranges::any_of(report.rows, [](const Measurement& row) { return row.coverage_flicker.has_value(); });
 }
 
+/// One run has no spread.
+std::string time_cell(const Spread& time) {
+    return time.repeats > 1 ? fmt::format("{:.2f} +-{:.2f}", time.median, time.mad) : fmt::format("{:.2f}", time.median);
+}
+
 Table table_of(const Report& report) {
     Table table;
     if (const Measurement* row = first_measured(report))
@@ -70,7 +75,7 @@ Table table_of(const Report& report) {
         } else {
             for (const Figure& figure : shown_errors(row)) line.cells.push_back(short_number(figure.value));
             if (leaves_much(report)) line.cells.push_back(short_number(ranking_figure(row).value));
-            if (row.time) line.cells.push_back(fmt::format("{:.2f} +-{:.2f}", row.time->median, row.time->mad));
+            if (row.time) line.cells.push_back(time_cell(*row.time));
             if (report.is_timed) line.cells.push_back(short_number(row.stage_ms.median));
             if (report.is_timed) line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
             if (row.flicker) line.cells.push_back(short_number(*row.flicker));
@@ -175,9 +180,14 @@ std::string heading(const Report& report) {
     for (const ReportTruth& truth : report.truths) text += truth_text(report, truth);
     const bool of_picture = report.error_at == ErrorAt::picture;
     if (of_picture) text += "errors are of the picture: the later stages run from each row's outputs and from the truth\n";
+    const Measurement* measured = first_measured(report);
+    if (measured && measured->accuracy.left_out_share > 0)
+        text +=
+            fmt::format("left out of the errors: {:.3g} % of samples, where rounding decides what is drawn or in which order\n",
+                        100 * measured->accuracy.left_out_share);
     if (leaves_much(report))
         text += fmt::format("touched: errors over the {:.3g} % of {} that the stage changes\n",
-                            100 * first_measured(report)->accuracy.touched_share, of_picture ? "pixels" : "samples");
+                            100 * measured->accuracy.touched_share, of_picture ? "pixels" : "samples");
     if (report.flicker)
         text += fmt::format("flicker: mean change of the error from frame to frame, {}: {} m ahead, {} degrees to the right\n",
                             plural(report.flicker->frames, "frame"), short_number(*report.flicker->dolly),

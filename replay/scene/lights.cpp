@@ -39,6 +39,7 @@ ViewRecord view_record(const Frame& frame) {
         .background = frame.background,
         .fog_density = frame.fog.density,
         .fog_color = frame.fog.color,
+        .fog_path = static_cast<std::uint32_t>(frame.fog.path),
         .sky = frame.hemisphere.sky,
         .ground = frame.hemisphere.ground,
         .light_count = 0,

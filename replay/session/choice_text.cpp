@@ -101,6 +101,8 @@ Result<Method> parse_method(Stage stage, std::string_view text) {
         if (const auto done = std::visit([&](const auto& value) { return settings.set(change->key, value); }, change->value);
             !done)
             return done.error();
+        if (std::ranges::count(method.settings, change->key, &SettingChange::key) > 0)
+            return fail(Fault::usage, "the method '{}' sets {} twice", text, change->key);
         method.settings.push_back(*std::move(change));
         method.text += fmt::format("{}{}", method.text.empty() ? "" : " ", word);
     }

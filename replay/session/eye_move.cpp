@@ -1,8 +1,10 @@
 #include "replay/session/eye_move.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -88,6 +90,7 @@ Result<EyeMove> eye_move_of(std::string_view text) {
     EyeMove move;
     std::vector<std::string_view> known;
     for (const EyeAxis& axis : axes) known.push_back(axis.name);
+    std::array<bool, std::size(axes)> given{};
     while (!text.empty()) {
         const std::string_view part = text.substr(0, text.find(','));
         text.remove_prefix(std::min(part.size() + 1, text.size()));
@@ -95,6 +98,8 @@ Result<EyeMove> eye_move_of(std::string_view text) {
         const std::string_view name = part.substr(0, equals), number = part.substr(std::min(equals + 1, part.size()));
         const auto axis = std::ranges::find(axes, name, &EyeAxis::name);
         if (axis == std::end(axes)) return fail(Fault::usage, "the eye has no '{}'{}", name, did_you_mean(name, known));
+        if (std::exchange(given[static_cast<std::size_t>(axis - axes)], true))
+            return fail(Fault::usage, "--eye gives {} twice", name);
         double& value = move.*axis->member;
         const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (problem != std::errc() || end != number.data() + number.size() || !std::isfinite(value))

@@ -1,5 +1,6 @@
 #include "replay/session/judgement.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/frame_images.h"
@@ -153,16 +154,23 @@ std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& befor
     const auto found = before.find(picture);
     const bool is_drawn_over = found != before.end() && same_extent(found->second, image);
     image.undecided.resize(image.texels.size());
-    std::size_t decided = 0, touched = 0;
+    std::size_t touched = 0, kept = 0;
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        if (image.undecided[i]) continue;
         const glm::dvec3 was = is_drawn_over ? glm::dvec3(found->second.texels[i]) : glm::dvec3(0);
         const bool is_touched = glm::dvec3(image.texels[i]) != was;
-        ++decided;
         touched += is_touched;
-        image.undecided[i] = !is_touched;
+        image.undecided[i] = image.undecided[i] || !is_touched;
+        kept += !image.undecided[i];
     }
-    return touched == 0 ? std::nullopt : std::optional(double(touched) / double(decided));
+    return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
+}
+
+/// Of the texels of one image; 0 where there is none.
+double undecided_share(const ImageSet& truth, std::string_view image) {
+    const auto found = truth.find(image);
+    if (found == truth.end() || found->second.undecided.empty()) return 0;
+    const std::vector<bool>& undecided = found->second.undecided;
+    return double(std::ranges::count(undecided, true)) / double(undecided.size());
 }
 
 /// The figures that the stage's judge would give, every one infinite.
@@ -181,6 +189,11 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     if (const std::string why = incomparable_with_truth(of_stage, stage.result, truth); !why.empty()) {
         accuracy.incomparable += accuracy.incomparable.empty() ? why : "; " + why;
         accuracy.method = infinite_figures(of_stage, truth, input);
+        return;
+    }
+    accuracy.left_out_share = undecided_share(truth, of_stage.outputs.front());
+    if (accuracy.left_out_share == 1) {
+        accuracy.not_supported = "no sample can be judged: rounding decides what each of them shows";
         return;
     }
     accuracy.method = of_stage.judge(stage.result, truth, input);

@@ -134,7 +134,8 @@ struct Accuracy {
     std::vector<Figure> method;              ///< from the stage's judge
     std::optional<double> flip;              ///< mean of FLIP against the truth, of a stage that makes radiance
     std::vector<Figure> touched;             ///< the same over the samples that the truth changes, of a stage that makes radiance
-    double touched_share = 1;                ///< of all that are compared
+    double touched_share = 1;                ///< of all samples
+    double left_out_share = 0;               ///< of samples, from errors against the truth: rounding decides what they show
     double model_rmse = 0, model_worst = 0;  ///< relative, see Tolerance
     std::size_t compared = 0, undecided = 0, trivial = 0;  ///< texels
     WorstTexel worst;

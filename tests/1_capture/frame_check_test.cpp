@@ -131,6 +131,7 @@ TEST(FrameCheck, FloatsThatWouldBreakAReplayAreRefused) {
         {"portal 0: its half sizes must be 0 m or above", [](Frame& f) { f.portals[0].half_v = -1; }},
         {"blocker 0: its half sizes must be 0 m or above", [](Frame& f) { f.blockers[0].half_u = infinity; }},
         {"fog's density must be 0 or above", [](Frame& f) { f.fog.density = nan; }},
+        {"no path of fog 2", [](Frame& f) { f.fog.path = FogPath{2}; }},
         {"setting 'falloff' is not finite", [](Frame& f) { f.recorded_with[0].settings[1].value = double{nan}; }},
     });
 }

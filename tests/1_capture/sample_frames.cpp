@@ -118,7 +118,7 @@ Frame rich_frame() {
     frame.lights[2].half_extent = {1, 0};
     frame.hemisphere = {{.1f, .2f, .3f}, {.05f, .04f, .03f}};
     frame.background = {.5f, .6f, .7f};
-    frame.fog = {.02f, {.3f, .3f, -0.0f}};
+    frame.fog = {.02f, {.3f, .3f, -0.0f}, FogPath::distance};
     frame.light_volumes = {{.kind = VolumeKind::fixed_local, .occlusion = VolumeOcclusion::axial, .cells = {8, 4, 8}}};
     frame.rain = {.intensity = .5f, .wetness = .25f, .direction = {0, -1, 0}};
     frame.lens = {.bloom = .1f, .auto_exposure = true, .focus_distance = 4, .aperture = .01f, .distortion = true};

@@ -42,6 +42,7 @@ std::vector<Record> view_records() {
               {"background", offsetof(V, background)},
               {"fog_density", offsetof(V, fog_density)},
               {"fog_color", offsetof(V, fog_color)},
+              {"fog_path", offsetof(V, fog_path)},
               {"sky", offsetof(V, sky)},
               {"ground", offsetof(V, ground)},
               {"light_count", offsetof(V, light_count)},

@@ -75,6 +75,21 @@ TEST(TransparentFragments, FoggedEventsBlendToThePhysicalResult) {
     EXPECT_NEAR(composite(std::span(&event, 1), glm::dvec3(0.3)).x, 0.60, 1e-7);
 }
 
+TEST(TransparentFragments, FogByDistanceThickensTowardsTheRim) {
+    Frame frame = tiny::frame(8, 8);
+    frame.fog = {.density = 0.3f, .color = glm::vec3(1), .path = FogPath::distance};
+    const std::uint32_t draw = tiny::add_quad(frame, everywhere, 2, AlphaMode::blend);
+    tiny::material(frame, draw).base_color = {0, 0, 0, 0.5f};
+    const FragmentLists lists = transparent_fragments(frame, tiny::no_depth(frame));
+    for (std::uint32_t x = 0; x < 8; ++x) {
+        const auto events = lists.at(x, 1, 0);
+        ASSERT_EQ(events.size(), 1u);
+        const double fog = std::exp(-double(0.3f) * glm::length(2.0 * pixel_ray(frame, x + 0.5, 1.5)));
+        EXPECT_NEAR(events[0].fog, fog, 1e-7);
+        EXPECT_NEAR(events[0].color.x, 0.5 * (1 - fog), 1e-7);
+    }
+}
+
 TEST(TransparentFragments, ColoredGlassHidesOfTheFogWhatItAbsorbs) {
     // By hand: f = .8, s = .1 at the pane; light 1 behind it arrives there as .625 * 1 + .25 = .875, so red (t = 1) gives
     // .8 * .875 + .1 = .8 and green (t = .2) .8 * .2 * .875 + .1 = .24.

@@ -153,6 +153,11 @@ TEST(Fog, HalvesWhatIsAHalfLifeAway) {
     EXPECT_EQ(fog_at(frame, 0).remains, 1);
 }
 
+TEST(Fog, LiesBeforeAPointForItsDepthOrItsDistance) {
+    EXPECT_EQ(fog_way(FogPath::view_depth, {3, 0, 4}), 4);
+    EXPECT_EQ(fog_way(FogPath::distance, {3, 0, 4}), 5);
+}
+
 // A white metal under a white sky and over black ground, integrated over its GGX lobe.
 double sky_in_metal(const SurfacePoint& surface, const glm::dvec3& up) {
     const glm::dvec3 v = glm::normalize(-surface.position);

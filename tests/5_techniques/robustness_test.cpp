@@ -148,7 +148,9 @@ std::vector<HardFrame> with_twins() {
     return found;
 }
 
-INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(hard_frames), name_of);
+// One pixel of one sample finds what one of four samples does, where there are no edges, and makes every pipeline for it.
+INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(std::next(hard_frames), std::end(hard_frames)), name_of);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames, testing::Values(hard_frames[0]), name_of);
 INSTANTIATE_TEST_SUITE_P(Frames, TwinFrames, testing::ValuesIn(with_twins()), name_of);
 
 }  // namespace

@@ -216,6 +216,22 @@ TEST(Judge, MeasuresWhatTheStageTouchesAlsoAlone) {
     EXPECT_TRUE(judged.against_truth(judged.model).touched.empty()) << "nothing is drawn over";
 }
 
+TEST(Judge, SaysHowManySamplesItLeavesOut) {
+    Judged judged;
+    ImageSet truth = judged.model;
+    ReferenceImage& color = truth.at("color");
+    color.at(1, 0) = color.at(2, 0) = glm::dvec4(3);
+    color.undecided.assign(color.texels.size(), false);
+    color.undecided[color.index(1, 0, 0)] = true;
+    const Accuracy some = judged.against_truth(truth);
+    EXPECT_DOUBLE_EQ(some.left_out_share, 1. / 12);
+    EXPECT_DOUBLE_EQ(some.touched_share, 2. / 12) << "also what is left out is touched";
+    color.undecided.assign(color.texels.size(), true);
+    const Accuracy none = judged.against_truth(truth);
+    EXPECT_TRUE(none.method.empty()) << "not an error of 0";
+    EXPECT_EQ(none.not_supported, "no sample can be judged: rounding decides what each of them shows");
+}
+
 /// SwiftShader snaps corners to 1/16 pixel: near the sides of triangles it covers other samples than the model. On a device that
 /// snaps to 1/256 pixel that is a bug.
 TEST(Judge, ComparesNoSampleWhoseCoverageHangsOnTheStepsOfTheDevice) {

@@ -145,6 +145,7 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
         {"replay sound.strata --tolerance 1 --until combine", "--until does not apply"},
         {"replay sound.strata --tolerance 1 --no-expect", "--no-expect does not apply"},
         {"replay sound.strata --tolerance 1 --eye pan=1", "--eye does not apply"},
+        {"replay sound.strata --eye pan=1,tilt=0,pan=2", "--eye gives pan twice"},
     };
     for (const auto& [command, says] : all) {
         const Finished refused = strata(command);

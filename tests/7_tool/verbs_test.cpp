@@ -47,7 +47,9 @@ TEST(Tool, EveryVerbThatPrintsResultsPrintsThemAsJsonToo) {
           "probe sound.strata --at 8,4 --methods sorted_lists -o probed"}) {
         const Finished printed = strata(fmt::format("{} --json", command));
         ASSERT_EQ(printed.code, 0) << command << printed.err;
-        EXPECT_THAT(json::parse(printed.out)["schema"].get<std::string>(), HasSubstr("strata.")) << command;
+        const json made = json::parse(printed.out);
+        EXPECT_THAT(made["schema"].get<std::string>(), HasSubstr("strata.")) << command;
+        EXPECT_TRUE(made.contains("schema_version")) << command;
     }
 }
 
@@ -370,8 +372,9 @@ TEST(Report, AnswersWhichMethodKeepsAnErrorAndATime) {
     EXPECT_THAT(strata(verb).out, HasSubstr(" up to 0.01 within 1000x of alpha_blend: cheapest sorted_lists"));
     const Finished defaults = strata("report panes.strata --repeats 1 --defaults --csv");
     EXPECT_EQ(std::size_t(std::ranges::count(defaults.out, '\n')), 1 + techniques_of(Stage::transparency).size());
-    for (const char* wrong : {"--methods nothing", "--methods 'weighted weight=w0'", "--methods lighting/tiled", "--error nan",
-                              "--error 0", "--within -2x", "--within 2y", "--defaults --methods weighted"})
+    for (const char* wrong :
+         {"--methods nothing", "--methods 'weighted weight=w0'", "--methods lighting/tiled", "--error nan", "--error 0",
+          "--methods 'weighted weight=w7 weight=w8'", "--within -2x", "--within 2y", "--defaults --methods weighted"})
         EXPECT_EQ(strata(std::string("report panes.strata ") + wrong).code, 2) << wrong;
 }
 

@@ -307,7 +307,8 @@ CaptureTable weather_of(const Frame& frame) {
     add("sun: shafts", yes_or_no(frame.sun.shafts));
     add("hemisphere: sky", cell(frame.hemisphere.sky), "radiance");
     add("hemisphere: ground", cell(frame.hemisphere.ground), "radiance");
-    add("fog: density", cell(frame.fog.density), "per metre of view depth; 0: no fog");
+    add("fog: density", cell(frame.fog.density), "per metre; 0: no fog");
+    add("fog: path", cell(name(frame.fog.path)), "what its metres are counted along");
     add("fog: color", cell(frame.fog.color), "radiance");
     add("rain: intensity", cell(frame.rain.intensity), "0 none, 1 heavy");
     add("rain: wetness", cell(frame.rain.wetness), "0 dry, 1 soaked");

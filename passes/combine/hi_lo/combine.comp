@@ -17,7 +17,7 @@ layout(constant_id = 4) const uint has_indirect = 0u;
 layout(constant_id = 5) const uint has_shafts = 0u;
 layout(constant_id = 104) const uint has_fog = 0u;
 layout(constant_id = 105) const uint fog = fog_exponential;
-layout(constant_id = 106) const uint fog_distance = fog_by_view_depth;
+layout(constant_id = 106) const uint fog_distance = fog_as_recorded;
 layout(constant_id = 107) const uint fog_sky = fog_sky_apart;
 layout(constant_id = 108) const uint hemisphere = hemisphere_recorded;
 
@@ -77,7 +77,7 @@ vec3 composed(ivec3 at) {
     const MaterialPoint m = lit_point(s, uvec2(at.xy));
     const vec3 radiance = own.rgb + light_at(at) + ambient(m, at);
     if (has_fog == 0u) return radiance;
-    return fogged(radiance, fog_distance == fog_by_distance ? length(m.position) : s.z);
+    return fogged(radiance, fog_way(m.position, fog_distance == fog_as_recorded ? view.fog_path : fog_distance));
 }
 
 void main() {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
-#include "passes/combine/fog.h"
 #include "passes/combine/truth.h"
 #include "passes/technique.h"
 #include "tests/support/one_pixel.h"
@@ -84,8 +84,13 @@ TEST(HiLoFog, IsMeasuredAlongViewDepthOrTheWayOfTheLight) {
     frame.view.jitter.x = -1;
     const double root = std::sqrt(2.);
     frame.view.projection[0][0] = 1;
-    EXPECT_NEAR(fogged_color(frame, fog_with({})), std::exp(-1), 1e-6);
-    EXPECT_NEAR(fogged_color(frame, fog_with({{"fog_distance", "distance"}})), std::exp(-root), 1e-6);
+    for (const auto& [path, recorded] : {std::pair(FogPath::view_depth, std::exp(-1)), {FogPath::distance, std::exp(-root)}}) {
+        frame.fog.path = path;
+        EXPECT_NEAR(combine_truth({frame, glowing_surface()}).at("color").at(0, 0).x, recorded, 1e-6);
+        EXPECT_NEAR(fogged_color(frame, fog_with({})), recorded, 1e-6);
+        EXPECT_NEAR(fogged_color(frame, fog_with({{"fog_distance", "view_depth"}})), std::exp(-1), 1e-6);
+        EXPECT_NEAR(fogged_color(frame, fog_with({{"fog_distance", "distance"}})), std::exp(-root), 1e-6);
+    }
     EXPECT_NEAR(fogged_color(frame, fog_with({{"fog", "linear"}, {"fog_distance", "distance"}})), 1 - root / 2, 1e-6);
 }
 
@@ -98,19 +103,6 @@ TEST(HiLoFog, BlendsIntoTheBackgroundByTheSquareOfItsShare) {
     EXPECT_NEAR(fogged_color(frame, fog_with({})), .75, 1e-6);
     frame.fog.density = 100;
     EXPECT_NEAR(fogged_color(frame, fog_with({{"fog_sky", "blended"}})), .1, 1e-6) << "no edge before the sky";
-}
-
-TEST(HiLoFog, ByDistanceIsHeldAgainstATruthOfItsOwn) {
-    const Technique technique = hi_lo();
-    Frame frame = in_fog(1);
-    frame.view.jitter.x = -1;
-    const ImageSet before = glowing_surface();
-    for (const std::string_view path : {"view_depth", "distance"}) {
-        const Settings settings = fog_with({{"fog_distance", path}});
-        const TruthRow truth = truth_of(technique, settings);
-        EXPECT_EQ(truth.name, path == "distance" ? fog_by_distance_truth : std::string_view());
-        EXPECT_NEAR(truth.make({frame, before}).at("color").at(0, 0).x, fogged_color(frame, settings), 1e-12);
-    }
 }
 
 /// The constant of the step that combines, as the frame fixes it.

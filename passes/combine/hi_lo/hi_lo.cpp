@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "passes/choice_names.h"
-#include "passes/combine/fog.h"
 #include "passes/combine/hi_lo/hi_lo.shared.h"
 #include "passes/edges/plain_pixels.h"
 #include "passes/gbuffer/surface_at.h"
 #include "passes/lighting/material_table.h"
+#include "passes/shaders/scene.shared.h"
 #include "passes/technique.h"
 
 namespace strata::combine {
@@ -18,7 +18,8 @@ namespace {
 constexpr auto resolves = choice_names(
     {{resolve_tone_mapped, "tone_mapped"}, {resolve_linear, "linear"}, {resolve_weighted, "weighted"}, {resolve_lo_hi, "lo_hi"}});
 constexpr auto fogs = choice_names({{fog_exponential, "exponential"}, {fog_linear, "linear"}});
-constexpr auto fog_distances = choice_names({{fog_by_view_depth, "view_depth"}, {fog_by_distance, "distance"}});
+constexpr auto fog_distances =
+    choice_names({{fog_by_view_depth, "view_depth"}, {fog_by_distance, "distance"}, {fog_as_recorded, "recorded"}});
 constexpr auto hemispheres = choice_names({{hemisphere_recorded, "recorded"}, {hemisphere_table, "table"}});
 constexpr auto fog_skies = choice_names({{fog_sky_apart, "apart"}, {fog_sky_blended, "blended"}});
 
@@ -76,10 +77,6 @@ Image highlights(Graph& graph, FrameImages& frame, const Settings&) {
     return picture;
 }
 
-std::string_view approximates(const Settings& settings) {
-    return settings.as<HiLoParams>().fog_distance == fog_by_distance ? fog_by_distance_truth : std::string_view();
-}
-
 std::vector<Param> params() {
     return {
         param<&HiLoParams::resolve>(
@@ -87,7 +84,7 @@ std::vector<Param> params() {
              .low = 0,
              .high = resolve_lo_hi,
              .fallback = resolve_tone_mapped,
-             .help = "how samples become a pixel: averaged after or before the tone curve, weighted, or after it in 8 bits",
+             .help = "way from samples to a pixel: averaged after or before the tone curve, weighted, or after it in 8 bits",
              .choices = resolves}),
         param<&HiLoParams::fog>({.name = "fog",
                                  .fallback = fog_exponential,
@@ -95,8 +92,10 @@ std::vector<Param> params() {
                                  .choices = fogs}),
         param<&HiLoParams::fog_distance>(
             {.name = "fog_distance",
-             .fallback = fog_by_view_depth,
-             .help = "length of the way through fog: view depth, as recorded, or distance from the eye",
+             .low = 0,
+             .high = fog_as_recorded,
+             .fallback = fog_as_recorded,
+             .help = "length of the way through fog to opaque surfaces: as recorded, view depth, or distance from the eye",
              .choices = fog_distances}),
         param<&HiLoParams::fog_sky>(
             {.name = "fog_sky",
@@ -132,15 +131,14 @@ Technique hi_lo() {
                 "Adds emission, light and hemisphere light, applies fog, tone maps every sample and averages; per channel, so "
                 "that bright saturated colors turn white.",
             .params = params(),
-            .points = {"resolve=linear", "resolve=weighted", "resolve=lo_hi", "fog=linear", "fog_distance=distance",
-                       "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
+            .points = {"resolve=linear", "resolve=weighted", "resolve=lo_hi", "fog=linear", "fog_distance=view_depth",
+                       "fog_distance=distance", "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
             .views = {{.name = "highlights",
                        .help = "the 8-bit target Hi of the original: a ninth of the exposed radiance, clipped at 9",
                        .unit = "of 9",
                        .declare = highlights}},
             .abilities = {.is_time_unit = true},
             .declare = add_color,
-            .approximates = approximates,
             .at_other_stages = {{.at = Stage::film, .declare = add_display}},
             .model = hi_lo_model,
             .tolerance = {

@@ -16,9 +16,8 @@ const uint resolve_lo_hi = 3u;
 // talk's engine has.
 const uint fog_exponential = 0u;
 const uint fog_linear = 1u;
-// What fog is measured along: both are of the pixel's center.
-const uint fog_by_view_depth = 0u;
-const uint fog_by_distance = 1u;
+// The way through fog, to the pixel's center: that of the recorded frame, or fog_by_...
+const uint fog_as_recorded = 2u;
 // What fogged surfaces end as: the fog's color, or the background, by F^2.
 const uint fog_sky_apart = 0u;
 const uint fog_sky_blended = 1u;

@@ -89,8 +89,9 @@ Quantized display_at(const StageInput& input, const ReferenceImage& color, std::
 auto chosen_fog(const Frame& frame, const HiLoParams& params) {
     return [&frame, params](const glm::dvec3& radiance, const SurfacePoint& p) {
         const double density = double(frame.fog.density), near = double(params.fog_near), far = double(params.fog_far);
-        const double free_paths =
-            density * fog_path(p, params.fog_distance == fog_by_distance ? FogPath::distance : FogPath::view_depth);
+        const bool recorded = params.fog_distance == fog_as_recorded;
+        const FogPath path = recorded ? frame.fog.path : static_cast<FogPath>(params.fog_distance);
+        const double free_paths = density * fog_way(path, p.position);
         double share = 1 - std::exp(-free_paths);
         if (params.fog == fog_linear)
             share = std::clamp((free_paths - near) / std::max(far - near, double(least_fog_length)), 0.0, 1.0);

@@ -48,7 +48,7 @@ struct Sums {
 
 /// Adds N and X of one channel and the depths that skew, and returns what of the fragment is then skewed.
 Fragment tinted(const Fragment& fragment, double through, const Summing& how, Sums& sums) {
-    const glm::dvec2 depths = skew_depths(fragment, through * std::exp(-how.fog_density * fragment.depth));
+    const glm::dvec2 depths = skew_depths(fragment, through * fragment.fog);
     const double t = luminance(fragment.transmittance);
     const auto add = [&](double& sum, double term) { sum = blended(sum, term, how, half_float); };
     add(sums.normalizer.x, (1 - t) * through);
@@ -244,12 +244,7 @@ ImageSet function_model(const StageInput& input, std::uint32_t accumulation, con
     // What a T(z) looks up lives as long as its thread's pixel does.
     tbb::enumerable_thread_specific<Read> reads;
     const bool chromatic = is_chromatic(input.frame);
-    const Summing how{accumulation,
-                      input.rounding,
-                      chromatic,
-                      model.unseen,
-                      chromatic ? model.tint : tint_total,
-                      double(input.frame.fog.density)};
+    const Summing how{accumulation, input.rounding, chromatic, model.unseen, chromatic ? model.tint : tint_total};
     return modelled(input, how, [&](std::span<const Fragment>, glm::uvec3 at, glm::uvec2 extent) {
         Read& read = reads.local();
         read = read_at(projected, model, extent, glm::uvec2(at));

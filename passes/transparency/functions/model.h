@@ -25,7 +25,6 @@ struct Summing {
     bool chromatic = false;
     Unseen unseen = Unseen::counts;
     std::uint32_t tint = tint_total;
-    double fog_density = 0;
 };
 
 /// One sample: fragments in submission order weighted by T over what is behind.

@@ -28,7 +28,7 @@ uvec2 texel_under(uvec2 extent) { return (2u * uvec2(gl_FragCoord.xy) + 1u) * ex
 
 // N and X of one channel, and what the skew is made of. through: T(z), one for all channels.
 vec4 tinting_weights(inout Event event, float through) {
-    const vec2 depths = skew_depths(event.t, through * fog_remains(event.z));
+    const vec2 depths = skew_depths(event.t, through * fog_before_here());
     if (tint == tint_corrected) {
         event.p /= skew(depths);
         event.e /= skew(depths);
