@@ -56,15 +56,42 @@ vec4 monic_quartic_roots(float a0, float a1, float a2, float a3) {
     return vec4(-0.5 * root - low, -0.5 * root + low, 0.5 * root - high, 0.5 * root + high) - shift;
 }
 
-// One step of Newton's: closed forms in float lose digits where a root is far out.
-float polished(float c[5], float x) {
-    float value = 0.0, slope = 0.0;
+// One step of Ehrlich and Aberth's method: Newton's, corrected for the other three roots, one of which may be close. It is
+// value / (slope - value * (1 / gap + 1 / gap + 1 / gap)), expanded by the product of the gaps.
+float polished(float c[5], float x[5], uint i) {
+    float value = 0.0, slope = 0.0, product = 1.0, sum = 0.0;
     for (uint k = order; k-- > 0u;) {
-        slope = slope * x + value;
-        value = value * x + c[k];
+        slope = slope * x[i] + value;
+        value = value * x[i] + c[k];
     }
-    const float step = value / slope;
-    return abs(step) < 0.1 ? x - step : x;
+    for (uint j = 1u; j <= roots; ++j) {
+        if (j == i) continue;
+        sum = sum * (x[i] - x[j]) + product;
+        product *= x[i] - x[j];
+    }
+    const float step = value * product / (slope * product - value * sum);
+    return abs(step) < 0.1 ? x[i] - step : x[i];
+}
+
+// Three or four roots, the one that may be far out or infinite last. All others are in [-1, 1]; in v = 1 / (2 + x), or
+// 1 / (2 - x) where the far one is negative, it is near 0 and all are positive, so the leading coefficient is never small.
+void find_far_and_near_roots(float c[5], inout float x[5]) {
+    const float side = c[roots - 1u] * c[roots] > 0.0 ? -1.0 : 1.0;
+    float a[5] = c;
+    for (uint i = 1u; i < order; i += 2u) a[i] *= side;
+    for (uint first = 0u; first < roots; ++first)
+        for (uint i = roots; i-- > first;) a[i] -= 2.0 * a[i + 1u];
+    const float scale = 1.0 / a[0];
+    if (roots == 3u) {
+        const vec3 v = monic_cubic_roots(scale * a[3], scale * a[2], scale * a[1]);
+        for (uint i = 0u; i < 3u; ++i) x[i + 1u] = v[i];
+    } else {
+        const vec4 v = monic_quartic_roots(scale * a[4], scale * a[3], scale * a[2], scale * a[1]);
+        for (uint i = 0u; i < 4u; ++i) x[i + 1u] = v[3u - i];
+    }
+    for (uint i = 1u; i <= roots; ++i) x[i] = side * (1.0 / max(x[i], 1e-6) - 2.0);
+    if (roots == 4u)
+        for (uint i = 1u; i <= roots; ++i) x[i] = polished(c, x, i);
 }
 
 // x[0] = z, then the roots of c; what is at infinity comes last.
@@ -74,31 +101,9 @@ void find_nodes(float c[5], float z, out float x[5]) {
         const vec2 found = quadratic_roots(c[0], c[1], c[2]);
         x[1] = found.x;
         x[2] = found.y;
-        return;
-    }
-    const float top = c[roots];
-    float largest = abs(top);
-    for (uint k = 0u; k < roots; ++k) largest = max(largest, abs(c[k]));
-    const bool short_of_one = abs(top) < 1e-5 * largest;
-    if (roots == 3u && short_of_one) {
-        const vec2 found = quadratic_roots(c[0], c[1], c[2]);
-        x[1] = found.x;
-        x[2] = found.y;
-        x[3] = 2.0 * infinite_root;
-    } else if (roots == 3u || short_of_one) {
-        const vec3 found = monic_cubic_roots(c[0] / c[3], c[1] / c[3], c[2] / c[3]);
-        x[1] = found.x;
-        x[2] = found.y;
-        x[3] = found.z;
-        if (roots == 4u) x[4] = 2.0 * infinite_root;
     } else {
-        const vec4 found = monic_quartic_roots(c[0] / c[4], c[1] / c[4], c[2] / c[4], c[3] / c[4]);
-        x[1] = found.x;
-        x[2] = found.y;
-        x[3] = found.z;
-        x[4] = found.w;
+        find_far_and_near_roots(c, x);
     }
-    for (uint i = 1u; i <= roots; ++i) x[i] = polished(c, x[i]);
 }
 
 float apart(float a, float b) {
