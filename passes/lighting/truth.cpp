@@ -1,6 +1,7 @@
 #include "passes/lighting/truth.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "passes/lighting/every_light.h"
 
@@ -27,6 +28,7 @@ ImageSet lighting_truth(const StageInput& input) {
     tbb::parallel_for(0u, light.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < light.width; ++x)
             for (std::uint32_t sample = 0; sample < light.layers; ++sample) {
+                if (tbb::is_current_task_group_canceling()) return;
                 const bool again = sample > 0 && is_first_again(input, x, y, sample);
                 light.at(x, y, sample) = again ? light.at(x, y) : glm::dvec4(every_light.at(x, y, sample), 1);
             }

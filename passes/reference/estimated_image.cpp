@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include "passes/reference/decoded.h"
 
@@ -51,6 +52,7 @@ ReferenceImage estimated_image(const Frame& frame, const GivenSurfaces& given, s
     tbb::parallel_for(0u, normal.height, [&](std::uint32_t y) {
         for (std::uint32_t x = 0; x < normal.width; ++x)
             for (std::uint32_t sample = 0; sample < normal.layers; ++sample) {
+                if (tbb::is_current_task_group_canceling()) return;
                 if (normal.at(x, y, sample).w <= 0) continue;
                 if (sample == 0 || !is_first_again(given, x, y, sample)) {
                     estimate_at(x, y, sample);

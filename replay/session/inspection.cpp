@@ -7,6 +7,7 @@
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
 #include "replay/session/judgement.h"
+#include "replay/session/until_stopped.h"
 
 namespace strata {
 namespace {
@@ -272,7 +273,14 @@ Result<ImageSet> DeviceSession::truth(const Request& request, Stage stage) {
     if (!inspected) return inspected.error();
     if (const auto on = check_going(); !on) return on.error();
     const Choice& choice = inspected->choice;
-    ImageSet images = truth_of(*choice.technique, choice.settings).make({loaded_->frame, found_->images, &found_->fragments});
+    ImageSet images;
+    const bool is_made = until_stopped(stop_, [&] {
+        images = truth_of(*choice.technique, choice.settings).make({loaded_->frame, found_->images, &found_->fragments});
+    });
+    if (!is_made) {
+        found_->fragments.reset();  // rows are missing
+        return check_going().error();
+    }
     leave_out_sides(loaded_->frame, device().snap_steps, images);
     drop_large_fragments(memo_budget_bytes);
     return images;
@@ -311,7 +319,10 @@ Result<Accuracy> DeviceSession::judge(const Request& request, Stage stage, Again
                                      .snap_steps = device().snap_steps,
                                      .stop = stop_});
     drop_large_fragments(memo_budget_bytes);
-    if (const auto on = check_going(); !on) return on.error();
+    if (const auto on = check_going(); !on) {
+        found_->fragments.reset();  // rows may be missing
+        return on.error();
+    }
     return accuracy;
 }
 

@@ -9,6 +9,7 @@
 #include "passes/registry.h"
 #include "replay/measure/flip.h"
 #include "replay/plural.h"
+#include "replay/session/until_stopped.h"
 
 namespace strata {
 namespace {
@@ -184,7 +185,11 @@ std::vector<Figure> infinite_figures(const StageInfo& of_stage, const ImageSet& 
 void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
     const StageInfo& of_stage = info(stage.choice.technique->stage);
     const StageInput input{stage.frame, stage.before, stage.fragments};
-    ImageSet truth = stage.truth ? *stage.truth : truth_of(*stage.choice.technique, stage.choice.settings).make(input);
+    ImageSet truth;
+    const bool is_made = until_stopped(stage.stop, [&] {
+        truth = stage.truth ? *stage.truth : truth_of(*stage.choice.technique, stage.choice.settings).make(input);
+    });
+    if (!is_made) return;
     leave_out_sides(stage.frame, stage.snap_steps, truth);
     if (const std::string why = incomparable_with_truth(of_stage, stage.result, truth); !why.empty()) {
         accuracy.incomparable += accuracy.incomparable.empty() ? why : "; " + why;

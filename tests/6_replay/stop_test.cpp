@@ -1,8 +1,15 @@
 // What takes long can be stopped from outside, and what was stopped leaves a session that works.
-#include <gtest/gtest.h>
+#include <atomic>
+#include <ctime>
+#include <thread>
 
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include "passes/reference/estimated_image.h"
 #include "replay/images/image_io.h"
 #include "replay/report/report.h"
+#include "replay/session/until_stopped.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -76,6 +83,50 @@ TEST(Stopped, TimingTellsHowFarItIsAndEndsBetweenRuns) {
         ASSERT_EQ(bool(stopped), complete > 0);
         if (!stopped) EXPECT_EQ(stopped.error().fault, Fault::stopped);
         else EXPECT_EQ(stopped->back().frame_ms->repeats, complete);
+    }
+}
+
+TEST(Stopped, AnEstimateEndsAtTheNextSample) {
+    const Frame frame = scenario_frames("corners").front();
+    const ReferenceImage texels(160, 90, 1, glm::dvec4(1));
+    std::stop_source stop;
+    std::atomic<std::size_t> batches = 0;
+    const auto batch = [&](const SurfacePoint&, DrawnNumbers) {
+        ++batches;
+        stop.request_stop();
+        return glm::dvec3(0);
+    };
+    const auto make = [&] { estimated_image(frame, {texels, texels}, 2, glm::dvec4(0), batch); };
+    EXPECT_FALSE(until_stopped(stop.get_token(), make));
+    EXPECT_GE(batches, 2u);
+    EXPECT_LE(batches, 2u * std::size_t(tbb::this_task_arena::max_concurrency())) << "of 28,800";
+    batches = 0;
+    EXPECT_FALSE(until_stopped(stop.get_token(), make)) << "requested before";
+    EXPECT_EQ(batches, 0u);
+    EXPECT_TRUE(until_stopped({}, make));
+    EXPECT_EQ(batches, 2u * 160 * 90);
+}
+
+/// Seconds of the process, which do not depend on what else the machine does.
+double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The hemispheres of 160 x 90 samples take more than ten seconds.
+TEST(Stopped, ATruthDoesNotRunToItsEnd) {
+    const auto session = scenario_session("corners");
+    const Request request{.outputs = {"occlusion"}};
+    must(session->run(request));
+    for (const bool is_judged : {false, true}) {
+        std::stop_source stop;
+        session->stop_when(stop.get_token());
+        const double begin = cpu_seconds();
+        const std::jthread stops([&] {
+            while (cpu_seconds() < begin + .3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            stop.request_stop();
+        });
+        const auto fault = is_judged ? session->judge(request, Stage::occlusion, Against::truth).error().fault
+                                     : session->truth(request, Stage::occlusion).error().fault;
+        EXPECT_EQ(fault, Fault::stopped);
+        EXPECT_LT(cpu_seconds() - begin, 2);
     }
 }
 
