@@ -49,6 +49,88 @@ TEST(DepthOfField, BlurIsThatOfAThinLens) {
     EXPECT_NEAR(blur_radius(frame, 1), -.05 / 2 * pixels, 1e-6) << "half the distance: as much as infinity, turned over";
 }
 
+/// Light of one pixel in the middle of an even wall at this depth, and the mean squared distance of where the lens throws it.
+struct Disc {
+    double light = 0, squared_radius = 0;
+};
+
+template <typename SeeThrough>
+Disc disc_of_pixel(double depth, SeeThrough see) {
+    ImageSet before = halves({depth, depth}, {0, 0});
+    before["color"].at(size / 2, size / 2) = glm::dvec4(100, 100, 100, 1);
+    const ReferenceImage picture = see(before);
+    Disc disc;
+    for (std::uint32_t y = 0; y < size; ++y)
+        for (std::uint32_t x = 0; x < size; ++x) {
+            const double light = picture.at(x, y).x;
+            disc.light += light;
+            disc.squared_radius += light * (std::pow(double(x) - size / 2., 2) + std::pow(double(y) - size / 2., 2));
+        }
+    disc.squared_radius /= disc.light;
+    return disc;
+}
+
+/// By focal length: a lens of diameter A focused at s makes a disc of A F |z - s| / (z (s - F)) on a sensor at F s / (s - F).
+TEST(DepthOfField, APointIsADiscOfItsRadiusAndOfItsLight) {
+    constexpr double focal = .05, focus = 2, aperture = .8;
+    for (const double depth : {1., 1.3, 5., 40.})
+        for (const std::uint32_t height : {size / 2, size, 2 * size}) {  // of a picture of which this is a part
+            Frame frame = focused(focus, aperture);
+            frame.view.height = height;
+            const double on_sensor = aperture * focal * std::abs(depth - focus) / (depth * (focus - focal));
+            const double pixels = std::abs(double(frame.view.projection[1][1])) * height / 2 / (focal * focus / (focus - focal));
+            const double radius = on_sensor * pixels / 2;
+            ASSERT_LT(radius, size / 2.);
+            // A uniform disc, and a pixel's width to where it falls.
+            const double wanted = radius * radius / 2 + 1. / 6;
+            const Disc truth = disc_of_pixel(depth, [&](const ImageSet& before) {
+                return seen_through_lens({frame, before}, before.at("color"));
+            });
+            EXPECT_NEAR(truth.light, 100, 1e-9) << depth << ' ' << height;
+            EXPECT_NEAR(truth.squared_radius, wanted, .02 * wanted + .1) << depth << ' ' << height;
+        }
+}
+
+/// An L of this depth and color before a wall.
+ImageSet corner(const glm::dvec2& depths, const glm::dvec2& colors) {
+    ImageSet before = halves(glm::dvec2(depths.y), glm::dvec2(colors.y));
+    for (std::uint32_t y = 10; y < 38; ++y)
+        for (std::uint32_t x = 10; x < (y < 24 ? 38u : 18u); ++x) {
+            before["color"].at(x, y) = glm::dvec4(glm::dvec3(colors.x), 1);
+            before["depth_layers"].at(x, y).x = near_plane / depths.x;
+        }
+    return before;
+}
+
+TEST(DepthOfField, ALampInFocusDoesNotLeakIntoTheWallBehindItsCorner) {
+    const Frame frame = focused(2, .8);
+    const ImageSet before = corner({2, 30}, {40, .1});
+    const ReferenceImage truth = seen_through_lens({frame, before}, before.at("color"));
+    const ReferenceImage gathered = seen(frame, before);
+    for (std::size_t i = 0; i < truth.texels.size(); ++i) {
+        const double wanted = before.at("color").texels[i].x;
+        EXPECT_NEAR(truth.texels[i].x, wanted, 1e-12) << i;
+        EXPECT_NEAR(gathered.texels[i].x, wanted, 1e-12) << i;
+    }
+}
+
+/// A bar through the plane in focus whose pixels move apart by up to .6 pixels each. A ray to its middle meets it within 8
+/// pixels.
+TEST(DepthOfField, ASlantedBarHasNoCracks) {
+    const Frame frame = focused(2, .8);
+    const double pixels = std::abs(double(frame.view.projection[1][1])) * size / 2;
+    ImageSet before = halves({30, 30}, {.1, .1});
+    for (std::uint32_t y = 0; y < size; ++y)
+        for (std::uint32_t x = 16; x < 33; ++x) {
+            const double blur = .6 * (double(x) - 24);
+            before["color"].at(x, y) = glm::dvec4(40, 40, 40, 1);
+            before["depth_layers"].at(x, y).x = near_plane * (.5 - blur / (.4 * pixels));
+        }
+    const ReferenceImage truth = seen_through_lens({frame, before}, before.at("color"));
+    for (std::uint32_t y = 0; y < size; ++y)
+        for (std::uint32_t x = 22; x < 27; ++x) EXPECT_NEAR(truth.at(x, y).x, 40, 1e-9) << x << ' ' << y;
+}
+
 TEST(DepthOfField, KeepsABlurredPictureOfOneColor) {
     for (const std::uint32_t form : {focus_gather, focus_xray}) {
         const Frame frame = focused(2, .4);
@@ -91,7 +173,11 @@ TEST(DepthOfField, OnePixelThatIsNoNumberStaysAlone) {
         ImageSet before = halves({.5, 700}, {1, 2});
         before["color"].at(30, 20) = glm::dvec4(NAN);
         const ReferenceImage result = seen(focused(2, .3), before, form);
-        for (std::size_t i = 0; i < result.texels.size(); ++i) EXPECT_TRUE(std::isfinite(result.texels[i].x)) << i;
+        const ReferenceImage truth = seen_through_lens({focused(2, .3), before}, before.at("color"));
+        for (std::size_t i = 0; i < result.texels.size(); ++i) {
+            EXPECT_TRUE(std::isfinite(result.texels[i].x)) << i;
+            EXPECT_TRUE(std::isfinite(truth.texels[i].x)) << i;
+        }
     }
 }
 

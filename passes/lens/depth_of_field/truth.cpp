@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
@@ -11,97 +12,132 @@
 namespace strata::lens {
 namespace {
 
-struct Seen {
-    glm::dvec3 radiance{0};
-    double depth = -1;  ///< below 0: nothing yet
-};
-
-/// A layer of the picture from one place of the lens.
-class Shifted {
+/// One sample of each pixel, as a surface that rays from places of the lens meet. Beyond its border it goes on as it is there.
+class Surface {
 public:
-    Shifted(std::uint32_t w, std::uint32_t h) : width(int(w)), height(int(h)), pixels(std::size_t(w) * h) {}
-
-    void draw(const glm::dvec2& at, const Seen& sample) {
-        const int x = int(std::floor(at.x)), y = int(std::floor(at.y));
-        if (x < 0 || y < 0 || x >= width || y >= height) return;
-        Seen& there = pixel(x, y);
-        if (there.depth < 0 || sample.depth < there.depth) there = sample;
-    }
-
-    /// Samples move along one line, so a gap between them opens along it: it shows the farther of what lies at its two ends.
-    void fill(const glm::dvec2& along) {
-        const std::vector<Seen> drawn = pixels;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                if (pixel(x, y).depth < 0) {
-                    const Seen one = end_of_gap(drawn, {x, y}, along), other = end_of_gap(drawn, {x, y}, -along);
-                    pixel(x, y) = one.depth > other.depth ? one : other;
-                }
-    }
-
-    int width, height;
-    std::vector<Seen> pixels;
-
-private:
-    Seen& pixel(int x, int y) { return pixels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
-
-    /// The first pixel that is drawn; beyond the border nothing is.
-    Seen end_of_gap(const std::vector<Seen>& drawn, const glm::ivec2& from, const glm::dvec2& way) const {
-        for (int i = 1; i < width + height; ++i) {
-            const glm::ivec2 at = from + glm::ivec2(glm::round(way * double(i)));
-            if (at.x < 0 || at.y < 0 || at.x >= width || at.y >= height) break;
-            const Seen& there = drawn[std::size_t(at.y) * std::size_t(width) + std::size_t(at.x)];
-            if (there.depth >= 0) return there;
-        }
-        return {};
-    }
-};
-
-/// How far samples move at most, in pixels.
-int margin_of(const StageInput& input, const ReferenceImage& color) {
-    double largest = 0;
-    for (std::uint32_t s = 0; s < color.layers; ++s)
+    Surface(const StageInput& input, const ReferenceImage& color, std::uint32_t sample)
+        : width(int(color.width)), height(int(color.height)) {
+        const double most = std::hypot(width, height);  // a disc as large as the picture
         for (std::uint32_t y = 0; y < color.height; ++y)
             for (std::uint32_t x = 0; x < color.width; ++x)
-                largest = std::max(largest, std::abs(blur_radius(input.frame, depth_of(input, x, y, s))));
-    return int(std::ceil(std::min(largest, double(color.width))));
-}
-
-/// Beyond its border the picture goes on as it is there.
-void add_view(const StageInput& input, const ReferenceImage& color, const glm::dvec2& place, int margin, ReferenceImage& sum) {
-    const int width = int(color.width), height = int(color.height);
-    for (std::uint32_t s = 0; s < color.layers; ++s) {
-        Shifted view(color.width, color.height);
-        for (int y = -margin; y < height + margin; ++y)
-            for (int x = -margin; x < width + margin; ++x) {
-                const auto px = std::uint32_t(std::clamp(x, 0, width - 1)), py = std::uint32_t(std::clamp(y, 0, height - 1));
-                const double z = depth_of(input, px, py, s);
-                const glm::dvec2 at = glm::dvec2(x, y) + .5 + place * blur_radius(input.frame, z);
-                view.draw(at, {glm::dvec3(color.at(px, py, s)), std::min(z, 1e300)});
-            }
-        view.fill(place / std::max(glm::length(place), 1e-9));
-        for (std::size_t i = 0; i < view.pixels.size(); ++i)
-            sum.texels[s * view.pixels.size() + i] += glm::dvec4(view.pixels[i].radiance, 0);
+                blurs.push_back(std::clamp(blur_radius(input.frame, depth_of(input, x, y, sample)), -most, most));
+        farthest = std::ranges::max(blurs);
+        find_first();
     }
+
+    /// The pixel that the ray from this place (within the unit disc) sees in the middle of pixel `to`. At the depth whose blur is
+    /// b, the ray passes the picture at `to` - b * place.
+    std::size_t seen(const glm::ivec2& to, const glm::dvec2& place) const {
+        Walk walk(to, place, first[tile_of(to.x, to.y)]);
+        std::size_t before = index(walk.at);  // the last pixel whose surface the ray has not reached
+        for (bool is_before = true;;) {
+            const std::size_t here = index(walk.at);
+            const double end = std::min(walk.next(), farthest);
+            if (blurs[here] > end) {
+                before = here;
+                is_before = true;
+            } else if (blurs[here] >= walk.blur) {
+                return here;
+            } else {
+                if (is_before && blurs[before] - blurs[here] < steepest)
+                    return blurs[before] - walk.blur < walk.blur - blurs[here] ? before : here;
+                is_before = false;
+            }
+            if (end >= farthest) return before;
+            walk.step();
+        }
+    }
+
+private:
+    /// Radius by which blur changes from pixel to pixel on a plane that all of the lens sees from one side: less than the
+    /// distance.
+    static constexpr double steepest = 1;
+
+    /// The pixels along a ray, from the nearest surface's depth to farther ones.
+    struct Walk {
+        Walk(const glm::ivec2& to, const glm::dvec2& place, double first_blur) : blur(first_blur) {
+            for (int i = 0; i < 2; ++i) {
+                const double from = to[i] + .5 - place[i] * blur;
+                at[i] = int(std::floor(from));
+                way[i] = place[i] > 0 ? -1 : 1;
+                per_pixel[i] = place[i] == 0 ? HUGE_VAL : 1 / std::abs(place[i]);
+                border[i] = place[i] == 0 ? HUGE_VAL : blur + (way[i] > 0 ? at[i] + 1 - from : from - at[i]) * per_pixel[i];
+            }
+        }
+        /// The blur at which the ray leaves the pixel.
+        double next() const { return std::min(border.x, border.y); }
+        void step() {
+            const int axis = border.x < border.y ? 0 : 1;
+            blur = border[axis];
+            at[axis] += way[axis];
+            border[axis] += per_pixel[axis];
+        }
+
+        double blur;  ///< at which the ray enters the pixel
+        glm::ivec2 at{0}, way{0};
+        glm::dvec2 border{0}, per_pixel{0};
+    };
+
+    std::size_t tile_of(int x, int y) const { return std::size_t(y / tile) * std::size_t(across) + std::size_t(x / tile); }
+
+    /// At the depth whose blur is b, a ray is within |b| pixels of where it ends. So rays to a tile meet nothing nearer than the
+    /// nearest of what lies within its own blur, or within the largest blur behind the plane in focus.
+    void find_first() {
+        across = (width + tile - 1) / tile;
+        const int down = (height + tile - 1) / tile;
+        std::vector<double> own(std::size_t(across * down), HUGE_VAL);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) own[tile_of(x, y)] = std::min(own[tile_of(x, y)], blurs[index({x, y})]);
+        first.assign(own.size(), HUGE_VAL);
+        for (int to = 0; to < across * down; ++to)
+            for (int from = 0; from < across * down; ++from) {
+                const double blur = own[std::size_t(from)];
+                const int columns = std::abs(to % across - from % across) - 1, rows = std::abs(to / across - from / across) - 1;
+                if (tile * std::max(columns, rows) > std::max(std::abs(blur), farthest) + 1) continue;
+                first[std::size_t(to)] = std::min(first[std::size_t(to)], blur);
+            }
+    }
+
+    std::size_t index(const glm::ivec2& at) const {
+        return std::size_t(std::clamp(at.y, 0, height - 1)) * std::size_t(width) + std::size_t(std::clamp(at.x, 0, width - 1));
+    }
+
+    static constexpr int tile = 16;
+    int width, height, across = 0;
+    double farthest = 0;
+    std::vector<double> blurs;
+    std::vector<double> first;  ///< by tile: no ray to it meets a smaller blur
+};
+
+/// Evenly over the area of the unit disc: a spiral of Vogel.
+std::vector<glm::dvec2> places_of_lens(std::uint32_t count) {
+    std::vector<glm::dvec2> places;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double from_center = std::sqrt((i + .5) / count), angle = i * std::numbers::pi * (3 - std::sqrt(5.));
+        places.push_back(from_center * glm::dvec2(std::cos(angle), std::sin(angle)));
+    }
+    return places;
 }
 
 }  // namespace
 
 ReferenceImage seen_through_lens(const StageInput& input, const ReferenceImage& color, std::uint32_t places) {
-    // In chunks that are summed in their order: equal for equal inputs, whatever the number of threads.
-    constexpr std::uint32_t chunks = 16;
-    const int margin = margin_of(input, color);
-    std::vector<ReferenceImage> sums(chunks, ReferenceImage(color.width, color.height, color.layers));
-    tbb::parallel_for(0u, chunks, [&](std::uint32_t chunk) {
-        for (std::uint32_t i = chunk; i < places; i += chunks) {
-            const double from_center = std::sqrt((i + .5) / places), angle = i * std::numbers::pi * (3 - std::sqrt(5.));
-            add_view(input, color, from_center * glm::dvec2(std::cos(angle), std::sin(angle)), margin, sums[chunk]);
-        }
-    });
+    const std::vector<glm::dvec2> lens = places_of_lens(places);
     ReferenceImage mean(color.width, color.height, color.layers);
-    for (std::size_t i = 0; i < mean.texels.size(); ++i) {
-        for (const ReferenceImage& sum : sums) mean.texels[i] += sum.texels[i];
-        mean.texels[i] = glm::dvec4(glm::dvec3(mean.texels[i]) / double(places), color.texels[i].w);
+    for (std::uint32_t s = 0; s < color.layers; ++s) {
+        const Surface surface(input, color, s);
+        const std::size_t first = color.index(0, 0, s);
+        tbb::parallel_for(0u, color.height, [&](std::uint32_t y) {
+            for (std::uint32_t x = 0; x < color.width; ++x) {
+                glm::dvec4 sum(0);
+                for (const glm::dvec2& place : lens) {
+                    const glm::dvec3 radiance(color.texels[first + surface.seen({x, y}, place)]);
+                    if (std::isfinite(radiance.x + radiance.y + radiance.z)) sum += glm::dvec4(radiance, 1);
+                }
+                const glm::dvec4& own = color.at(x, y, s);
+                mean.at(x, y, s) = sum.w > 0 ? glm::dvec4(glm::dvec3(sum) / sum.w, own.w) : own;
+            }
+        });
     }
     return mean;
 }

@@ -5,9 +5,9 @@
 
 namespace strata::lens {
 
-/// The mean of pictures seen from `places` points of the lens, evenly over its disc. From each, a sample moves by its blur times
-/// the place's offset and hides what is farther; where nothing falls, the farther of what lies beside the gap goes on. What the
-/// picture hides is not known to it.
+/// The mean of pictures seen from `places` points of the lens, evenly over its disc: a ray from each meets the surface that the
+/// picture's depths are. What the picture hides is not known to it: where a ray goes behind the surface for good, the pixel before
+/// which it last was goes on. Samples that are not numbers do not count.
 ReferenceImage seen_through_lens(const StageInput&, const ReferenceImage& color, std::uint32_t places = 256);
 
 }  // namespace strata::lens
