@@ -26,6 +26,25 @@ TEST(WideGBuffer, RoundsPositionsCoordinateByCoordinate) {
     EXPECT_EQ(wide_position({0, 0, -3}, 0.5).z, 0.5) << "before the near plane is the near plane";
 }
 
+/// Far from the axis of a picture of 360 rows: y = 4 m at z = 10 m steps by 2^-8 m, which is 0.14 pixel.
+TEST(WideGBuffer, PlacesThatHangOnRoundingAreUndecided) {
+    Frame frame;
+    frame.view.width = 640;
+    frame.view.height = 360;
+    frame.view.near = .1f;
+    frame.view.projection = glm::mat4(0);
+    frame.view.projection[0][0] = 1.126f;
+    frame.view.projection[1][1] = -2.002f;
+    const glm::dvec2 center(320.5, 324.5);
+    const double middle = 4 + 0x1p-9;
+    EXPECT_TRUE(place_hangs_on_rounding(frame, center, {0, -middle, 10}));
+    EXPECT_TRUE(place_hangs_on_rounding(frame, center, {0, -middle * (1 + 1e-7), 10}));
+    EXPECT_FALSE(place_hangs_on_rounding(frame, center, {0, -middle * (1 + 1e-4), 10}));
+    EXPECT_TRUE(place_hangs_on_rounding(frame, center, {0, -4, 10 + 0x1p-8})) << "z moves it as well";
+    EXPECT_FALSE(place_hangs_on_rounding(frame, center, {4 + 0x1p-9, -4, 10})) << "x counts 1/4096 in the code of a place";
+    EXPECT_FALSE(place_hangs_on_rounding(frame, {320.5, 180.5}, {0, -0x1.002p-7, 10})) << "steps are small near the axis";
+}
+
 TEST(WideGBuffer, EveryLightingModelHasCodesOfItsOwn) {
     std::set<std::uint32_t> codes;
     for (std::uint32_t model = 0; model <= static_cast<std::uint32_t>(last_lighting_model); ++model)
