@@ -11,7 +11,7 @@ constexpr FrameImageRow rows[] = {
     {"shadow_bounds", &FrameImages::shadow_bounds, "bounds of depth in blocks of shadow maps", Content::coded},
     {"visibility", &FrameImages::visibility, "share of each light that arrives, 1 lit"},
     {"depth", &FrameImages::depth, "device depth, near / z, reversed, of every sample", Content::depth},
-    {"depth_layers", &FrameImages::depth_layers, "the same with a layer for each sample", Content::depth},
+    {"depth_layers", &FrameImages::depth_layers, "device depth with a layer for each sample", Content::depth},
     {"gbuffer0", &FrameImages::gbuffer0, "first image of the G-buffer, coded by its technique", Content::coded},
     {"gbuffer1", &FrameImages::gbuffer1, "second image of the G-buffer", Content::coded},
     {"gbuffer2", &FrameImages::gbuffer2, "third image of the G-buffer", Content::coded},

@@ -8,6 +8,7 @@
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/output_picture.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
@@ -76,7 +77,7 @@ public:
                            : Result<void>();
         }
         const auto side = [&](const SideOptions& of, const std::string& choice) {
-            return act.choice_a == act.choice_b ? asked_of(of) : choice;
+            return act.choice_a == act.choice_b ? asked_of(of) : without_defaults(choice);
         };
         const Canvas canvas =
             difference_picture(made, a, b,

@@ -12,11 +12,13 @@
 namespace strata {
 namespace {
 
+/// What the channels mean, where they are not colors.
 std::vector<Swatch> channel_swatches(const std::array<std::string_view, 3>& meanings) {
+    constexpr std::array<std::string_view, 3> names = {"red", "green", "blue"};
     constexpr std::array<Rgb, 3> colors = {Rgb(255, 0, 0), Rgb(0, 255, 0), Rgb(0, 0, 255)};
     std::vector<Swatch> swatches;
     for (std::size_t i = 0; i < meanings.size(); ++i)
-        if (!meanings[i].empty()) swatches.push_back({colors[i], std::string(meanings[i])});
+        if (!meanings[i].empty() && meanings[i] != names[i]) swatches.push_back({colors[i], std::string(meanings[i])});
     return swatches;
 }
 
@@ -27,6 +29,7 @@ ImageLegend legend_of(const DebugView& view) {
                        .channels = is_light ? std::vector<Swatch>() : channel_swatches(view.channels),
                        .if_zero = std::string(view.if_zero),
                        .help = std::string(view.help)};
+    if (view.low == -view.high) legend.middle = 0;
     for (const ViewColor& color : view.colors) legend.colors.push_back({Rgb(color.color * 255.f + .5f), color.meaning});
     return legend;
 }
@@ -42,18 +45,6 @@ ImageLegend legend_of(std::string_view image) {
     return view == (*technique)->views.end() ? ImageLegend{} : legend_of(*view);
 }
 
-/// A choice without the settings that are the technique's defaults.
-std::string without_defaults(const std::string& choice) {
-    std::istringstream words(choice);
-    std::string text, word;
-    words >> text;
-    const auto technique = find_technique(text);
-    const std::vector<std::string> defaults = technique ? Settings((*technique)->params).lines() : std::vector<std::string>();
-    while (words >> word)
-        if (std::ranges::count(defaults, word) == 0) text += " " + word;
-    return text;
-}
-
 /// The choice of the last stage that writes the image.
 std::string choice_of(const Run& run, std::string_view image) {
     std::string last;
@@ -66,6 +57,17 @@ std::string choice_of(const Run& run, std::string_view image) {
 }
 
 }  // namespace
+
+std::string without_defaults(const std::string& choice) {
+    std::istringstream words(choice);
+    std::string text, word;
+    words >> text;
+    const auto technique = find_technique(text);
+    const std::vector<std::string> defaults = technique ? Settings((*technique)->params).lines() : std::vector<std::string>();
+    while (words >> word)
+        if (std::ranges::count(defaults, word) == 0) text += " " + word;
+    return text;
+}
 
 Result<void> write_output_picture(const std::filesystem::path& path, const Run& run, const std::string& image,
                                   const std::string& of) {

@@ -11,4 +11,7 @@ namespace strata {
 /// An image of Run::images by its name; `of` says which capture and frame it is of.
 Result<void> write_output_picture(const std::filesystem::path&, const Run&, const std::string& image, const std::string& of);
 
+/// A choice, "stage/technique key=value ..", without the settings that are the technique's defaults.
+std::string without_defaults(const std::string& choice);
+
 }  // namespace strata

@@ -21,6 +21,7 @@ struct Texels {
     Content content = Content::numbers;
     std::uint32_t channels = 4;
     std::vector<glm::dvec3> values;
+    std::vector<double> alpha = {};
 };
 
 /// The part of an image that is shown: samples of light averaged, of anything else one layer.
@@ -35,11 +36,19 @@ Texels texels_of(std::string_view name, const HostImage& image, std::uint32_t la
     const std::uint32_t first = light ? 0 : layer_shown, count = light ? image.shape.layers : 1;
     for (std::uint32_t y = 0; y < extent.height; ++y)
         for (std::uint32_t x = 0; x < extent.width; ++x) {
-            glm::dvec3 sum(0);
-            for (std::uint32_t layer = first; layer < first + count; ++layer) sum += glm::dvec3(texel(image, x, y, layer));
-            shown.values.push_back(sum / double(count));
+            glm::dvec4 sum(0);
+            for (std::uint32_t layer = first; layer < first + count; ++layer) sum += glm::dvec4(texel(image, x, y, layer));
+            shown.values.push_back(glm::dvec3(sum) / double(count));
+            shown.alpha.push_back(sum.w / double(count));
             if (shown.channels == 1) shown.values.back() = glm::dvec3(shown.values.back().x);
         }
+    return shown;
+}
+
+/// The alpha of an image as an image of one channel.
+Texels alpha_of(const Texels& all) {
+    Texels shown{all.width, all.height, Content::numbers, 1, {}};
+    for (double alpha : all.alpha) shown.values.push_back(glm::dvec3(alpha));
     return shown;
 }
 
@@ -68,13 +77,23 @@ Rgb light_rgb(const glm::dvec3& v) {
 
 using ColorOf = std::function<Rgb(std::size_t texel)>;
 
+/// One channel: red where B is more, blue where it is less. Several: how far apart each is.
+Rgb difference_color(const glm::dvec3& a, const glm::dvec3& b, double gain, std::uint32_t channels) {
+    const glm::dvec3 apart = (b - a) * gain;
+    if (!finite(a) || !finite(b)) return not_a_number;
+    if (channels > 1) return byte_rgb(glm::abs(apart));
+    return byte_rgb(apart.x > 0 ? glm::dvec3(apart.x, apart.x * .35, 0) : glm::dvec3(0, -apart.x * .45, -apart.x));
+}
+
 /// How the values of both images become colors: from `low` to `high` of A.
 struct Range {
     double low = 0, high = 1;
     Content content = Content::numbers;
+    std::optional<double> middle = {};  ///< of one number: red above, blue below
 
     Rgb color(const glm::dvec3& v) const {
         if (!finite(v)) return not_a_number;
+        if (middle) return difference_color(glm::dvec3(*middle), v, 2 / (high - low), 1);
         const glm::dvec3 share = (v - low) / (high - low);
         return content == Content::radiance ? light_rgb(share) : byte_rgb(share);
     }
@@ -86,15 +105,9 @@ Range range_of(const Texels& a, Format format) {
         return {0, 1, row(format).bytes == row(format).channels ? Content::numbers : Content::radiance};
     const double high = quantile(a.values, a.content == Content::radiance ? .99 : 1),
                  low = a.content == Content::radiance ? 0 : quantile(a.values, 0);
-    return {low, high > low ? high : low + 1, a.content == Content::radiance ? Content::radiance : Content::numbers};
-}
-
-/// One channel: red where B is more, blue where it is less. Several: how far apart each is.
-Rgb difference_color(const glm::dvec3& a, const glm::dvec3& b, double gain, std::uint32_t channels) {
-    const glm::dvec3 apart = (b - a) * gain;
-    if (!finite(a) || !finite(b)) return not_a_number;
-    if (channels > 1) return byte_rgb(glm::abs(apart));
-    return byte_rgb(apart.x > 0 ? glm::dvec3(apart.x, apart.x * .35, 0) : glm::dvec3(0, -apart.x * .45, -apart.x));
+    const Content shown = a.content == Content::radiance ? Content::radiance : Content::numbers;
+    if (high > low) return {low, high, shown};
+    return {std::min(low, 0.), low > 0 ? low : std::min(low, 0.) + 1, shown};  // one value everywhere: white above 0, not black
 }
 
 /// A power of two that brings the difference that 99.5 % of the pixels that differ are below to about white.
@@ -104,6 +117,12 @@ double gain_of(const Texels& a, const Texels& b) {
         if (a.values[i] != b.values[i]) apart.push_back(glm::abs(b.values[i] - a.values[i]));
     const double most = quantile(apart, .995);
     return most > 0 ? std::exp2(std::floor(std::log2(1 / most))) : 1;
+}
+
+/// That many digits, and all those of a whole number that has more: 1388, not 1.39e+03.
+std::string text_of(double value, int digits) {
+    const bool is_long = std::abs(value) >= std::pow(10, digits) && std::abs(value) < 1e7;
+    return is_long ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
 }
 
 struct Panel {
@@ -146,22 +165,20 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
 Panel image_panel(const std::string& label, const Texels& texels, const Range& range) {
     return {label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
             [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
-            fmt::format("{:.3g}", range.low), fmt::format("{:.3g}", range.high)};
+            text_of(range.low, 3), text_of(range.high, 3)};
 }
 
-Panel difference_panel(const Texels& a, const Texels& b, const ImageComparison& made) {
+Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) {
     const double gain = gain_of(a, b);
     const std::uint32_t channels = a.channels;
     const std::string scaled = gain < 1 ? fmt::format("/ {:g}", 1 / gain) : fmt::format("x {:g}", gain);
-    Panel panel{fmt::format("{} {}", channels > 1 ? "abs(B - A)" : "B - A", scaled),
-                [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
-                [gain, channels](double share) {
-                    const double v = channels > 1 ? share : 2 * share - 1;
-                    return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
-                },
-                channels > 1 ? "0" : fmt::format("{:.3g}", -1 / gain), fmt::format("{:.3g}", 1 / gain)};
-    panel.note = fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: NaN or infinite" : "");
-    return panel;
+    return {fmt::format("{}{} {}", of, channels > 1 ? "abs(B - A)" : "B - A", scaled),
+            [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
+            [gain, channels](double share) {
+                const double v = channels > 1 ? share : 2 * share - 1;
+                return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
+            },
+            channels > 1 ? "0" : text_of(-1 / gain, 3), text_of(1 / gain, 3)};
 }
 
 }  // namespace
@@ -177,7 +194,12 @@ namespace {
 Range range_of(const Texels& shown, Format format, const ImageLegend& legend) {
     if (!legend.colors.empty()) return {0, 1};
     if (!legend.low) return range_of(shown, format);
-    const double low = std::min(*legend.low, quantile(shown.values, 0)), high = quantile(shown.values, 1);
+    const double high = quantile(shown.values, 1);
+    if (legend.middle) {
+        const double reach = std::max({high - *legend.middle, *legend.middle - quantile(shown.values, 0), 1e-6});
+        return {*legend.middle - reach, *legend.middle + reach, Content::numbers, legend.middle};
+    }
+    const double low = std::min(*legend.low, quantile(shown.values, 0));
     return {low, high > low ? high : low + 1};
 }
 
@@ -186,8 +208,8 @@ std::string values_note(const Texels& shown, const ImageLegend& legend) {
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
     const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
     if (std::ranges::none_of(shown.values, finite)) return "every pixel is NaN or infinite";
-    std::string note = fmt::format("values {:.4g} to {:.4g}{}", least, most, unit);
-    if (least == most) note = fmt::format("every pixel is {:.4g}{}", least, unit);
+    std::string note = fmt::format("values {} to {}{}", text_of(least, 4), text_of(most, 4), unit);
+    if (least == most) note = fmt::format("every pixel is {}{}", text_of(least, 4), unit);
     if (least == most && least == 0 && !legend.if_zero.empty()) note = legend.if_zero;
     if (!std::ranges::all_of(shown.values, finite)) note += ", magenta: NaN or infinite";
     return note;
@@ -205,6 +227,32 @@ std::vector<Swatch> seen_in(const Texels& shown, const Range& range, const std::
     return seen;
 }
 
+constexpr int swatch_width = 2 * Canvas::line;
+
+/// A line of text below an image, beside a swatch or not.
+struct Line {
+    std::string text;
+    Rgb color;
+    int indent = 0;
+    std::optional<Rgb> swatch = {};
+};
+
+/// What stands below an image: its values, the colors that have a meaning, the sentence about it.
+std::vector<Line> lines_below(const Texels& shown, const ImageLegend& legend, const Range& range, int width) {
+    std::vector<Line> lines;
+    if (legend.colors.empty())
+        for (const std::string& text : wrapped(values_note(shown, legend), width)) lines.push_back({text, ink});
+    constexpr int indent = swatch_width + gap;
+    for (const Swatch& swatch : legend.colors.empty() ? legend.channels : seen_in(shown, range, legend.colors)) {
+        std::optional<Rgb> color = swatch.color;
+        for (const std::string& text : wrapped(swatch.meaning, width - indent))
+            lines.push_back({text, ink, indent, std::exchange(color, std::nullopt)});
+    }
+    if (!legend.help.empty())
+        for (const std::string& text : wrapped(legend.help, width)) lines.push_back({text, faint});
+    return lines;
+}
+
 }  // namespace
 
 Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title, const ImageLegend& legend) {
@@ -219,26 +267,21 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
     panel.low += unit, panel.high += unit;
     if (!legend.colors.empty()) panel.legend = nullptr;
 
-    const std::vector<std::string> titles = wrapped(title, width), help = wrapped(legend.help, width);
-    const std::vector<Swatch> swatches = legend.colors.empty() ? legend.channels : seen_in(shown, range, legend.colors);
+    const std::vector<std::string> titles = wrapped(title, width);
+    const std::vector<Line> lines = lines_below(shown, legend, range, width);
     const int top = 2 * gap + static_cast<int>(titles.size()) * Canvas::line;
     int below = top + Canvas::line + shown.height * zoom + (panel.legend ? bar_height + 10 + Canvas::line : gap);
-    const auto lines = (legend.colors.empty() ? 1 : 0) + swatches.size() + (legend.help.empty() ? 0 : help.size());
-    Canvas canvas(width + 2 * gap, below + static_cast<int>(lines) * Canvas::line + gap, paper);
+    Canvas canvas(width + 2 * gap, below + static_cast<int>(lines.size()) * Canvas::line + gap, paper);
     canvas.text(titles, {gap, gap, width, 0}, mark);
     draw(canvas, panel, {gap, top, width, 0}, shown, nullptr);
-    const auto write_line = [&](const std::string& text, int indent, Rgb color) {
-        canvas.text(text, {gap + indent, below, width - indent, 0}, color);
+    for (const Line& line : lines) {
+        if (line.swatch) {
+            canvas.fill({gap, below, swatch_width, Canvas::line - 6}, *line.swatch);
+            canvas.outline({gap, below, swatch_width, Canvas::line - 6}, faint);
+        }
+        canvas.text(line.text, {gap + line.indent, below, width - line.indent, 0}, line.color);
         below += Canvas::line;
-    };
-    if (legend.colors.empty()) write_line(values_note(shown, legend), 0, ink);
-    for (const Swatch& swatch : swatches) {
-        const Box box{gap, below, 2 * Canvas::line, Canvas::line - 6};
-        canvas.fill(box, swatch.color);
-        canvas.outline(box, faint);
-        write_line(shortened(swatch.meaning, width - box.width - gap), box.width + gap, ink);
     }
-    if (!legend.help.empty()) canvas.text(help, {gap, below, width, 0}, faint);
     return canvas;
 }
 
@@ -246,8 +289,12 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     const std::uint32_t layer = made.error.worst_pixel.layer;
     const Texels of_a = texels_of(made.image, a, layer), of_b = texels_of(made.image, b, layer);
     const Range range = range_of(of_a, a.shape.format);
+    const Texels alpha_a = alpha_of(of_a), alpha_b = alpha_of(of_b);
     std::vector<Panel> panels{image_panel("A  " + titles.a, of_a, range), image_panel("B  " + titles.b, of_b, range),
-                              difference_panel(of_a, of_b, made)};
+                              difference_panel(of_a, of_b, "")};
+    panels.back().note =
+        fmt::format("rmse {:.3g}{}", made.error.rmse, made.error.disagreeing > 0 ? ", magenta: NaN or infinite" : "");
+    if (of_a.channels == 4 && alpha_a.values != alpha_b.values) panels.push_back(difference_panel(alpha_a, alpha_b, "alpha: "));
     if (made.flip && !made.flip->map.empty()) {
         Panel panel{"FLIP", [&made](std::size_t i) { return magma(double(made.flip->map[i])); }, magma, "0", "1"};
         panel.note = fmt::format("mean {:.4f}", made.flip->mean);
@@ -258,11 +305,13 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
     const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
     const Box cell{0, 0, of_a.width * zoom, of_a.height * zoom + 2 * Canvas::line + bar_height + 10};
     const int across = columns * (cell.width + gap) + gap;
-    const std::vector<std::string> title = wrapped(titles.title, across - 2 * gap);
-    const int reason_at = gap + static_cast<int>(title.size()) * Canvas::line, top = reason_at + gap + Canvas::line;
+    const std::vector<std::string> title = wrapped(titles.title, across - 2 * gap),
+                                   reason = wrapped(made.reason, across - 2 * gap);
+    const int reason_at = gap + static_cast<int>(title.size()) * Canvas::line,
+              top = reason_at + gap + static_cast<int>(std::max<std::size_t>(reason.size(), 1)) * Canvas::line;
     Canvas canvas(across, top + rows * (cell.height + gap), paper);
     canvas.text(title, {gap, gap, across - 2 * gap, 0}, mark);
-    canvas.text(shortened(made.reason, across - 2 * gap), {gap, reason_at, across - 2 * gap, 0}, ink);
+    canvas.text(reason, {gap, reason_at, across - 2 * gap, 0}, ink);
     for (int i = 0; i < static_cast<int>(panels.size()); ++i)
         draw(canvas, panels[static_cast<std::size_t>(i)],
              {gap + i % columns * (cell.width + gap), top + i / columns * (cell.height + gap), cell.width, cell.height}, of_a,

@@ -102,6 +102,14 @@ Imf::Header header_of(const LayerPart& part, const Metadata& metadata) {
     return header;
 }
 
+/// OpenEXR wants one display window of all parts of a file. Images of a frame and shadow maps differ in extent: the window shows
+/// all.
+void share_display_window(std::vector<Imf::Header>& headers) {
+    auto window = headers.front().displayWindow();
+    for (const Imf::Header& header : headers) window.extendBy(header.dataWindow());
+    for (Imf::Header& header : headers) header.displayWindow() = window;
+}
+
 // A file may claim any size; more than this is not read.
 constexpr std::uint32_t largest_edge = 1u << 16;
 /// Layers of one image are put behind each other, and what grows takes twice its room.
@@ -212,6 +220,7 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
         for (std::uint32_t layer = 0; layer < image.shape.layers; ++layer) parts.push_back(layer_part(name, image, layer));
     std::vector<Imf::Header> headers;
     for (const LayerPart& part : parts) headers.push_back(header_of(part, metadata));
+    if (!headers.empty()) share_display_window(headers);
     Imf::StdOSStream stream;
     try {
         const auto threads = static_cast<int>(std::thread::hardware_concurrency());

@@ -97,6 +97,18 @@ TEST(DifferencePicture, ShowsBothAndMarksWhatIsNoNumber) {
     EXPECT_GE(count({255, 0, 255}), 2 * 30 * 30);   // in B and in the difference, 30 times enlarged
 }
 
+/// View depth is the alpha of `surface_normal`: a difference there is framed, and was black in every panel.
+TEST(DifferencePicture, ShowsWhereAlphaDiffers) {
+    std::vector<float> values(4 * 16 * 9, .25f);
+    const HostImage a = image(values, 16);
+    values[4 * (5 * 16 + 12) + 3] = .5f;
+    const HostImage b = image(values, 16);
+    const Canvas canvas = difference_picture(*compare_images("surface_normal", a, b, {}), a, b, {"title", "left", "right"});
+    const Canvas same = difference_picture(*compare_images("surface_normal", a, a, {}), a, a, {"title", "left", "right"});
+    EXPECT_GT(canvas.height(), same.height()) << "a panel more, below the others";
+    EXPECT_GE(std::ranges::count(canvas.pixels(), Rgb(255, 89, 0)), 20 * 20) << "more in B, 30 times enlarged, less its frame";
+}
+
 TEST(DifferencePicture, WritesLetters) {
     Canvas canvas(200, 40, {0, 0, 0});
     const int width = canvas.text("FLIP 0.25", {4, 4, 190, 0}, {255, 255, 255});

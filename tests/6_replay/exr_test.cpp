@@ -48,6 +48,21 @@ TEST(Exr, SmallFormatsComeBackWider) {
     std::filesystem::remove(file_of_this_test());
 }
 
+/// As a picture and the shadow maps of its frame do: OpenEXR refused parts whose display windows differ.
+TEST(Exr, ImagesOfSeveralExtentsShareAFile) {
+    HostImage wide = numbered(Format::r32f, 1), high = wide;
+    wide.shape.extent = {15, 1, 1};
+    high.shape.extent = {1, 15, 1};
+    const HostImage both = numbered(Format::rgba16f, 2);
+    must(write_exr(file_of_this_test(), {{"a", wide}, {"b", high}, {"c", both}}, {}));
+    const auto read = must(read_exr(file_of_this_test()));
+    EXPECT_EQ(hash_of(read.at("a")), hash_of(wide));
+    EXPECT_EQ(hash_of(read.at("b")), hash_of(high));
+    EXPECT_EQ(hash_of(read.at("c")), hash_of(both));
+    EXPECT_EQ(read.at("b").place, read.at("a").place);
+    std::filesystem::remove(file_of_this_test());
+}
+
 TEST(Exr, AMissingFileIsAnError) {
     EXPECT_THAT(read_exr("/nowhere/a.exr").error().sentence, testing::StartsWith("cannot read /nowhere/a.exr: "));
 }

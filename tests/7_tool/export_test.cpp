@@ -3,6 +3,7 @@
 #include <cstring>
 #include <fstream>
 #include <set>
+#include <span>
 
 #include <flatbuffers/idl.h>
 #include <gmock/gmock.h>
@@ -119,6 +120,51 @@ TEST(OutputPictures, ListTheColorsThatAreSeenAndScaleToTheValues) {
     EXPECT_GT(lines_of(std::string(60, 'x')), 1u);
     EXPECT_THAT(shortened(std::string(60, 'x'), 200), testing::EndsWith("x..."));
     EXPECT_LE(text_width(shortened(std::string(60, 'x'), 200)), 200);
+}
+
+/// A view of 8 x 8 pixels whose value is everywhere the same.
+HostImage even(float value) {
+    HostImage image{{.extent = {8, 8, 1}, .format = Format::rgba32f}, {}};
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    for (int i = 0; i < 8 * 8 * 4; ++i) image.texels.insert(image.texels.end(), bytes.begin(), bytes.end());
+    return image;
+}
+
+/// Two legends that differ in their last word alone are two pictures.
+TEST(OutputPictures, BreakLongSentencesInsteadOfCuttingThem) {
+    const std::string text = "no blocker is near the macro-cell of a visible surface in this ";
+    const auto said_of_zeros = [&](const std::string& end) {
+        return image_picture("a:b", even(0), "title", {.low = 0, .if_zero = text + end}).pixels();
+    };
+    EXPECT_NE(said_of_zeros("frame"), said_of_zeros("scene"));
+    const auto said_of_red = [&](const std::string& end) {
+        return image_picture("a:b", even(1), "title", {.low = 0, .channels = {{{255, 0, 0}, text + end}}}).pixels();
+    };
+    EXPECT_NE(said_of_red("frame"), said_of_red("scene"));
+    EXPECT_EQ(image_picture("a:b", even(1388), "title", {.low = 0, .if_zero = text}).pixels(),
+              image_picture("a:b", even(1388), "title", {.low = 0}).pixels());
+}
+
+/// An occlusion image that is open everywhere was black.
+TEST(OutputPictures, OfOneValueEverywhereAreWhiteAboveZeroAndBlackAtIt) {
+    const auto middle_of = [](float value) {
+        const Canvas canvas = image_picture("occlusion", even(value), "title", {});
+        return canvas.pixels()[static_cast<std::size_t>(100 * canvas.width() + canvas.width() / 2)];
+    };
+    EXPECT_EQ(middle_of(1), Rgb(255, 255, 255));
+    EXPECT_EQ(middle_of(.25f), Rgb(255, 255, 255)) << "the scale ends there";
+    EXPECT_EQ(middle_of(0), Rgb(0, 0, 0));
+    EXPECT_EQ(middle_of(-1), Rgb(0, 0, 0));
+}
+
+TEST(OutputPictures, ColorANumberBySignWhereItHasOne) {
+    const auto middle_of = [](float value) {
+        const Canvas canvas = image_picture("a:b", even(value), "title", {.low = -16, .middle = 0});
+        return canvas.pixels()[static_cast<std::size_t>(100 * canvas.width() + canvas.width() / 2)];
+    };
+    EXPECT_EQ(middle_of(3), Rgb(255, 89, 0));
+    EXPECT_EQ(middle_of(-3), Rgb(0, 115, 255));
+    EXPECT_EQ(middle_of(0), Rgb(0, 0, 0));
 }
 
 /// One formula gives the colors to the shader and to the legend.

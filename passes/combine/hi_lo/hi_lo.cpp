@@ -135,7 +135,6 @@ Technique hi_lo() {
                        "fog_distance=distance", "fog=linear fog_distance=distance fog_sky=blended", "hemisphere=table"},
             .views = {{.name = "highlights",
                        .help = "the 8-bit target Hi of the original: a ninth of the exposed radiance, clipped at 9",
-                       .unit = "of 9",
                        .declare = highlights}},
             .abilities = {.is_time_unit = true},
             .declare = add_color,

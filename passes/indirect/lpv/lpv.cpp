@@ -293,7 +293,6 @@ Technique lpv() {
              {.name = "axial occlusion",
               .help =
                   "axial occlusion at the faces of the surface's cell: share of light stopped, the larger of two faces per axis",
-              .unit = "share",
               .high = 1,
               .declare = axial_occlusion_view,
               .channels = {"across x", "across y", "across z"},

@@ -153,7 +153,7 @@ std::vector<DebugView> tiled_views() {
          {},
          "no tile overflows"},
         {"tile lights",
-         "red: lights shaded; green: lights that reach the tile if blockers are ignored",
+         "red: lights shaded; green: lights that reach the tile if blockers are ignored; yellow: blockers kill none",
          "lights",
          0,
          64,
@@ -174,8 +174,8 @@ std::vector<DebugView> tiled_views() {
         {"tile features", "bits of the tile's feature spectrum", "bits", 0, 16, picture<view_features>},
         {"mode numbers", "number of the shading mode of each tile, as the table of modes has it; -1 where nothing is shaded", "",
          -1, 16, picture<view_mode_numbers>},
-        {"spectrum", "each tile's feature spectrum as a number, as the table of spectra has it; -1 where nothing is shaded",
-         "bits", -1, every_light_feature, picture<view_spectrum>},
+        {"spectrum", "each tile's feature spectrum as a number, as the table of spectra has it; -1 where nothing is shaded", "",
+         -1, every_light_feature, picture<view_spectrum>},
     };
 }
 
