@@ -160,10 +160,10 @@ FromTracedLens errors_at(std::uint32_t width, std::uint32_t height) {
 }
 
 /// 20 s of CPU. A truth that filled gaps beside the lamp with the lamp was the nearer one at 256 x 144, and the farther one at
-/// 512 x 288. In smaller pictures far lights are smaller than a pixel, and a picture has them or not.
+/// 512 x 288. At 64 x 36 far lights are smaller than a pixel, and a picture has them or not.
 TEST(ExhaustiveThinLens, OfTheScenarioIsNearerToTheTruthThanToATechniqueAtAnySize) {
     double of_smaller = .02;
-    for (const std::uint32_t width : {64u, 128u, 256u, 512u}) {
+    for (const std::uint32_t width : {128u, 256u, 512u}) {
         const FromTracedLens error = errors_at(width, width * 9 / 16);
         const std::string name = std::to_string(width);
         RecordProperty("truth_" + name, std::to_string(error.truth));
@@ -171,7 +171,7 @@ TEST(ExhaustiveThinLens, OfTheScenarioIsNearerToTheTruthThanToATechniqueAtAnySiz
         RecordProperty("pinhole_" + name, std::to_string(error.pinhole));
         EXPECT_LT(error.truth, error.technique) << width;
         EXPECT_LT(error.truth, of_smaller) << width << ": more pixels are no worse";
-        EXPECT_LT(error.technique, .6 * error.pinhole) << width;
+        EXPECT_LT(error.technique, .5 * error.pinhole) << width;
         of_smaller = error.truth;
     }
 }
