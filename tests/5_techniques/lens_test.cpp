@@ -1,6 +1,7 @@
 // The lens and the film on the device: what a frame without them pays, what they leave as it is, exposure over frames.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,43 @@ TEST(LensAndFilm, WhatIsInFocusKeepsItsBitsBesideWhatIsNot) {
     for (std::size_t i = 0; i < blurred.texels.size(); ++i) kept += blurred.texels[i] == pinhole.texels[i];
     EXPECT_GT(kept, 200u) << "the lamp, the crate and the ground around them";
     EXPECT_LT(kept, 1800u);
+}
+
+/// What a capture may hold: the farthest focus, the widest aperture, a picture of one pixel, radiance beyond every format.
+TEST(LensAndFilm, ExtremesOfALensAreWhatTheModelSays) {
+    struct Extreme {
+        const char* name;
+        Lens lens;
+        std::uint32_t extent = 0;  ///< pixels each way; 0: the scenario's
+        float emissive = 1;
+    };
+    constexpr float most = std::numeric_limits<float>::max();
+    const Extreme extremes[] = {
+        {.name = "focus at infinity", .lens = {.focus_distance = most, .aperture = .05f}},
+        {.name = "focus at 0", .lens = {.focus_distance = 0, .aperture = .01f}},
+        {.name = "widest aperture", .lens = {.focus_distance = 2.6f, .aperture = most}},
+        {.name = "narrowest aperture", .lens = {.focus_distance = 2.6f, .aperture = 1e-40f}},
+        {.name = "one pixel",
+         .lens = {.bloom = 1, .auto_exposure = true, .focus_distance = 2.6f, .aperture = 1, .distortion = true},
+         .extent = 1},
+        {.name = "radiance beyond half floats",
+         .lens = {.bloom = 1, .auto_exposure = true, .focus_distance = 2.6f, .aperture = .25f, .distortion = true},
+         .emissive = 1e30f}};
+    for (const Extreme& extreme : extremes) {
+        std::vector<Frame> frames{scenario_frames("lamp_at_night").front()};
+        frames[0].lens = extreme.lens;
+        frames[0].film = {};
+        for (Material& material : frames[0].materials) material.emissive *= extreme.emissive;
+        if (extreme.extent != 0) frames[0].view.width = frames[0].view.height = extreme.extent;
+        const auto session = session_of(std::move(frames));
+        for (const char* form : {"focus=gather", "focus=xray"}) {
+            const Accuracy accuracy = must(session->judge(wanting({"display"}, 0, {form}), Stage::lens, Against::model));
+            EXPECT_EQ(accuracy.incomparable, "") << extreme.name << ' ' << form;
+            EXPECT_LT(accuracy.model_worst, 4e-3) << extreme.name << ' ' << form;
+            for (const glm::dvec4& texel : color_of(*session, {form}).texels)
+                ASSERT_TRUE(std::isfinite(texel.x)) << extreme.name << ' ' << form;
+        }
+    }
 }
 
 /// T-PP-3 on the device.

@@ -11,8 +11,9 @@ constexpr const char* spread_name = "blur that reaches tiles";
 
 BlurPush push_of(const FrameImages& frame, const LensParams& params) {
     const View& view = frame.recorded->view;
-    // The lens cannot focus on what is nearer than the picture begins.
-    const float focus = std::max(frame.recorded->lens.focus_distance, view.near);
+    // The lens cannot focus on what is nearer than the picture begins. What is in focus beyond 1e30 m is infinitely far, and
+    // focus * depth in the shader stays a float.
+    const float focus = std::clamp(frame.recorded->lens.focus_distance, view.near, std::max(view.near, 1e30f));
     if (params.focus == focus_xray) return {.scale = 0, .focus = std::min(focus, 0.5f * xray_far), .most = 0};
     const float pixels = std::abs(view.projection[1][1]) * float(view.height) / 2;  // of a length of 1 at a depth of 1
     return {.scale = frame.recorded->lens.aperture / 2 / focus * pixels,

@@ -49,14 +49,15 @@ TEST(DepthOfField, BlurIsThatOfAThinLens) {
     EXPECT_NEAR(blur_radius(frame, 1), -.05 / 2 * pixels, 1e-6) << "half the distance: as much as infinity, turned over";
 }
 
-/// Light of one pixel in the middle of an even wall at this depth, and the mean squared distance of where the lens throws it.
+/// Light of one pixel at a depth before a black wall, and the mean squared distance of where the lens throws it.
 struct Disc {
     double light = 0, squared_radius = 0;
 };
 
 template <typename SeeThrough>
-Disc disc_of_pixel(double depth, SeeThrough see) {
-    ImageSet before = halves({depth, depth}, {0, 0});
+Disc disc_of_pixel(double depth, double wall, SeeThrough see) {
+    ImageSet before = halves({wall, wall}, {0, 0});
+    before["depth_layers"].at(size / 2, size / 2).x = near_plane / depth;
     before["color"].at(size / 2, size / 2) = glm::dvec4(100, 100, 100, 1);
     const ReferenceImage picture = see(before);
     Disc disc;
@@ -83,11 +84,13 @@ TEST(DepthOfField, APointIsADiscOfItsRadiusAndOfItsLight) {
             ASSERT_LT(radius, size / 2.);
             // A uniform disc, and a pixel's width to where it falls.
             const double wanted = radius * radius / 2 + 1. / 6;
-            const Disc truth = disc_of_pixel(depth, [&](const ImageSet& before) {
-                return seen_through_lens({frame, before}, before.at("color"));
-            });
-            EXPECT_NEAR(truth.light, 100, 1e-9) << depth << ' ' << height;
-            EXPECT_NEAR(truth.squared_radius, wanted, .02 * wanted + .1) << depth << ' ' << height;
+            for (const double wall : {depth, 1.1 * depth, 3 * depth}) {
+                const Disc truth = disc_of_pixel(depth, wall, [&](const ImageSet& before) {
+                    return seen_through_lens({frame, before}, before.at("color"));
+                });
+                EXPECT_NEAR(truth.light, 100, 1e-9) << depth << ' ' << height << ' ' << wall;
+                EXPECT_NEAR(truth.squared_radius, wanted, .02 * wanted + .1) << depth << ' ' << height << ' ' << wall;
+            }
         }
 }
 

@@ -39,8 +39,7 @@ public:
             } else if (blurs[here] >= walk.blur) {
                 return here;
             } else {
-                if (is_before && blurs[before] - blurs[here] < steepest)
-                    return blurs[before] - walk.blur < walk.blur - blurs[here] ? before : here;
+                if (is_before && blurs[before] - blurs[here] < steepest) return before;  // between two pixels of a slant
                 is_before = false;
             }
             if (end >= farthest) return before;
