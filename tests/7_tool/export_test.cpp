@@ -100,6 +100,22 @@ TEST(Export, WritesImagesAndViewsByTheirNames) {
     EXPECT_THAT(strata("export panes.strata --image colour -o color.exr").err, HasSubstr("did you mean color"));
 }
 
+/// A square map in a picture that is not square.
+TEST(Export, ShowsARainMapWithSquareTexels) {
+    ASSERT_EQ(strata("record roof_in_rain --size 64x36 -o roof.strata").code, 0);
+    ASSERT_EQ(strata("export roof.strata --image 'rain/wetness:rain map' -o map.exr").code, 0);
+    const HostImage map = must(read_exr(folder() / "map.exr")).begin()->second;
+    ASSERT_EQ(map.shape.extent, (Extent{64, 36, 1}));
+    std::uint32_t drawn = 0;
+    for (std::uint32_t y = 0; y < 36; ++y)
+        for (std::uint32_t x = 0; x < 64; ++x) {
+            const bool inside = x >= 14 && x < 50;
+            if (texel(map, x, y).x > 0) ++drawn;
+            EXPECT_TRUE(inside || texel(map, x, y).x == 0) << x << " " << y;
+        }
+    EXPECT_GT(drawn, 20u);
+}
+
 /// Reads its own picture back: the swatches and the bar are where the legend says.
 TEST(OutputPictures, ListTheColorsThatAreSeenAndScaleToTheValues) {
     HostImage image{{.extent = {8, 8, 1}, .format = Format::rgba32f}, std::vector<std::byte>(8 * 8 * sizeof(glm::vec4))};

@@ -30,7 +30,7 @@ std::vector<ReadmeCommand> commands_in(const fs::path& readme) {
 
 /// The file or folder that a command writes, a file perhaps without extension; empty for commands that only print.
 std::string output_of(const std::string& command) {
-    static const std::regex option(" (?:-o|--tiles) ([^ ]+)"), capture("^strata (?:record|import) ([a-z_]+)");
+    static const std::regex option(" (?:-o|--tiles) ([^ ]+)"), capture("^strata (?:record|import) ([a-z0-9_]+)");
     std::smatch match;
     if (std::regex_search(command, match, option)) return match[1];
     return std::regex_search(command, match, capture) ? std::string(match[1]) + ".strata" : "";

@@ -1,4 +1,4 @@
-// The rain map over the picture, or the share of rain that arrives at each pixel's first sample.
+// The rain map as a square in the middle of the picture, or the share of rain that arrives at each pixel's first sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "passes/gbuffer/surface_at.glsl"
@@ -17,11 +17,20 @@ float arriving(ivec2 pixel) {
     return rain_visibility(position, facing_normal(s.lighting_model, s.normal, position));
 }
 
+/// Its texels stay square, so that a roof in it has the roof's shape.
+float in_map(ivec2 pixel) {
+    const ivec2 extent = ivec2(view.extent);
+    const int edge = min(extent.x, extent.y);
+    const ivec2 place = pixel - (extent - edge) / 2;
+    if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(edge)))) return 0.0;
+    return texelFetch(rain_map, ivec3(place * map_size / edge, 0), 0).r;
+}
+
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(gl_GlobalInvocationID.xy, view.extent))) return;
     float shown = 0.0;
-    if (shows_map != 0u) shown = texelFetch(rain_map, ivec3(pixel * map_size / ivec2(view.extent), 0), 0).r;
+    if (shows_map != 0u) shown = in_map(pixel);
     else shown = arriving(pixel);
     imageStore(picture, ivec3(pixel, 0), vec4(vec3(shown), 1.0));
 }

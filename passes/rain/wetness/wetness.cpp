@@ -309,7 +309,7 @@ Technique wetness() {
                    .help = "share of rain that arrives at each pixel's first sample, with normals as the waves have left them",
                    .declare = show_arriving},
                   {.name = "rain map",
-                   .help = "the rain map (of several, the first) over the picture: brighter towards the rain, black where "
+                   .help = "the rain map (of several, the first) in the middle: brighter towards the rain, black where "
                            "nothing was drawn",
                    .declare = show_map}},
         .abilities = {.is_time_unit = true},
