@@ -32,9 +32,9 @@ constexpr FragmentColumn spread_columns[] = {
 };
 /// So few depths that the matrix of moments is singular but for its bias.
 constexpr FragmentColumn degenerate_columns[] = {
-    {"one thin fragment", 1, .1, .3, 0},       {"one opaque fragment", 1, 10, -.37, 0},
-    {"two fragments", 2, .7, -.2, 1},          {"two opaque fragments at almost one depth", 2, 10, .41, 1e-5},
-    {"smoke in one place", 150, .2, .2, 1e-2},
+    {"one opaque fragment", 1, 10, -.37, 0},
+    {"two fragments", 2, .7, -.2, 1},
+    {"two opaque fragments at almost one depth", 2, 10, .41, 1e-5},
 };
 
 std::vector<WarpedEvent> events_of(const FragmentColumn& column) {
@@ -69,7 +69,7 @@ void expect_agreement(const ColumnMethod& method, const FragmentColumn& column, 
     const MomentsParams params{.kind = method.kind, .storage = storage_single, .bias = 1, .overestimation = .25f};
     const std::vector<WarpedEvent> events = events_of(column);
     const ProbeOptions options{.methods = {std::string("transparency/moments ") + method.settings},
-                               .samples = 512,
+                               .samples = column.fragments > 1000 ? 64u : 512u,
                                .from = near_end * 1.001,
                                .to = far_end / 1.001};
     const Probe made = must(probe(session_of_scenarios(), stack_of(events), options));
@@ -91,11 +91,14 @@ TEST_P(MomentsColumns, AreWhatTheModelSaysAtEveryDepth) {
     for (const FragmentColumn& column : degenerate_columns) expect_agreement(GetParam(), column, GetParam().degenerate_tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, MomentsColumns,
+std::string kind_name(const testing::TestParamInfo<ColumnMethod>& tested) { return std::string(tested.param.settings).substr(5); }
+
+// Every depth draws all fragments of its column: fewer depths where there are many. Eight moments are where digits are lost.
+INSTANTIATE_TEST_SUITE_P(Eight, MomentsColumns, testing::Values(ColumnMethod{"kind=power8", moments_power8, .006}), kind_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, MomentsColumns,
                          testing::Values(ColumnMethod{"kind=power4", moments_power4, .05},
-                                         ColumnMethod{"kind=power6", moments_power6, .05},
-                                         ColumnMethod{"kind=power8", moments_power8, .006}),
-                         [](const auto& tested) { return std::string(tested.param.settings).substr(5); });
+                                         ColumnMethod{"kind=power6", moments_power6, .05}),
+                         kind_name);
 
 }  // namespace
 }  // namespace strata
