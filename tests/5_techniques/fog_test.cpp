@@ -39,7 +39,8 @@ const std::vector<std::vector<std::string>>& fog_settings() {
 
 TEST(Fog, AtEverySettingIsWhatTheModelSays) {
     const Technique& technique = *must(find_technique("combine/hi_lo"));
-    for (const auto [samples, path] : {std::pair(1u, FogPath::view_depth), {1u, FogPath::distance}, {4u, FogPath::distance}}) {
+    const std::pair<std::uint32_t, FogPath> frames[] = {{1, FogPath::view_depth}, {1, FogPath::distance}, {4, FogPath::distance}};
+    for (const auto& [samples, path] : frames) {
         const auto session = session_of(std::vector<Frame>{foggy_ground(.15f, path, samples)});
         for (const std::vector<std::string>& sets : fog_settings()) {
             if (samples > 1 && sets.size() < 4) continue;  // one of many parameters is enough there

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -30,7 +32,9 @@ Transmittance exact_luminance(std::span<const Fragment> fragments) {
 const Transmittance nothing_hides = [](const Fragment&) { return glm::dvec3(1); };
 
 glm::dvec3 tinted(std::span<const Fragment> fragments, double behind, std::uint32_t tint, double fog_density = 0) {
-    return function_blend(fragments, glm::dvec3(behind), exact_luminance(fragments), {.tint = tint, .fog_density = fog_density});
+    std::vector<Fragment> fogged(fragments.begin(), fragments.end());
+    for (Fragment& f : fogged) f.fog = std::exp(-fog_density * f.depth);
+    return function_blend(fogged, glm::dvec3(behind), exact_luminance(fogged), {.tint = tint});
 }
 
 double largest_difference(glm::dvec3 a, glm::dvec3 b) {
