@@ -82,7 +82,9 @@ TEST(Evolution, TheFirstFrozenCaptureHoldsWhatWasRecorded) {
     ASSERT_TRUE(capture) << capture.error().sentence;
     EXPECT_EQ(capture->summary().notes, "one frame with something of everything");
     Frame recorded = rich_frame();
-    for (Light& light : recorded.lights) light.shadow.soft = false;  // the field is younger than the capture
+    // Fields that are younger than the capture.
+    for (Light& light : recorded.lights) light.shadow.soft = false;
+    recorded.fog.path = FogPath::view_depth;
     EXPECT_EQ(bits_of(*capture->frame(0)), bits_of(recorded));
 }
 
