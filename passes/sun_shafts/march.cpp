@@ -189,9 +189,9 @@ std::vector<Param> march_params() {
 
 std::vector<Counter> march_counters() {
     return {counter<&MarchCounters::rays>({.name = "rays", .help = "rays marched"}),
-            counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "steps of all rays, in units of 1024"}),
+            counter<&MarchCounters::kilosteps>({.name = "kilosteps", .help = "march steps of all rays, in units of 1024"}),
             counter<&MarchCounters::kilofetches>(
-                {.name = "kilofetches", .help = "texels of shadow maps read by all steps, in units of 1024"})};
+                {.name = "kilofetches", .help = "shadow-map texels read by all march steps, in units of 1024"})};
 }
 
 std::vector<DebugView> march_views() {

@@ -5,6 +5,7 @@
 
 #include "passes/reference/difference.h"
 #include "replay/measure/flip.h"
+#include "replay/session/judgement.h"
 
 namespace strata {
 namespace {
@@ -69,14 +70,7 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
     if (const auto shown = truth.find(info(stage).outputs.front()); shown != truth.end())
         leave_out_undecided(shown->second, *display);
     PictureTruth made{.display = *display, .touched = *std::move(display)};
-    std::size_t touched = 0;
-    made.touched.undecided.resize(made.touched.texels.size());
-    for (std::size_t i = 0; i < made.touched.texels.size(); ++i) {
-        const bool is_touched = glm::dvec3(made.touched.texels[i]) != glm::dvec3(without->texels[i]);
-        made.touched.undecided[i] = made.touched.undecided[i] || !is_touched;
-        touched += is_touched;
-    }
-    made.touched_share = double(touched) / double(std::max<std::size_t>(1, made.touched.texels.size()));
+    made.touched_share = keep_touched(made.touched, &*without).value_or(0);
     return made;
 }
 

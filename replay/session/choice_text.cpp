@@ -102,7 +102,7 @@ Result<Method> parse_method(Stage stage, std::string_view text) {
             !done)
             return done.error();
         if (std::ranges::count(method.settings, change->key, &SettingChange::key) > 0)
-            return fail(Fault::usage, "the method '{}' sets {} twice", text, change->key);
+            return fail(Fault::usage, "--methods gives {} twice in '{}'", change->key, text);
         method.settings.push_back(*std::move(change));
         method.text += fmt::format("{}{}", method.text.empty() ? "" : " ", word);
     }

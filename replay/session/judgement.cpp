@@ -151,19 +151,9 @@ std::optional<double> keep_touched(const StageInfo& stage, const ImageSet& befor
     const FrameImageRow* row = find_frame_image(picture);
     const auto wanted = truth.find(picture);
     if (!row || row->content != Content::radiance || wanted == truth.end()) return {};
-    ReferenceImage& image = wanted->second;
     const auto found = before.find(picture);
-    const bool is_drawn_over = found != before.end() && same_extent(found->second, image);
-    image.undecided.resize(image.texels.size());
-    std::size_t touched = 0, kept = 0;
-    for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        const glm::dvec3 was = is_drawn_over ? glm::dvec3(found->second.texels[i]) : glm::dvec3(0);
-        const bool is_touched = glm::dvec3(image.texels[i]) != was;
-        touched += is_touched;
-        image.undecided[i] = image.undecided[i] || !is_touched;
-        kept += !image.undecided[i];
-    }
-    return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
+    const bool is_drawn_over = found != before.end() && same_extent(found->second, wanted->second);
+    return strata::keep_touched(wanted->second, is_drawn_over ? &found->second : nullptr);
 }
 
 /// Of the texels of one image; 0 where there is none.
@@ -210,6 +200,18 @@ void judge_by_truth(const JudgedStage& stage, Accuracy& accuracy) {
 }
 
 }  // namespace
+
+std::optional<double> keep_touched(ReferenceImage& image, const ReferenceImage* before) {
+    image.undecided.resize(image.texels.size());
+    std::size_t touched = 0, kept = 0;
+    for (std::size_t i = 0; i < image.texels.size(); ++i) {
+        const bool is_touched = glm::dvec3(image.texels[i]) != (before ? glm::dvec3(before->texels[i]) : glm::dvec3(0));
+        touched += is_touched;
+        image.undecided[i] = image.undecided[i] || !is_touched;
+        kept += !image.undecided[i];
+    }
+    return kept == 0 ? std::nullopt : std::optional(double(touched) / double(image.texels.size()));
+}
 
 void leave_out_sides(const Frame& frame, std::uint32_t device_snap_steps, ImageSet& images) {
     if (device_snap_steps >= snap_steps) return;

@@ -84,7 +84,7 @@ std::vector<Param> params() {
              .low = 0,
              .high = resolve_lo_hi,
              .fallback = resolve_tone_mapped,
-             .help = "way from samples to a pixel: averaged after or before the tone curve, weighted, or after it in 8 bits",
+             .help = "resolve of samples: mean after or before the tone curve, weighted mean, or mean after it in 8 bits",
              .choices = resolves}),
         param<&HiLoParams::fog>({.name = "fog",
                                  .fallback = fog_exponential,
@@ -95,7 +95,7 @@ std::vector<Param> params() {
              .low = 0,
              .high = fog_as_recorded,
              .fallback = fog_as_recorded,
-             .help = "length of the way through fog to opaque surfaces: as recorded, view depth, or distance from the eye",
+             .help = "path length of fog before opaque surfaces: view depth, distance from the eye, or what the capture records",
              .choices = fog_distances}),
         param<&HiLoParams::fog_sky>(
             {.name = "fog_sky",

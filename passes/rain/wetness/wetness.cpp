@@ -305,13 +305,14 @@ Technique wetness() {
              counter<&WetnessCounters::partly>({.name = "partly", .help = "of these, those that some taps found open"}),
              counter<&WetnessCounters::wet>({.name = "wet", .help = "samples whose surface was written wet"})},
         .counter_bytes = sizeof(WetnessCounters),
-        .views = {{.name = "arriving rain",
-                   .help = "share of rain that arrives at each pixel's first sample, with normals as the waves have left them",
-                   .declare = show_arriving},
-                  {.name = "rain map",
-                   .help = "the rain map (of several, the first) in the middle: brighter towards the rain, black where "
-                           "nothing was drawn",
-                   .declare = show_map}},
+        .views =
+            {{.name = "arriving rain",
+              .help = "share of rain that arrives at each pixel's first sample, with normals as the waves have left them",
+              .declare = show_arriving},
+             {.name = "rain map",
+              .help = "rain map of the first direction, a square in the middle: brighter is nearer to where the rain comes from, "
+                      "black is where nothing shelters",
+              .declare = show_map}},
         .abilities = {.is_time_unit = true},
         .claims = claims(),
         .declare = declare,

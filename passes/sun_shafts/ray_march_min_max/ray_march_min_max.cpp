@@ -77,11 +77,11 @@ std::vector<Param> params() {
          .high = 32,
          .fallback = 1,
          .help = "steps that coarser bounds may decide at once; 1: each step alone. The picture stays the same"}));
-    rows.push_back(param<&MarchParams::bounds>(
-        {.name = "shaft_bounds",
-         .fallback = bounds_as_narrow,
-         .help = "bounds of the shadow technique to reuse: only windows as narrow as own ones, or any wide enough (shared)",
-         .choices = bounds_choices}));
+    rows.push_back(param<&MarchParams::bounds>({.name = "shaft_bounds",
+                                                .fallback = bounds_as_narrow,
+                                                .help = "min-max bounds reused from the shadow technique: only where their "
+                                                        "windows are no wider than needed, or always (shared)",
+                                                .choices = bounds_choices}));
     return rows;
 }
 
@@ -96,12 +96,12 @@ std::vector<DebugView> views() {
 std::vector<Counter> counters() {
     std::vector<Counter> rows = march_counters();
     rows.push_back(counter<&MarchCounters::kilobounds>(
-        {.name = "kilobounds", .help = "texels of bounds read by all steps, in units of 1024"}));
+        {.name = "kilobounds", .help = "min-max texels read by all march steps, in units of 1024"}));
     rows.push_back(counter<&MarchCounters::kiloskipped>(
-        {.name = "kiloskipped", .help = "steps that bounds decide without a fetch of the map, in units of 1024"}));
+        {.name = "kiloskipped", .help = "march steps that bounds answer without a shadow-map fetch, in units of 1024"}));
     rows.push_back(counter<&MarchCounters::kilosteps_in_segments>(
         {.name = "kilosteps_in_segments",
-         .help = "skipped steps that one answer for a whole segment decides, in units of 1024"}));
+         .help = "march steps skipped because one lookup of bounds answers their whole segment, in units of 1024"}));
     return rows;
 }
 
