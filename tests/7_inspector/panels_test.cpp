@@ -80,6 +80,27 @@ TEST(Panels, TheTechniquesPanelHasAWidgetForEveryParameter) {
     }
 }
 
+TEST(Panels, TheFrameInWhichATechniqueIsChosenHasItsParametersAlone) {
+    Desk& desk = Desk::clean();
+    desk.model().select_frame(frame_of("three_panes"));
+    must(desk.player->wait());
+    const std::string list = "Techniques/transparency/technique";
+    must(desk.player->click(list));
+    must(desk.player->move(list + "/weighted", .5f, .5f));
+    ImGui::GetIO().MouseDown[0] = true;
+    must(desk.player->frames(1));
+    ImGui::GetIO().MouseDown[0] = false;
+    must(desk.player->frames(1));
+    const Technique& chosen = *desk.model().choices().at(Stage::transparency).technique;
+    ASSERT_EQ(chosen.name, "transparency/weighted");
+    std::vector<std::string> shown, expected;
+    for (const WidgetRecord& widget : desk.inspector->widgets().records())
+        if (widget.path.starts_with("Techniques/transparency/") && widget.path.ends_with("/value")) shown.push_back(widget.path);
+    for (const Param& param : chosen.params) expected.push_back(fmt::format("Techniques/transparency/{}/value", param.name));
+    EXPECT_THAT(shown, testing::ElementsAreArray(expected));
+    must(desk.player->wait());
+}
+
 TEST(Panels, AWidgetStaysWhereItIsWhenItsResetArrowAppears) {
     Desk& desk = Desk::clean();
     desk.model().use(*must(find_technique("transparency/weighted")));

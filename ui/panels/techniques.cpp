@@ -53,8 +53,6 @@ private:
 
     void draw_stage(Model& model, Widgets& widgets, const StageInfo& stage, const Replay* replay) const {
         const auto scope = widgets.in(stage.name);
-        const Choice& choice = model.choices().at(stage.stage);
-        const Choice& recorded = model.recorded().at(stage.stage);
         const SkippedStage* skipped = nullptr;
         if (replay)
             for (const SkippedStage& each : replay->skipped)
@@ -64,14 +62,14 @@ private:
         widgets.text("stage", stage.name, &color);
         widgets.help(stage.purpose);
         ImGui::SameLine(label_width);
-        const bool changed = choice.technique != recorded.technique;
-        draw_technique(model, widgets, stage, changed);
+        draw_technique(model, widgets, stage);
         if (skipped) {
             ImGui::PushTextWrapPos(0);
             widgets.text("left out", skipped->reason, &palette().dim);
             ImGui::PopTextWrapPos();
         } else {
-            for (const Param& param : choice.technique->params) {
+            // Looked up after what may have chosen another one.
+            for (const Param& param : model.choices().at(stage.stage).technique->params) {
                 if (!param.group.empty()) widgets.text(fmt::format("group {}", param.group), param.group, &palette().dim);
                 draw_param(model, widgets, stage.stage, param);
             }
@@ -80,20 +78,20 @@ private:
         ImGui::Separator();
     }
 
-    static void draw_technique(Model& model, Widgets& widgets, const StageInfo& stage, bool changed) {
-        const Choice& choice = model.choices().at(stage.stage);
+    static void draw_technique(Model& model, Widgets& widgets, const StageInfo& stage) {
+        const Technique& technique = *model.choices().at(stage.stage).technique;
+        const Technique& recorded = *model.recorded().at(stage.stage).technique;
         const std::vector<const Technique*> known = techniques_of(stage.stage);
         std::vector<std::string_view> items;
-        for (const Technique* technique : known) items.push_back(short_name(*technique));
-        const auto current = static_cast<std::size_t>(std::ranges::find(known, choice.technique) - known.begin());
-        const std::string summary =
-            fmt::format("{}\n{}\n{}", choice.technique->title, choice.technique->summary, choice.technique->source);
+        for (const Technique* each : known) items.push_back(short_name(*each));
+        const auto current = static_cast<std::size_t>(std::ranges::find(known, &technique) - known.begin());
+        const std::string summary = fmt::format("{}\n{}\n{}", technique.title, technique.summary, technique.source);
         ImGui::SetNextItemWidth(-reset_width);
         const auto chosen = widgets.combo("technique", items, current);
         widgets.help(summary);
-        if (changed) {
+        if (&technique != &recorded) {
             ImGui::SameLine();
-            const std::string_view was = short_name(*model.recorded().at(stage.stage).technique);
+            const std::string_view was = short_name(recorded);
             const bool back = widgets.button("reset", "\xe2\x86\xba");
             widgets.help(fmt::format("recorded with {}", was));
             if (back) return model.reset(stage.stage);
