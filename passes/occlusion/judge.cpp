@@ -29,16 +29,15 @@ double ambient_at(const StageInput& input, std::uint32_t x, std::uint32_t y, std
 
 /// Sums over samples that are compared.
 struct Sums {
-    double squares = 0, worst = 0, errors = 0, count = 0;
-    double light_squares = 0, light_power = 0;
+    double worst = 0, errors = 0;
+    ErrorSums visibility, light;
 
-    void add(double error, double wanted, double ambient) {
-        squares += error * error;
+    void add(double got, double wanted, double ambient) {
+        const double error = signed_error(got, wanted);
         worst = std::max(worst, std::abs(error));
         errors += error;
-        ++count;
-        light_squares += error * error * ambient * ambient;
-        light_power += wanted * wanted * ambient * ambient;
+        visibility.add(got, wanted);
+        light.add(got * ambient, wanted * ambient);
     }
 };
 
@@ -53,14 +52,12 @@ std::vector<Figure> occlusion_judge(const ImageSet& result, const ImageSet& trut
             for (std::uint32_t x = 0; x < wanted.width; ++x) {
                 const std::size_t i = wanted.index(x, y, sample);
                 if (!decided(got, wanted, i) || (normal && normal->texels[i].w <= 0)) continue;
-                sums.add(signed_error(got.texels[i].x, wanted.texels[i].x), wanted.texels[i].x, ambient_at(input, x, y, sample));
+                sums.add(got.texels[i].x, wanted.texels[i].x, ambient_at(input, x, y, sample));
             }
-    const double count = std::max(1.0, sums.count);
-    const double light = sums.light_power > 0 ? std::sqrt(sums.light_squares / sums.light_power) : 0;
-    return {{"rmse", "", std::sqrt(sums.squares / count)},
+    return {{"rmse", "", sums.visibility.rmse()},
             {"worst", "", sums.worst},
-            {"bias", "", std::isnan(sums.errors) ? HUGE_VAL : sums.errors / count},
-            {"ambient relative rmse", "", std::isnan(light) ? HUGE_VAL : light}};
+            {"bias", "", std::isnan(sums.errors) ? HUGE_VAL : sums.errors / std::max(1.0, sums.visibility.values)},
+            {"ambient relative rmse", "", sums.light.relative()}};
 }
 
 }  // namespace strata

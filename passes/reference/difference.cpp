@@ -23,25 +23,36 @@ double signed_error(double got, double wanted) {
     return std::isnan(error) ? HUGE_VAL : error;
 }
 
+void ErrorSums::add(double got, double wanted) {
+    const double error = signed_error(got, wanted);
+    squares += error * error;
+    power += std::isfinite(wanted) ? wanted * wanted : 0;
+    ++values;
+}
+
+double ErrorSums::rmse() const { return std::sqrt(squares / std::max(1.0, values)); }
+
+double ErrorSums::relative() const { return power > 0 ? std::sqrt(squares / power) : rmse(); }
+
+double ErrorSums::reference() const { return std::sqrt(power / std::max(1.0, values)); }
+
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted) {
     assert(got.width == wanted.width && got.height == wanted.height && got.layers == wanted.layers);
     Difference d;
-    double squares = 0, power = 0;
+    ErrorSums sums;
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
         if (!decided(got, wanted, i)) continue;
         for (int c = 0; c < 3; ++c) {
-            const double right = wanted.texels[i][c], error = signed_error(got.texels[i][c], right);
-            squares += error * error;
-            power += std::isfinite(right) ? right * right : 0;
+            const double error = signed_error(got.texels[i][c], wanted.texels[i][c]);
+            sums.add(got.texels[i][c], wanted.texels[i][c]);
             d.bias += error;
             d.worst = std::max(d.worst, std::abs(error));
         }
         ++d.compared;
     }
-    const double values = std::max(1.0, 3.0 * double(d.compared));
-    d.rmse = std::sqrt(squares / values);
-    d.relative = power > 0 ? std::sqrt(squares / power) : d.rmse;
-    d.bias = std::isnan(d.bias) ? HUGE_VAL : d.bias / values;  // infinities of both signs
+    d.rmse = sums.rmse();
+    d.relative = sums.relative();
+    d.bias = std::isnan(d.bias) ? HUGE_VAL : d.bias / std::max(1.0, sums.values);  // infinities of both signs
     return d;
 }
 

@@ -7,10 +7,22 @@
 
 namespace strata {
 
-/// Over the three color channels of every decided texel. A channel that is NaN in one image alone is infinitely wrong.
+/// The definition of error in reports, comparisons and expectations, over n values that are judged (of light: its colors):
+///     rmse = sqrt(sum (got - wanted)^2 / n),  relative = rmse / sqrt(sum wanted^2 / n), or rmse where that is 0.
+struct ErrorSums {
+    double squares = 0, power = 0, values = 0;
+
+    /// The error counts as signed_error() has it; what is wanted and not finite has no power.
+    void add(double got, double wanted);
+    double rmse() const;
+    double relative() const;
+    double reference() const;  ///< root mean square of what was wanted
+};
+
+/// ErrorSums over the color channels of every decided texel. A channel that is NaN in one image alone is infinitely wrong.
 struct Difference {
     double rmse = 0;
-    double relative = 0;  ///< rmse over the root mean square of what was wanted; rmse where that is zero
+    double relative = 0;
     double worst = 0;
     double bias = 0;  ///< mean of got - wanted
     std::size_t compared = 0;

@@ -68,23 +68,15 @@ void decide(ImageComparison& made, const ErrorLimits& limits) {
 
 std::string_view name(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
 
-Content content_of(std::string_view image, Format format) {
-    if (const FrameImageRow* known = find_frame_image(image)) return known->content;
-    const FormatRow& f = row(format);
-    if (f.kind == FormatKind::depth) return Content::depth;
-    if (f.kind == FormatKind::integer || f.channels < 3) return Content::numbers;
-    return f.bytes == f.channels ? Content::display : Content::radiance;
-}
-
 Content content_of(const DebugView& view) {
     return view.unit == "W/(m^2 sr)" || view.unit == "W/sr" ? Content::radiance : Content::numbers;
 }
 
-Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits& limits) {
+Result<ImageComparison> compare_images(const std::string& name, const HostImage& a, const HostImage& b,
+                                       const ErrorLimits& limits) {
     if (const auto comparable = check_comparable(name, a, b); !comparable) return comparable.error();
     const Content content = content_of(name, a.shape.format);
-    const auto values_are = content == Content::depth ? ImageError::Kind::depth : ImageError::Kind::values;
-    ImageComparison made{.image = std::move(name), .error = image_error(a, b, limits, values_are)};
+    ImageComparison made{.image = name, .error = image_error(a, b, limits, name)};
     const bool is_light = content == Content::radiance || content == Content::display;
     if (is_light && made.error.identical) {
         made.flip = Flip{};

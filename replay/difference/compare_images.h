@@ -39,13 +39,10 @@ struct ImageComparison {
     std::optional<Flip> flip;  ///< of light only
 };
 
-/// What an image of this name holds; an image of a file that has no name of a frame image is display light in bytes, radiance in
-/// three or four reals, depth in d32f.
-Content content_of(std::string_view image, Format);
 /// What a debug view shows: radiance where its unit is one of light per solid angle, else numbers.
 Content content_of(const DebugView&);
 
 /// The measures and the verdict. Fails when the two cannot be compared.
-Result<ImageComparison> compare_images(std::string name, const HostImage& a, const HostImage& b, const ErrorLimits&);
+Result<ImageComparison> compare_images(const std::string& name, const HostImage& a, const HostImage& b, const ErrorLimits&);
 
 }  // namespace strata

@@ -61,12 +61,13 @@ Result<void> judge_act(const Capture& capture, const ExpectedAct& expected, cons
 }  // namespace
 
 ImageDeviation deviation_of(const std::string& name, const HostImage& got, const HostImage& expected) {
-    const ImageError error = image_error(expected, got, {});
+    const ImageError error = image_error(expected, got, {}, name);
     const WorstPixel& at = error.worst_pixel;
     // Numbers that stand for things (lists, ids) are the same or they are not; so is what is no number.
     const bool is_out = error.disagreeing > 0 || (error.kind == ImageError::Kind::integers && error.over_limit > 0);
     // Light where black is expected is far off, however little.
-    return {.rmse = is_out ? HUGE_VAL : error.rmse / std::max(error.reference, 1e-9),
+    const bool is_black = error.reference == 0 && error.rmse > 0;
+    return {.rmse = is_out || is_black ? HUGE_VAL : error.relative_rmse,
             .texels = error.pixels,
             .differing = error.over_limit,
             .worst = {name, at.x, at.y, at.layer, texel(got, at.x, at.y, at.layer), texel(expected, at.x, at.y, at.layer)}};

@@ -4,21 +4,25 @@
 #include <cmath>
 #include <cstring>
 
+#include "passes/reference/difference.h"
+
 namespace strata {
 namespace {
 
 using Kind = ImageError::Kind;
 
-Kind kind_of(const HostImage& image, Kind values_are) {
-    switch (row(image.shape.format).kind) {
-        case FormatKind::integer:
-            return Kind::integers;
-        case FormatKind::depth:
-            return Kind::depth;
-        case FormatKind::real:
-            break;
-    }
-    return values_are;
+Kind kind_of(std::string_view name, Format format) {
+    if (row(format).kind == FormatKind::integer) return Kind::integers;
+    return content_of(name, format) == Content::depth ? Kind::depth : Kind::values;
+}
+
+bool is_opaque(const HostImage& image) {
+    const Extent& extent = image.shape.extent;
+    for (std::uint32_t layer = 0; layer < image.shape.layers * extent.depth; ++layer)
+        for (std::uint32_t y = 0; y < extent.height; ++y)
+            for (std::uint32_t x = 0; x < extent.width; ++x)
+                if (texel(image, x, y, layer).w != 1) return false;
+    return true;
 }
 
 /// Neighboring floats are one apart, -0 and +0 are the same.
@@ -40,18 +44,6 @@ void count(double value, ImageError::Count& counts) {
     counts.nan += std::isnan(value);
     counts.inf += std::isinf(value);
 }
-
-struct Sums {
-    double squares = 0, power = 0;
-    std::uint64_t values = 0;
-
-    void add(double a, double b) {
-        if (!std::isfinite(a) || !std::isfinite(b)) return;
-        squares += (a - b) * (a - b);
-        power += a * a;
-        ++values;
-    }
-};
 
 /// What a pixel may differ by in each kind.
 double limit_of(Kind kind, const ErrorLimits& limits) {
@@ -89,17 +81,33 @@ Result<void> check_comparable(const std::string& name, const HostImage& a, const
                 name, shape_text(a.shape), shape_text(b.shape));
 }
 
-ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits& limits, Kind values_are) {
+Content content_of(std::string_view image, Format format) {
+    if (const FrameImageRow* known = find_frame_image(image)) return known->content;
+    const FormatRow& f = row(format);
+    if (f.kind == FormatKind::depth) return Content::depth;
+    if (f.kind == FormatKind::integer || f.channels < 3) return Content::numbers;
+    return f.bytes == f.channels ? Content::display : Content::radiance;
+}
+
+std::uint32_t judged_channels(std::string_view image, const HostImage& a, const HostImage& b) {
+    const std::uint32_t channels = row(a.shape.format).channels;
+    const Content content = content_of(image, a.shape.format);
+    if (channels < 4 || (content != Content::radiance && content != Content::display) || image == "emission") return channels;
+    return find_frame_image(image) || (is_opaque(a) && is_opaque(b)) ? 3 : 4;
+}
+
+ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits& limits, std::string_view name) {
     assert(check_comparable("", a, b));
     const Extent& extent = a.shape.extent;
-    const std::uint32_t channels = row(a.shape.format).channels, layers = a.shape.layers * extent.depth;
-    const Kind kind = kind_of(a, values_are);
+    const std::uint32_t channels = row(a.shape.format).channels, layers = a.shape.layers * extent.depth,
+                        judged = judged_channels(name, a, b);
+    const Kind kind = kind_of(name, a.shape.format);
     ImageError error{.kind = kind,
                      .identical = a.shape.format == b.shape.format && a.texels == b.texels,
                      .pixels = std::uint64_t{extent.width} * extent.height * layers,
                      .channels = channels};
     const double limit = limit_of(kind, limits), warn_limit = kind == Kind::values ? limits.warn_limit : ErrorLimits::none;
-    Sums sums;
+    ErrorSums sums;
     for (std::uint32_t layer = 0; layer < layers; ++layer)
         for (std::uint32_t y = 0; y < extent.height; ++y)
             for (std::uint32_t x = 0; x < extent.width; ++x) {
@@ -110,7 +118,7 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                     const double apart = distance(kind, p[c], q[c]);
                     count(p[c], error.in_a);
                     count(q[c], error.in_b);
-                    sums.add(p[c], q[c]);
+                    if (channel < judged && !std::isinf(apart)) sums.add(q[c], p[c]);
                     error.disagreeing += std::isinf(apart);
                     worst = std::max(worst, apart);
                     if (apart <= error.worst) continue;
@@ -120,10 +128,9 @@ ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits
                 error.over_limit += worst > limit;
                 error.over_warn_limit += worst > warn_limit;
             }
-    const auto values = double(std::max<std::uint64_t>(1, sums.values));
-    error.rmse = std::sqrt(sums.squares / values);
-    error.reference = std::sqrt(sums.power / values);
-    error.relative_rmse = sums.power > 0 ? std::sqrt(sums.squares / sums.power) : error.rmse;
+    error.rmse = sums.rmse();
+    error.reference = sums.reference();
+    error.relative_rmse = sums.relative();
     return error;
 }
 

@@ -1,5 +1,5 @@
 // How far an image is from another in numbers, and what a person allows. Values are compared by their difference, depth by the
-// floats that lie between, integers by equality.
+// floats that lie between, integers by equality. rmse and relative rmse are those of a report (passes/reference/difference.h).
 #pragma once
 
 #include <array>
@@ -7,8 +7,10 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "capture_format/result.h"
+#include "passes/frame_images.h"
 #include "replay/images/host_image.h"
 #include "replay/measure/flip.h"
 
@@ -37,11 +39,11 @@ struct ImageError {
     enum class Kind { values, depth, integers } kind = Kind::values;
     bool identical = false;  ///< every bit: nothing else needs a look
     std::uint64_t pixels = 0, channels = 0;
-    // Over the values that are finite in both.
+    // ErrorSums over the judged_channels() with A as what is wanted. Values that disagree are left out and counted below.
     double rmse = 0;
-    double reference = 0;      ///< root mean square of A
-    double relative_rmse = 0;  ///< rmse over that; rmse where that is 0
-    double worst = 0;          ///< difference of values; of depth: in ULPs; infinite where one is not a number or not finite
+    double reference = 0;  ///< root mean square of A
+    double relative_rmse = 0;
+    double worst = 0;  ///< difference of values; of depth: in ULPs; infinite where one is not a number or not finite
     WorstPixel worst_pixel;
     std::uint64_t over_limit = 0, over_warn_limit = 0;  ///< pixels
     struct Count {
@@ -54,9 +56,16 @@ struct ImageError {
 /// sentence has both shapes or places.
 Result<void> check_comparable(const std::string& name, const HostImage& a, const HostImage& b);
 
-/// Of images that check_comparable() lets through (asserted). `depth` says that real values are depth, too.
-ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits&,
-                       ImageError::Kind values_are = ImageError::Kind::values);
+/// What an image of this name holds; an image of a file that has no name of a frame image is display light in bytes, radiance in
+/// three or four reals, depth in d32f.
+Content content_of(std::string_view image, Format);
+
+/// How many channels rmse is over. Light is judged by its colors; alpha counts where it is coverage: in `emission`, and in an
+/// image of a file unless both sides are opaque throughout.
+std::uint32_t judged_channels(std::string_view image, const HostImage& a, const HostImage& b);
+
+/// Of images that check_comparable() lets through (asserted). The name says what they hold. Limits are on every channel.
+ImageError image_error(const HostImage& a, const HostImage& b, const ErrorLimits&, std::string_view name = "");
 
 /// "1920 x 1080, 4 layers, rgba16f".
 std::string shape_text(const Shape&);

@@ -33,8 +33,8 @@ ordered_json json_of(const Measurement& row, bool is_timed) {
                                       {"x", worst.x},
                                       {"y", worst.y},
                                       {"layer", worst.layer},
-                                      {"got", {worst.got.x, worst.got.y, worst.got.z}},
-                                      {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z}}}},
+                                      {"got", {worst.got.x, worst.got.y, worst.got.z, worst.got.w}},
+                                      {"wanted", {worst.wanted.x, worst.wanted.y, worst.wanted.z, worst.wanted.w}}}},
                                     {"compared", row.accuracy.compared},
                                     {"undecided", row.accuracy.undecided},
                                     {"tolerance", {{"rmse", row.tolerance}, {"worst", row.tolerated_worst}}}};

@@ -185,6 +185,11 @@ TEST(occlusion_judge, tells_the_size_the_sign_and_what_ambient_light_makes_of_an
     got.at(0, 0).x = NAN;
     for (const Figure& figure : occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before}))
         EXPECT_EQ(figure.value, HUGE_VAL) << figure.name;
+    truth = ReferenceImage(4, 1, 1, glm::dvec4(0, 0, 0, 1));
+    got = ReferenceImage(4, 1, 1, glm::dvec4(.5, 0, 0, 1));
+    EXPECT_NEAR(occlusion_judge({{"occlusion", got}}, {{"occlusion", truth}}, {frame, before})[3].value, .5 * std::sqrt(2. / 3),
+                1e-12)
+        << "where the truth is dark everywhere the error is the light's own";
 }
 
 }  // namespace strata

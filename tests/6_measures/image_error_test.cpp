@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "passes/reference/difference.h"
 #include "replay/difference/compare_images.h"
+#include "replay/expectations/expectation_check.h"
 
 namespace strata {
 namespace {
@@ -35,6 +37,31 @@ TEST(ImageError, IsRmseAndRelativeToTheFirst) {
     EXPECT_DOUBLE_EQ(error.rmse, 1);                // sqrt(4 / 4)
     EXPECT_DOUBLE_EQ(error.relative_rmse, 2. / 5);  // sqrt(4 / 25)
     EXPECT_FALSE(error.identical);
+}
+
+/// Alpha is 1 in every picture of a frame: averaging it in would make the error smaller by sqrt(3/4).
+TEST(ImageError, OfLightIsThatOfAReportAndOfAnExpectation) {
+    const HostImage wanted = image<float>(Format::rgba32f, {.5f, .25f, 2, 1, 0, 1, 3, 1}),
+                    got = image<float>(Format::rgba32f, {.5f, .5f, 1, 1, .125f, 1, 3.5f, 1});
+    const Difference reported = difference(in_double(got), in_double(wanted));
+    EXPECT_DOUBLE_EQ(reported.rmse, std::sqrt((.0625 + 1 + .015625 + .25) / 6));
+    EXPECT_DOUBLE_EQ(reported.relative, std::sqrt((.0625 + 1 + .015625 + .25) / (.25 + .0625 + 4 + 1 + 9)));
+    for (const char* name : {"color", "display", "a file's own name"}) {
+        const ImageError error = image_error(wanted, got, {}, name);
+        EXPECT_EQ(error.rmse, reported.rmse) << name;
+        EXPECT_EQ(error.relative_rmse, reported.relative) << name;
+        EXPECT_EQ(deviation_of(name, got, wanted).rmse, reported.relative) << name;
+    }
+}
+
+TEST(ImageError, JudgesAlphaWhereItIsCoverageOrANumber) {
+    const HostImage a = image<float>(Format::rgba32f, {1, 1, 1, 1}), b = image<float>(Format::rgba32f, {1, 1, 1, .5f});
+    for (const char* name : {"emission", "surface_color", "a file's own name"})
+        EXPECT_EQ(image_error(a, b, {}, name).rmse, .25) << name;  // sqrt(.25 / 4)
+    const ImageError of_light = image_error(a, b, {}, "color");
+    EXPECT_EQ(of_light.rmse, 0);
+    EXPECT_EQ(of_light.over_limit, 1u) << "no difference passes a limit unseen";
+    EXPECT_EQ(of_light.worst, .5);
 }
 
 TEST(ImageError, NamesTheWorstPixelItsChannelAndBothValues) {
