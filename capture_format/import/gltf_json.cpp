@@ -51,12 +51,92 @@ Result<void> check_extent(std::string_view text, MemoryBudget& budget) {
     return budget.take(structures, bytes_per_structure, "the objects and lists of the JSON");
 }
 
+/// Reads JSON for the place and the kind of its first error alone.
+class FirstError : public nlohmann::json_sax<Json> {
+public:
+    explicit FirstError(std::string_view text) : text_(text) {}
+
+    std::string sentence() const { return sentence_; }
+
+    bool null() override { return next(); }
+    bool boolean(bool) override { return next(); }
+    bool number_integer(number_integer_t) override { return next(); }
+    bool number_unsigned(number_unsigned_t) override { return next(); }
+    bool number_float(number_float_t, const string_t&) override { return next(); }
+    bool string(string_t&) override { return next(); }
+    bool binary(binary_t&) override { return next(); }
+    bool key(string_t& name) override {
+        open_.back().name = name;
+        return true;
+    }
+    bool start_object(std::size_t) override { return begin(); }
+    bool start_array(std::size_t) override { return begin(0); }
+    bool end_object() override { return end(); }
+    bool end_array() override { return end(); }
+
+    bool parse_error(std::size_t read, const std::string& token, const nlohmann::detail::exception& error) override {
+        constexpr int out_of_range = 406, longest = 40;
+        constexpr std::string_view marks = " \t\r\n,:[]{}\"";
+        const std::string at = open_.empty() ? std::string("the file") : place();
+        if (error.id == out_of_range) {
+            sentence_ = fmt::format("{}: {:.{}} is too large for a number", at, token, longest);
+        } else if (read > text_.size()) {
+            sentence_ = fmt::format("the JSON is cut short in {} after {} bytes", at, text_.size());
+        } else {
+            // The word around the byte that is wrong; the parser's token has what lies before it, too.
+            const std::size_t wrong = read - std::min<std::size_t>(read, 1), mark = text_.find_last_of(marks, wrong),
+                              begin = mark == text_.npos ? 0 : std::min(mark + 1, wrong);
+            const std::size_t end = std::min(text_.size(), std::max(text_.find_first_of(marks, begin), begin + 1));
+            const auto first = static_cast<unsigned char>(text_[begin]);
+            const bool is_text = first >= ' ' && first <= '~';
+            sentence_ =
+                is_text ? fmt::format("{}: '{:.{}}' at byte {} is not JSON", at, text_.substr(begin, end - begin), longest, begin)
+                        : fmt::format("{}: byte {} is {:#04x} and not JSON", at, begin, first);
+        }
+        return false;
+    }
+
+private:
+    struct Open {
+        std::string name;                  ///< of the member that is read
+        std::optional<std::size_t> index;  ///< of a list
+    };
+
+    std::string place() const {
+        std::string text = "glTF";
+        for (const Open& each : open_)
+            if (each.index) text += fmt::format("[{}]", *each.index);
+            else if (!each.name.empty()) text += fmt::format(".{:.40}", each.name);
+        return text;
+    }
+    bool next() {
+        if (!open_.empty() && open_.back().index) ++*open_.back().index;
+        return true;
+    }
+    bool begin(std::optional<std::size_t> index = {}) {
+        open_.push_back({"", index});
+        return true;
+    }
+    bool end() {
+        open_.pop_back();
+        return next();
+    }
+
+    std::string_view text_;
+    std::vector<Open> open_;
+    std::string sentence_;
+};
+
 }  // namespace
 
 Result<Json> parse_json(std::string_view text, MemoryBudget& budget) {
     if (const auto bounded = check_extent(text, budget); !bounded) return bounded.error();
     Json root = Json::parse(text.begin(), text.end(), nullptr, false);
-    if (root.is_discarded()) return fail(Fault::bad_input, "it holds no JSON, or the JSON is cut short");
+    if (root.is_discarded()) {
+        FirstError error(text);
+        Json::sax_parse(text.begin(), text.end(), &error);
+        return fail(Fault::bad_input, "{}", error.sentence());
+    }
     if (!root.is_object()) return fail(Fault::bad_input, "the JSON is no object");
     return root;
 }

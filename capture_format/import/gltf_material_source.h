@@ -31,8 +31,9 @@ struct MaterialSource {
     double thickness = 0, attenuation_distance = 0;  ///< KHR_materials_volume, metres; no distance means no attenuation
     TextureReference thickness_texture;
     glm::dvec3 attenuation_color{1};
-    double ior = 1.5;                  ///< KHR_materials_ior
-    std::vector<std::string> ignored;  ///< extensions that would change what it looks like, and do not
+    double ior = 1.5;                        ///< KHR_materials_ior
+    std::vector<std::string> ignored;        ///< extensions that would change what it looks like, and do not
+    std::vector<std::string> warnings = {};  ///< factors beyond what glTF's schema allows, and what is used instead
 };
 
 /// One element of the glTF's materials.

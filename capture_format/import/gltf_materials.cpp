@@ -83,6 +83,7 @@ private:
         material.occlusion_texture = use(source.occlusion_texture, Encoding::linear);
         if (source.transmits) set_transmission(material, source);
         for (const std::string& extension : source.ignored) ++ignored_[extension];
+        warnings_.insert(warnings_.end(), source.warnings.begin(), source.warnings.end());
         if (source.ior != usual_ior) ++ignored_["KHR_materials_ior (but for what goes through)"];
         return material;
     }

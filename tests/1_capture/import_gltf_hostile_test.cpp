@@ -100,6 +100,7 @@ TEST(HostileGltf, ImageThatIsNoPictureOrLeavesItsBufferIsAWarning) {
 
 TEST(HostileGltf, WhatIsNoGltfIsRefused) {
     EXPECT_THAT(refusal("not json"), HasSubstr("no readable glTF"));
+    EXPECT_THAT(refusal("\x89PNG\r\n"), HasSubstr("the file: byte 0 is 0x89 and not JSON"));
     EXPECT_THAT(refusal(""), HasSubstr("no readable glTF"));
     EXPECT_THAT(refusal(std::string("glTF\x02\0\0\0", 8)), HasSubstr("no readable glTF"));
     EXPECT_FALSE(import_gltf("/nowhere/at_all.gltf", {}));
@@ -138,8 +139,22 @@ TEST(HostileGltf, MembersOfAWrongTypeAreNamed) {
     EXPECT_THAT(with(R"("nodes":[{"mesh":-1}])"), HasSubstr("nodes[0].mesh is not an index"));
     EXPECT_THAT(with(R"("nodes":[7])"), HasSubstr("nodes[0] is no object"));
     EXPECT_THAT(with(R"("nodes":{})"), HasSubstr("nodes is not a list"));
-    EXPECT_THAT(with(R"("nodes":[{"scale":[1e999,1,1]}])"), HasSubstr("JSON"));
+    EXPECT_THAT(with(R"("nodes":[{"scale":[1e999,1,1]}])"), HasSubstr("nodes[0].scale[0]: 1e999 is too large"));
     EXPECT_THAT(refusal(R"({"asset":{"version":"1.0"}})"), HasSubstr("its asset version is '1.0'"));
+}
+
+TEST(HostileGltf, TextThatIsNoJsonIsQuotedWithItsPlace) {
+    const std::string materials = R"({"asset":{"version":"2.0"},"materials":[{},{"alphaCutoff":)";
+    EXPECT_THAT(refusal(materials + "NaN}]}"), HasSubstr("glTF.materials[1].alphaCutoff: 'NaN' at byte 58 is not JSON"));
+    EXPECT_THAT(refusal(materials + "-Infinity}]}"),
+                HasSubstr("glTF.materials[1].alphaCutoff: '-Infinity' at byte 58 is not JSON"));
+    EXPECT_THAT(refusal(materials + "1e400}]}"), HasSubstr("glTF.materials[1].alphaCutoff: 1e400 is too large for a number"));
+    EXPECT_THAT(refusal(materials + "[0,[1,nan"), HasSubstr("glTF.materials[1].alphaCutoff[1][1]: 'nan'"));
+    EXPECT_THAT(refusal(materials + "1;}]}"), HasSubstr("glTF.materials[1].alphaCutoff: '1;' at byte 58"));
+    EXPECT_THAT(refusal(materials), HasSubstr("the JSON is cut short in glTF.materials[1].alphaCutoff after 58 bytes"));
+    EXPECT_THAT(refusal(R"({"asset":{"vers)"), HasSubstr("the JSON is cut short in glTF.asset after 15 bytes"));
+    EXPECT_THAT(refusal("hello"), HasSubstr("the file: 'hello' at byte 0 is not JSON"));
+    EXPECT_THAT(refusal(""), HasSubstr("cut short in the file after 0 bytes"));
 }
 
 TEST(HostileGltf, PicturesAreHeldAgainstTheBudgetBeforeTheyAreDecoded) {

@@ -117,6 +117,31 @@ TEST(GltfMaterials, IgnoredExtensionsAreNamedWithTheNumberOfMaterialsTheyWouldCh
     EXPECT_THAT(scene.warnings, Contains(HasSubstr("KHR_materials_ior (but for what goes through) is ignored")));
 }
 
+TEST(GltfMaterials, FactorsBeyondTheSchemaAreSetToTheEndOfTheirRangeWithAWarning) {
+    const ImportedScene scene = with_materials(R"({},{"pbrMetallicRoughness":{"baseColorFactor":[1,2,-0.5,1],"metallicFactor":-1,
+        "roughnessFactor":1.5},"alphaMode":"MASK","alphaCutoff":-0.25,"emissiveFactor":[0,3,0],
+        "extensions":{"KHR_materials_ior":{"ior":0.5}}},
+        {"pbrMetallicRoughness":{"baseColorFactor":[1,4,1,2]},"extensions":{"KHR_materials_unlit":{}}})");
+    EXPECT_EQ(scene.frame.materials[2].base_color, glm::vec4(1, 4, 1, 1)) << "what is unlit shines";
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("materials[2].pbrMetallicRoughness.baseColorFactor[3] is 2")));
+    EXPECT_THAT(scene.warnings, Not(Contains(HasSubstr("materials[2].pbrMetallicRoughness.baseColorFactor[1]"))));
+    const Material& material = scene.frame.materials[1];
+    EXPECT_EQ(material.base_color, glm::vec4(1, 1, 0, 1));
+    EXPECT_EQ(material.metallic, 0);
+    EXPECT_EQ(material.roughness, 1);
+    EXPECT_EQ(material.mask_cutoff, 0);
+    EXPECT_EQ(material.emissive, glm::vec3(0, 1, 0));
+    for (const char* warning :
+         {"glTF.materials[1].pbrMetallicRoughness.baseColorFactor[1] is 2; glTF allows 0 to 1, 1 is used",
+          "glTF.materials[1].pbrMetallicRoughness.baseColorFactor[2] is -0.5; glTF allows 0 to 1, 0 is used",
+          "glTF.materials[1].pbrMetallicRoughness.metallicFactor is -1; glTF allows 0 to 1, 0 is used",
+          "glTF.materials[1].pbrMetallicRoughness.roughnessFactor is 1.5; glTF allows 0 to 1, 1 is used",
+          "glTF.materials[1].alphaCutoff is -0.25; glTF allows 0 and more, 0 is used",
+          "glTF.materials[1].emissiveFactor[1] is 3; glTF allows 0 to 1, 1 is used",
+          "glTF.materials[1].extensions.KHR_materials_ior.ior is 0.5; glTF allows 1 and more, 1 is used"})
+        EXPECT_THAT(scene.warnings, Contains(warning));
+}
+
 TEST(GltfMaterials, ExtensionsThatChangeNothingAreNotMentioned) {
     const ImportedScene scene = with_materials(R"({"extensions":{"KHR_materials_clearcoat":{},"KHR_materials_ior":{"ior":1.5},
         "KHR_materials_specular":{"specularFactor":1,"specularColorFactor":[1,1,1]}}})");
