@@ -25,9 +25,10 @@ ordered_json json_of(const Measurement& row, bool is_timed) {
     if (!row.accuracy.touched.empty()) json["touched_share"] = row.accuracy.touched_share;
     json["left_out_share"] = row.accuracy.left_out_share;
     const WorstTexel& worst = row.accuracy.worst;
+    const auto if_compared = [&](double value) { return is_nothing_compared(row) ? ordered_json() : ordered_json(value); };
     json["implementation_error"] = {{"model_is", name(row.model_is)},
-                                    {"rmse", row.accuracy.model_rmse},
-                                    {"worst", row.accuracy.model_worst},
+                                    {"rmse", if_compared(row.accuracy.model_rmse)},
+                                    {"worst", if_compared(row.accuracy.model_worst)},
                                     {"worst_texel",
                                      {{"image", worst.image},
                                       {"x", worst.x},

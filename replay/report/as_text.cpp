@@ -148,6 +148,8 @@ std::string mirrors_text(const Report& report) {
 std::string implementation_text(const Report& report) {
     double worst = 0;
     std::string wrong;
+    if (std::ranges::any_of(report.rows, is_nothing_compared))
+        wrong = "implementations: not every model could be compared; rounding decides every texel\n";
     for (const Measurement& row : report.rows) {
         worst = std::max(worst, row.accuracy.model_rmse);
         if (const std::string doubt = implementation_doubt(row); !doubt.empty())
@@ -208,6 +210,8 @@ std::string implementation_doubt(const Measurement& row) {
                        on_average ? accuracy.model_rmse : accuracy.model_worst, on_average ? "" : " in one texel",
                        on_average ? row.tolerance : row.tolerated_worst);
 }
+
+bool is_nothing_compared(const Measurement& row) { return row.accuracy.compared == 0 && row.accuracy.undecided > 0; }
 
 std::string as_text(const Report& report) {
     const std::string text = heading(report);

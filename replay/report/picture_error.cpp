@@ -40,6 +40,10 @@ void leave_out_undecided(const ReferenceImage& truth, ReferenceImage& display) {
         if (truth.undecided[i]) display.undecided[i % pixels] = true;
 }
 
+bool is_undecided(const ReferenceImage& image) {
+    return !image.undecided.empty() && std::ranges::count(image.undecided, false) == 0;
+}
+
 /// Smaller is better; shares in percent of the pixels that are compared.
 std::vector<Figure> figures_of(const ReferenceImage& got, const ReferenceImage& wanted) {
     const Difference error = difference(got, wanted);
@@ -75,6 +79,12 @@ Result<PictureTruth> picture_truth(Session& session, const Request& request, Sta
 }
 
 Result<void> judge_picture(Session& session, Request request, const PictureTruth& truth, Accuracy& accuracy) {
+    if (is_undecided(truth.display)) {
+        accuracy.not_supported = "no pixel can be judged: rounding decides what a sample of each of them shows";
+        accuracy.method.clear();
+        accuracy.flip.reset();
+        return {};
+    }
     request.outputs = {picture};
     const auto run = session.run(request);
     if (!run) return run.error();

@@ -121,6 +121,9 @@ std::vector<Figure> errors_of(const Measurement&);
 /// where it is within its tolerance.
 std::string implementation_doubt(const Measurement&);
 
+/// Whether the model could not decide a single texel: an implementation error of 0 then says nothing.
+bool is_nothing_compared(const Measurement&);
+
 std::string as_text(const Report&);
 std::string as_json(const Report&);
 std::string as_csv(const Report&);

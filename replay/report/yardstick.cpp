@@ -31,6 +31,10 @@ Result<Accuracy> measure_stage(Session& session, const Variant& variant, Stage s
     if (!model) return model.error();
     accuracy->model_rmse = model->model_rmse;
     accuracy->model_worst = model->model_worst;
+    accuracy->compared = model->compared;
+    accuracy->undecided = model->undecided;
+    accuracy->trivial = model->trivial;
+    accuracy->worst = model->worst;
     if (accuracy->incomparable.empty()) accuracy->incomparable = model->incomparable;
     return accuracy;
 }
