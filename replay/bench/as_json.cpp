@@ -48,6 +48,7 @@ std::string as_json(const Bench& bench) {
                       {"device", json_of(bench.device)},
                       {"repeats", bench.repeats},
                       {"rows", ordered_json::array()}};
+    if (!bench.stopped.empty()) json["stopped"] = bench.stopped;
     for (const MeasuredRatio& row : bench.rows) json["rows"].push_back(json_of(row));
     return json_text(json);
 }

@@ -53,6 +53,7 @@ std::string as_text(const Bench& bench) {
     if (bench.device.software) text += "a CPU renders here: times rank ways on this driver only, they model no GPU\n";
     text += fmt::format("\n{}", as_text(table_of(bench)));
     for (const MeasuredRatio& row : bench.rows) text += fmt::format("\n{}", details_of(row));
+    if (!bench.stopped.empty()) text += fmt::format("\n{}\n", bench.stopped);
     return text;
 }
 

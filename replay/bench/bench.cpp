@@ -86,6 +86,7 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
         timed.emplace(pair, *std::move(runs));
     }
     const std::vector<Run>& runs = timed.at(pair);
+    if (runs[0].frame_ms_by_repeat.size() < repeats) return fail(Fault::stopped, "stopped after some of the timed runs");
     const auto times = times_of(runs[0], *of.technique, *claim.ratio);
     const auto units = times_of(runs[1], *against.technique, *claim.ratio);
     if (times.empty() || units.empty())
@@ -124,6 +125,10 @@ Result<Bench> measure_ratios(Session& session, std::span<const Claim> claims, st
             continue;
         }
         const Error& obstacle = measured.error();
+        if (obstacle.fault == Fault::stopped && !bench.rows.empty()) {
+            bench.stopped = fmt::format("stopped after {} of {} ratios", bench.rows.size(), claims.size());
+            break;
+        }
         if (obstacle.fault != Fault::usage && obstacle.fault != Fault::device_lacks) return obstacle;
         if (!first_obstacle) first_obstacle = obstacle;
         bench.rows.push_back({.claim = claim, .not_measured = obstacle.sentence});

@@ -43,9 +43,11 @@ struct Bench {
     DeviceInfo device;
     std::size_t repeats = 0;
     std::vector<MeasuredRatio> rows;  ///< as the claims
+    std::string stopped = {};         ///< what is missing because a stop was asked for: the rows are of the first claims
 };
 
 /// Claims of the same two ways are measured in the same run. Fails where none can be measured.
+/// Stopped (Session::stop_when), it gives the rows that are complete, or fails where there is none.
 Result<Bench> measure_ratios(Session&, std::span<const Claim>, std::size_t repeats, const Progress& = {});
 
 /// The stages ("gbuffer:") or the parts of step names that a ratio counts; none: every step of the technique.

@@ -157,9 +157,12 @@ Result<void> bench(const BenchArguments& options) {
     const auto frames = [&](PixelExtent extent) { return frames_of(*claims, extent); };
     const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
     if (!session) return session.error();
+    const StopAtSignal signal;
+    (*session)->stop_when(signal.token());
     const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
     if (!measured) return measured.error();
-    return print(options, *measured);
+    const auto done = print(options, *measured);
+    return done && !measured->stopped.empty() ? Result<void>(fail(Fault::stopped, "{}", measured->stopped)) : done;
 }
 
 }  // namespace

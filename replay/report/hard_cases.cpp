@@ -156,15 +156,21 @@ bool as_recorded(double error, double recorded) {
 std::string_view id(const HardCase& hard_case) { return hard_case.name.substr(0, hard_case.name.find(' ')); }
 
 Result<HardCaseReport> measure_hard_cases(const DeviceChoice& device, std::span<const Variant> rows,
-                                          const std::function<void(std::string_view, double)>& progress) {
+                                          const std::function<void(std::string_view, double)>& progress, std::stop_token stop) {
     const CaseFrames frames = frames_of_all_cases();
     auto session = Session::open(frames.all, device);
     if (!session) return session.error();
-    HardCaseReport report{.device = (*session)->device()};
+    (*session)->stop_when(std::move(stop));
+    HardCaseReport report{.device = (*session)->device(), .rows = {}};
     for (const Variant& row : rows) report.rows.push_back({std::string(row.technique->name), row.settings, {}});
     for (const Placed& placed : frames.cases) {
         if (progress) progress(placed.hard_case->name, double(placed.first) / double(frames.all.size()));
         const auto all = tried(**session, rows, placed);
+        const auto done = static_cast<std::size_t>(&placed - frames.cases.data());
+        if (!all && all.error().fault == Fault::stopped && done > 0) {
+            report.stopped = fmt::format("stopped after {} of {} cases", done, frames.cases.size());
+            return report;
+        }
         if (!all) return all.error();
         for (std::size_t i = 0; i < rows.size(); ++i)
             report.rows[i].outcomes.push_back(outcome_of((*all)[i], rows[i], *placed.hard_case));

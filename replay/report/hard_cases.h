@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,14 @@ struct HardCaseRow {
 struct HardCaseReport {
     DeviceInfo device;
     std::vector<HardCaseRow> rows;
+    std::string stopped = {};  ///< what is missing because a stop was asked for: rows have the outcomes of the first cases
 };
 
-/// Of techniques of transparency with their settings: variants().
+/// Of techniques of transparency with their settings: variants(). Once a stop is requested it gives the cases that were measured
+/// for all rows, or fails where there is none.
 Result<HardCaseReport> measure_hard_cases(const DeviceChoice&, std::span<const Variant> rows,
-                                          const std::function<void(std::string_view what, double done)>& = {});
+                                          const std::function<void(std::string_view what, double done)>& = {},
+                                          std::stop_token = {});
 
 /// Whether a case's error is the recorded one, up to what may move with a device's last bits.
 bool as_recorded(double error, double recorded);

@@ -63,13 +63,15 @@ ordered_json json_of(const HardCase& hard_case, const HardOutcome& outcome) {
 
 std::string as_text(const HardCaseReport& report) {
     std::string text = fmt::format("hard cases of transparency on {} ({})\n\n", report.device.name, report.device.driver);
-    for (const HardCase& hard_case : hard_cases())
+    const std::size_t cases = report.rows.empty() ? 0 : report.rows.front().outcomes.size();
+    for (const HardCase& hard_case : hard_cases().first(cases))
         text += fmt::format("   {:<28} holds at {:.2g}\n", hard_case.name, hard_case.accept);
-    for (std::size_t first = 0; first < hard_cases().size(); first += cases_side_by_side)
-        text += '\n' + as_text(table_of(report, first, std::min(cases_side_by_side, hard_cases().size() - first)));
+    for (std::size_t first = 0; first < cases; first += cases_side_by_side)
+        text += '\n' + as_text(table_of(report, first, std::min(cases_side_by_side, cases - first)));
     text +=
         "\nok: holds. A number: fails by so much, at its defaults as the technique documents. -: not applicable.\n"
         "!: a failure that is not documented, or of another size. ok?: holds what is documented as a failure.\n";
+    if (!report.stopped.empty()) text += '\n' + report.stopped + '\n';
     return text;
 }
 
@@ -79,6 +81,7 @@ std::string as_json(const HardCaseReport& report) {
                       {"device", report.device.name},
                       {"driver", report.device.driver},
                       {"rows", ordered_json::array()}};
+    if (!report.stopped.empty()) json["stopped"] = report.stopped;
     for (const HardCaseRow& row : report.rows) {
         json["rows"].push_back({{"technique", row.technique}, {"settings", row.settings}});
         for (std::size_t c = 0; c < row.outcomes.size(); ++c)

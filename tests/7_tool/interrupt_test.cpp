@@ -87,6 +87,20 @@ TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
     }
 }
 
+/// The least time in which one ratio is measured is not known.
+TEST(Interrupt, OfABenchPrintsTheRatiosThatAreComplete) {
+    for (double seconds = 2; seconds < 60; seconds *= 2) {
+        const pid_t process = start_strata("bench voxel --size 32x18 --repeats 100", "printed.txt");
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        kill(process, SIGINT);
+        ASSERT_EQ(code_of(process), 130) << text_of("printed.txt");
+        if (text_of("printed.txt").find("measured") == std::string::npos) continue;
+        EXPECT_THAT(text_of("printed.txt"), testing::ContainsRegex("\nstopped after [0-9]+ of [0-9]+ ratios\n"));
+        return;
+    }
+    FAIL() << "no ratio in a minute";
+}
+
 /// A thousand repeats of every row last longer than any time tried here; the least time in which a row is measured is not known.
 TEST(Interrupt, ByTheMinutesThatAReportMayTakeIsNoFailure) {
     write_file(folder() / "sound.strata", sound_capture());

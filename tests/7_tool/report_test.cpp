@@ -12,6 +12,7 @@
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
 #include "replay/report/hard_cases.h"
+#include "replay/report/picture_error.h"
 #include "replay/report/pooled.h"
 #include "replay/report/table.h"
 #include "tests/support/session.h"
@@ -229,6 +230,41 @@ TEST(PictureErrors, AreThoseThatLaterStagesLeave) {
     wanted.stage = Stage::combine;
     wanted.methods = {};
     EXPECT_THAT(make_report(*session, wanted).error().sentence, HasSubstr("makes the picture itself"));
+}
+
+TEST(PictureErrors, OfPixelsThatRoundingLeavesOpenAreNotZeros) {
+    const auto session = scenario_session("three_panes");
+    ReferenceImage display(64, 36);
+    display.undecided.assign(display.texels.size(), true);
+    Accuracy accuracy{.method = {{"rmse", "radiance", 0}}, .flip = 0};
+    ASSERT_TRUE(judge_picture(*session, {}, {.display = display, .touched = display}, accuracy));
+    EXPECT_THAT(accuracy.not_supported, HasSubstr("no pixel can be judged: rounding decides"));
+    EXPECT_TRUE(accuracy.method.empty());
+    EXPECT_FALSE(accuracy.flip);
+}
+
+TEST(Report, HasNoImplementationErrorWhereItsModelDecidesNothing) {
+    Report report{.rows = {row("edges/one", 0, 1)}};
+    report.rows[0].accuracy.undecided = 9;
+    EXPECT_THAT(as_text(report), HasSubstr("not every model could be compared; rounding decides every texel"));
+    EXPECT_TRUE(nlohmann::json::parse(as_json(report))["rows"][0]["implementation_error"]["rmse"].is_null());
+    report.rows[0].accuracy.compared = 1;
+    EXPECT_EQ(nlohmann::json::parse(as_json(report))["rows"][0]["implementation_error"]["rmse"], 0);
+}
+
+TEST(HardCaseReport, HasTheCasesThatWereCompleteWhenItWasStopped) {
+    const std::vector<Variant> rows = must(variants({.methods = {"alpha_blend"}}));
+    std::stop_source source;
+    std::size_t cases = 0;
+    const auto stop_in_the_third = [&](std::string_view, double) {
+        if (++cases == 3) source.request_stop();
+    };
+    const HardCaseReport report = must(measure_hard_cases({}, rows, stop_in_the_third, source.get_token()));
+    EXPECT_EQ(report.rows.front().outcomes.size(), 2u);
+    EXPECT_EQ(report.stopped, fmt::format("stopped after 2 of {} cases", hard_cases().size()));
+    EXPECT_THAT(as_text(report), testing::AllOf(HasSubstr("\nstopped after 2 of"), Not(HasSubstr(hard_cases()[2].name))));
+    EXPECT_EQ(nlohmann::json::parse(as_json(report))["stopped"], report.stopped);
+    EXPECT_EQ(measure_hard_cases({}, rows, {}, source.get_token()).error().fault, Fault::stopped);
 }
 
 TEST(Budgets, AreOfWholeBytes) {
