@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture_format/expectation_writer.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/expectations/expectation_check.h"
 #include "replay/json_text.h"
@@ -117,9 +118,11 @@ Result<void> accept(const AcceptArguments& options) {
     std::size_t news = 0;
     ordered_json json{{"schema", "strata.accept"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     const Progress progress = progress_line();
+    LeftOutNotes notes;
     for (const std::size_t frame : *frames) {
         show_frame(progress, json["frames"].size(), frames->size());
         request->variant.frame = frame;
+        if (const auto told = notes.tell(**session, *request); !told) return told;
         auto candidate = replay_candidate(**session, *request, options, *known);
         if (!candidate) return candidate.error();
         json["frames"].push_back(json_of(*candidate));
@@ -139,6 +142,9 @@ Result<void> accept(const AcceptArguments& options) {
     else
         to_stdout("stored expected results of {} in {}{}\n", plural(news, "frame"), file,
                   options.with_images ? ", images kept" : "");
+    // What ends the program then says that standard output took nothing.
+    if (writer && news > 0 && !finish_stdout())
+        to_stderr("strata: expected results of {} are stored in {}\n", plural(news, "frame"), file);
     return {};
 }
 

@@ -114,20 +114,26 @@ Result<void> check_texts(const Capture& capture) {
     return {};
 }
 
-Result<void> validate(const InfoArguments& options) {
-    const auto capture = open_capture(options.capture, Partial::refused, options.memory_budget);
-    if (!capture) return capture.error();
-    if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound;
+Result<Capture> validated(const InfoArguments& options) {
+    auto capture = open_capture(options.capture, Partial::refused, options.memory_budget);
+    if (!capture) return capture;
+    if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound.error();
     if (const auto sound = check_texts(*capture); !sound)
         return fail(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
+    return capture;
+}
+
+Result<void> validate(const InfoArguments& options) {
+    const auto capture = validated(options);
     if (options.json) {
-        write_stdout(json_text({{"schema", "strata.validate"},
-                                {"schema_version", 1},
-                                {"capture", capture->id()},
-                                {"frames", capture->frame_count()},
-                                {"is_sound", true}}));
-        return {};
+        ordered_json json{{"schema", "strata.validate"}, {"schema_version", 1}};
+        if (capture) json.update({{"capture", capture->id()}, {"frames", capture->frame_count()}});
+        json["is_sound"] = bool(capture);
+        if (!capture) json["problem"] = capture.error().sentence;
+        write_stdout(json_text(json));
     }
+    if (!capture) return capture.error();
+    if (options.json) return {};
     to_stdout("{}: {}, every byte, index, blob and expectation is sound\n", options.capture.filename().string(),
               plural(capture->frame_count(), "frame"));
     return {};

@@ -82,6 +82,22 @@ TEST(Validate, RefusesAChangedHeaderOfASection) {
     EXPECT_THAT(refused.err, HasSubstr("its header is not the one in the directory"));
 }
 
+TEST(Validate, SaysInJsonWhatIsWrong) {
+    record_panes();
+    const nlohmann::json sound = nlohmann::json::parse(strata("validate panes.strata --json").out);
+    EXPECT_EQ(sound["is_sound"], true);
+    EXPECT_FALSE(sound.contains("problem"));
+    std::string bytes = bytes_of_panes();
+    bytes[bytes.size() / 2] ^= 1;
+    std::ofstream(folder() / "panes.strata", std::ios::binary) << bytes;
+    const Finished refused = strata("validate panes.strata --json");
+    EXPECT_EQ(refused.code, 3);
+    const nlohmann::json problem = nlohmann::json::parse(refused.out);
+    EXPECT_EQ(problem["schema"], "strata.validate");
+    EXPECT_EQ(problem["is_sound"], false);
+    EXPECT_EQ("strata: " + problem["problem"].get<std::string>() + "\n", refused.err);
+}
+
 TEST(Accept, WritesNothingWhenNothingChanged) {
     record_panes();
     ASSERT_EQ(strata("accept panes.strata").code, 0);

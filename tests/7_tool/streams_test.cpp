@@ -67,6 +67,15 @@ TEST(StandardOutput, ThatTakesNothingIsAnOutputThatCannotBeWrittenForEveryVerb) 
     for (const std::string verb : verb_names()) expect_lost_output(verb + " --help");
 }
 
+TEST(StandardOutput, ThatTakesNothingDoesNotHideThatExpectationsAreStored) {
+    write_sound();
+    const Finished full = strata_into(">/dev/full 2>stderr.txt", "accept sound.strata --frames 0");
+    EXPECT_EQ(full.code, 2);
+    EXPECT_THAT(full.err, HasSubstr("strata: expected results of 1 frame are stored in sound.strata\n"
+                                    "strata: cannot write to standard output: No space left on device\n"));
+    EXPECT_THAT(strata("accept sound.strata --frames 0").out, HasSubstr("nothing changed"));
+}
+
 // What the verb found counts, too.
 TEST(StandardOutput, ThatTakesNothingDoesNotHideWhatDiffers) {
     write_sound();
