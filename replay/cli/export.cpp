@@ -55,9 +55,11 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     add_options(app, options->choices);
     CLI::Option* deep =
         app.add_flag("--deep", options->deep, "write every transparent fragment, sorted by depth, as a deep OpenEXR image");
-    app.add_option("--image", options->images,
-                   "write frame images or views (stage/technique:view) as .exr, or a single one as .png")
-        ->delimiter(',');
+    CLI::Option* image =
+        app.add_option("--image", options->images,
+                       "write frame images or views (stage/technique:view) as .exr, or a single one as .png, one pixel a texel")
+            ->delimiter(',');
+    app.add_flag("--caption", options->caption, "enlarge a .png and add a title, a scale and what the image shows")->needs(image);
     app.add_flag("--gltf", options->gltf, "write meshes, materials, lights and camera as a .glb");
     app.add_flag("--json", options->json, "write the frame as JSON with the schema's field names; bulk data appears as hashes");
     app.add_option("--frame", options->frame, "index of the frame, default 0");

@@ -6,6 +6,7 @@
 #include "capture_format/container/whole_file.h"
 #include "passes/indirect/volume_light.h"
 #include "replay/cli/export_kinds.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/run_json.h"
 #include "replay/deep/deep_image.h"
 #include "replay/deep/flatten_deep.h"
@@ -23,16 +24,16 @@ constexpr std::pair<std::string_view, Transmittance> transmittances[] = {
     {"refused", Transmittance::refused}, {"mean", Transmittance::mean}, {"channels", Transmittance::channels}};
 
 Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samples) {
-    if (options.sample == no_index && samples > 1)
+    if (!options.sample && samples > 1)
         return fail(Fault::usage,
                     "a pixel of this frame has {} samples and a deep image one list: choose --sample 0 to {}, or "
                     "--samples 1",
                     samples, samples - 1);
-    if (options.sample == no_index) return 0u;
-    if (options.sample >= samples)
+    const std::uint32_t sample = options.sample.value_or(0);
+    if (sample >= samples)
         return fail(Fault::usage, "a pixel of this frame has {}, numbered from 0; there is no sample {}",
-                    plural(samples, "sample"), options.sample);
-    return options.sample;
+                    plural(samples, "sample"), sample);
+    return sample;
 }
 
 /// How far the file, flattened again, is from the exact blend of the fragments over black, relative to the larger of 1 and it.
@@ -59,6 +60,7 @@ Result<void> export_deep(const ExportOptions& options) {
     request->once = true;  // to fill the memo, the frame would be executed whole
     auto session = open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     auto recorded = (*session)->frame(options.frame);
     if (!recorded) return recorded.error();
     auto loaded = load_frame(*std::move(recorded), request->variant);

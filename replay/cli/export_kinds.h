@@ -1,6 +1,8 @@
 // What `strata export` can make of a frame: one function per kind.
 #pragma once
 
+#include <optional>
+
 #include "replay/cli/verb_options.h"
 
 namespace strata {
@@ -11,7 +13,8 @@ struct ExportOptions {
     std::size_t frame = 0;
     std::vector<std::string> images;                ///< --image
     bool deep = false, gltf = false, json = false;  ///<
-    std::uint32_t sample = no_index;                ///< --sample; no_index: not said
+    bool caption = false;                           ///< --caption
+    std::optional<std::uint32_t> sample;            ///< --sample
     std::string transmittance = "refused";
     std::filesystem::path output;
 };

@@ -8,6 +8,7 @@
 #include "passes/registry.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
+#include "replay/standard_streams.h"
 
 namespace strata {
 namespace {
@@ -76,6 +77,15 @@ Result<void> write_output_picture(const std::filesystem::path& path, const Run& 
     if (row && row->content == Content::display) return write_png(path, shown);
     const std::string title = fmt::format("{}  {}", of, choice_of(run, image));
     return write_png(path, image_picture(image, shown, title, legend_of(image)));
+}
+
+Result<void> write_plain_picture(const std::filesystem::path& path, const Run& run, const std::string& image) {
+    const HostImage& shown = run.images.at(image);
+    const FrameImageRow* row = find_frame_image(image);
+    if (row && row->content == Content::display) return write_png(path, shown);
+    const PlainPicture picture = plain_picture(image, shown, legend_of(image));
+    if (!picture.scale.empty()) to_stderr("strata: in {} {}; an .exr has the values\n", path.string(), picture.scale);
+    return write_png(path, picture.canvas);
 }
 
 }  // namespace strata

@@ -285,6 +285,20 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
     return canvas;
 }
 
+PlainPicture plain_picture(std::string_view name, const HostImage& image, const ImageLegend& legend) {
+    const Texels shown = texels_of(name, image, 0);
+    const Range range = range_of(shown, image.shape.format, legend);
+    Canvas canvas(shown.width, shown.height, paper);
+    for (int y = 0; y < shown.height; ++y)
+        for (int x = 0; x < shown.width; ++x)
+            canvas.fill({x, y, 1, 1}, range.color(shown.values[static_cast<std::size_t>(y * shown.width + x)]));
+    if (!legend.colors.empty()) return {std::move(canvas), ""};
+    const std::string unit = legend.unit.empty() ? "" : " " + legend.unit, low = text_of(range.low, 4) + unit,
+                      high = text_of(range.high, 4) + unit;
+    return {std::move(canvas),
+            range.middle ? fmt::format("{} is blue, {} red", low, high) : fmt::format("{} is black, {} white", low, high)};
+}
+
 Canvas difference_picture(const ImageComparison& made, const HostImage& a, const HostImage& b, const PictureTitles& titles) {
     const std::uint32_t layer = made.error.worst_pixel.layer;
     const Texels of_a = texels_of(made.image, a, layer), of_b = texels_of(made.image, b, layer);

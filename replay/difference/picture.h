@@ -39,6 +39,13 @@ struct ImageLegend {
 /// of anything else the first layer is shown. Small images are enlarged.
 Canvas image_picture(std::string_view name, const HostImage&, const std::string& title, const ImageLegend&);
 
+/// The texels alone, one pixel each, in the colors of image_picture(), and what black and white stand for in words.
+struct PlainPicture {
+    Canvas canvas;
+    std::string scale;
+};
+PlainPicture plain_picture(std::string_view name, const HostImage&, const ImageLegend&);
+
 /// Samples of light are averaged; of anything else the layer of the worst pixel is shown. Small images are enlarged.
 Canvas difference_picture(const ImageComparison&, const HostImage& a, const HostImage& b, const PictureTitles&);
 
