@@ -8,6 +8,7 @@
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
 #include "replay/cli/verb_options.h"
 #include "replay/difference/comparison.h"
@@ -149,9 +150,12 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
     const Progress progress = progress_line();
+    LeftOutNotes notes;
     for (const std::size_t frame : *frames) {
         show_frame(progress, comparison.frames.size(), frames->size());
         request_a->variant.frame = request_b->variant.frame = frame;
+        const auto told = notes.tell(a, *request_a).and_then([&] { return notes.tell(b, *request_b); });
+        if (!told) return told;
         auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
         if (!made) return fail(made.error().fault, "frame {}: {}", frame, made.error().sentence);
         comparison.frames.push_back(*std::move(made));
@@ -213,6 +217,7 @@ Result<void> compare_with_images(const DiffArguments& options, Pictures& picture
     request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto run = (*session)->run(*request);
     if (!run) return run.error();
     comparison.a = describe(options.a, **session);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/graph/describe.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/json_text.h"
 
@@ -52,6 +53,7 @@ Result<void> graph(const GraphArguments& options) {
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
     if (options.json) {

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 
 namespace strata {
@@ -62,6 +63,7 @@ Result<void> run_probe(const ProbeArguments& options) {
     request->variant.frame = options.frame;
     auto session = open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     ProbeOptions wanted = options.probe;
     wanted.axis = options.axis == "linear" ? DepthAxis::linear : DepthAxis::logarithmic;
     const Progress progress = progress_line();

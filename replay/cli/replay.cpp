@@ -11,6 +11,7 @@
 
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/output_picture.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
@@ -278,9 +279,11 @@ Result<void> replay(const ReplayArguments& options) {
     ordered_json all{{"schema", "strata.replay.list"}, {"schema_version", 1}, {"frames", ordered_json::array()}};
     Result<void> judged;  // what diverges counts before what is missing, and the first frame before later ones
     const Progress progress = progress_line();
+    LeftOutNotes notes;
     for (std::size_t i = 0; i < frames->size(); ++i) {
         show_frame(progress, i, frames->size());
         request->variant.frame = (*frames)[i];
+        if (const auto told = notes.tell(**session, *request); !told) return told;
         auto replayed = replay_frame(**session, *request, options, known ? &*known : nullptr);
         if (!replayed) return replayed.error();
         if (const auto done = write_frame(*request, *replayed, options); !done) return done;

@@ -11,13 +11,16 @@
 
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
+#include "passes/registry.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/report/hard_cases.h"
 #include "replay/report/pooled.h"
 #include "replay/report/table.h"
 #include "replay/report/variants.h"
+#include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
@@ -98,6 +101,43 @@ std::string written(const ReportArguments& options, std::span<const Report> made
     return text + as_text(pool);
 }
 
+bool has_param(const Technique& technique, std::string_view key) {
+    return std::ranges::count(technique.params, key, &Param::name) > 0;
+}
+
+/// A setting of the measured stage alone that not every row has: which rows are to have it?
+Result<void> check_setting(const SettingChange& change, const ReportRequest& wanted, std::span<const Variant> rows) {
+    const auto has_it = [&](const Technique& one) {
+        return (!change.technique || change.technique == &one) && has_param(one, change.key);
+    };
+    const Technique* own = nullptr;
+    for (const Technique& technique : techniques()) {
+        if (!has_it(technique)) continue;
+        if (technique.stage != wanted.stage) return {};
+        if (!own) own = &technique;
+    }
+    const auto lacking = std::ranges::find_if(rows, [&](const Variant& row) { return !has_it(*row.technique); });
+    if (!own || lacking == rows.end()) return {};
+    ChoiceChanges alone;
+    alone.settings.push_back(change);
+    const std::string text = set_texts(alone).front();
+    return fail(Fault::usage,
+                "--set {} cannot be given to every row of the report: {} has no '{}'; give it to one row with --methods '{} {}'",
+                text, lacking->technique->name, change.key, short_name(*own), text.substr(text.find(':') + 1));
+}
+
+/// --use and --set are for the other stages: the rows are the techniques of the measured one.
+Result<void> check_choices(const ReportRequest& wanted, std::span<const Variant> rows) {
+    const ChoiceChanges& choices = wanted.base.choices;
+    if (const Technique* used = choices.techniques[static_cast<std::size_t>(wanted.stage)])
+        return fail(Fault::usage,
+                    "--use {} does not apply: a report of {} measures its techniques; choose them with --methods {}", used->name,
+                    name(wanted.stage), short_name(*used));
+    for (const SettingChange& change : choices.settings)
+        if (const auto fits = check_setting(change, wanted, rows); !fits) return fits;
+    return {};
+}
+
 Result<ReportRequest> request_of(const ReportArguments& options) {
     auto base = request_of(options.choices);
     if (!base) return base.error();
@@ -122,10 +162,20 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     if (!error) return error.error();
     if (!within) return within.error();
     wanted.question = {.error = *error, .within = *within};
-    if (const auto rows = variants(wanted); !rows) return rows.error();  // before a capture is opened
+    const auto rows = variants(wanted);
+    if (!rows) return rows.error();  // before a capture is opened
+    if (const auto fits = check_choices(wanted, *rows); !fits) return fits.error();
     if (options.flicker) wanted.flicker = Walk{.frames = *options.flicker, .dolly = options.dolly};
     if (options.pan) wanted.flicker->pan = *options.pan;
     return wanted;
+}
+
+/// "64". A capture behind --flicker would be taken for its number.
+std::string problem_of_positions(std::string& text) {
+    std::uint32_t count = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (problem == std::errc() && end == text.data() + text.size() && count >= 2 && count <= 10000) return {};
+    return fmt::format("takes a number of positions from 2 to 10000, not '{}'; captures stand before it", text);
 }
 
 Result<void> write(const ReportArguments& options, const std::string& text) {
@@ -138,8 +188,10 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     auto rows = variants({.stage = Stage::transparency});
     if (!rows) return rows.error();
     if (!options.points) std::erase_if(*rows, [](const Variant& row) { return !row.settings.empty(); });
-    return measure_hard_cases(options.open.device, *rows, progress_line()).and_then([&](auto& made) {
-        return write(options, options.json ? as_json(made) : as_text(made));
+    const StopAtSignal signal;
+    return measure_hard_cases(options.open.device, *rows, progress_line(), signal.token()).and_then([&](auto& made) {
+        const auto done = write(options, options.json ? as_json(made) : as_text(made));
+        return done && !made.stopped.empty() ? Result<void>(fail(Fault::stopped, "{}", made.stopped)) : done;
     });
 }
 
@@ -169,11 +221,13 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     const StopAtSignal signal;
     const Deadline deadline(options.minutes, signal.token());
     std::vector<Report> made;
+    LeftOutNotes notes;
     for (const std::filesystem::path& capture : options.captures) {
         OpenOptions one = options.open;
         one.capture = capture;
         auto session = open(one);
         if (!session) return session.error();
+        if (const auto told = notes.tell(**session, request.base); !told) return told;
         (*session)->stop_when(deadline.token());
         auto report = make_report(**session, request, progress);
         if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
@@ -236,7 +290,8 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "no number follows)")
         ->expected(0, 1)
         ->default_str("64")
-        ->check(CLI::Range(2, 10000));
+        ->type_name("POSITIONS")
+        ->transform(CLI::Validator(problem_of_positions, ""));
     app.add_option("--dolly", options->dolly,
                    "meters that the camera moves in all; default: 1/20 of the distance to the center of the transparent geometry")
         ->needs("--flicker");

@@ -112,7 +112,7 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
     if (text.empty())
         for (std::size_t i = 0; i < count; ++i) indices.push_back(i);
     std::size_t begin = 0;
-    while (begin < text.size()) {
+    while (!text.empty() && begin <= text.size()) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string_view part = std::string_view(text).substr(begin, end - begin);
         const std::size_t dash = part.find('-');
@@ -122,7 +122,10 @@ Result<std::vector<std::size_t>> frame_indices(const std::string& text, std::siz
         if (!good || last < first) return fail(Fault::usage, "--frames takes a list like 0,4-8, not '{}'", text);
         if (last >= count)
             return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"), last);
-        for (std::size_t i = first; i <= last; ++i) indices.push_back(i);
+        for (std::size_t i = first; i <= last; ++i) {
+            if (std::ranges::count(indices, i) > 0) return fail(Fault::usage, "--frames lists frame {} twice in '{}'", i, text);
+            indices.push_back(i);
+        }
         begin = end + 1;
     }
     return indices;

@@ -48,6 +48,8 @@ Result<std::vector<ProbedMethod>> parse_methods(std::span<const std::string> tex
     for (const std::string& text : texts) {
         auto method = probed(text);
         if (!method) return method.error();
+        if (std::ranges::count(methods, method->name, &ProbedMethod::name) > 0)
+            return fail(Fault::usage, "--methods gives '{}' twice", method->name);
         methods.push_back(*std::move(method));
     }
     if (texts.empty())

@@ -1,7 +1,10 @@
 #include "replay/report/variants.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+
+#include <fmt/ranges.h>
 
 #include "passes/registry.h"
 #include "replay/session/choice_text.h"
@@ -52,6 +55,25 @@ std::vector<Variant> swept(const Variant& defaults, std::span<const Sweep> sweep
     return variants;
 }
 
+/// The technique with every parameter, given or by default: what tells rows apart.
+std::string whole_choice(const Variant& variant) {
+    Settings settings(variant.technique->params);
+    for (const SettingChange& change : variant.request.choices.settings) {
+        if ((change.technique && change.technique != variant.technique) || !has_param(*variant.technique, change.key)) continue;
+        const auto kept = std::visit([&](const auto& value) { return settings.set(change.key, value); }, change.value);
+        static_cast<void>(kept);  // what is out of range is refused where the row is made
+    }
+    return fmt::format("{} {}", variant.technique->name, fmt::join(settings.lines(), " "));
+}
+
+Result<void> check_rows_differ(std::span<const Variant> rows) {
+    std::set<std::string> known;
+    for (const Variant& row : rows)
+        if (!known.insert(whole_choice(row)).second)
+            return fail(Fault::usage, "--methods and --sweep give the row '{}' twice", label(row.technique->name, row.settings));
+    return {};
+}
+
 /// Times are multiples of the time unit's: it is measured, asked for or not.
 std::vector<Variant> with_the_time_unit(std::vector<Variant> listed, const ReportRequest& wanted) {
     for (const Technique* technique : techniques_of(wanted.stage)) {
@@ -98,6 +120,7 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
         std::ranges::move(swept(listed, wanted.sweeps), std::back_inserter(all));
     }
     if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
+    if (const auto differ = check_rows_differ(all); !differ) return differ.error();
     if (!wanted.methods.empty()) return with_the_time_unit(std::move(all), wanted);
     for (const Technique* technique : techniques) {
         Variant defaults{technique, wanted.base, ""};
@@ -107,6 +130,8 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
         for (const std::string_view point : technique->points) all.push_back(at_point(defaults, point));
     }
     if (const auto fits = check_sweeps(all, wanted.sweeps); !fits) return fits.error();
+    if (!wanted.sweeps.empty())
+        if (const auto differ = check_rows_differ(all); !differ) return differ.error();
     return all;
 }
 

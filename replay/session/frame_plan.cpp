@@ -29,6 +29,23 @@ void apply_recorded(const Frame& frame, Choices& choices) {
     }
 }
 
+/// Of a setting that no chosen technique has; `known`: the parameters of those it might have meant.
+Error no_such_parameter(const Choices& choices, const SettingChange& change, std::span<const std::string_view> known) {
+    const auto has_it = [&](const Technique& one) {
+        return (!change.technique || change.technique == &one) && std::ranges::count(one.params, change.key, &Param::name) > 0;
+    };
+    const auto owner = std::ranges::find_if(techniques(), has_it);
+    if (owner == techniques().end() && change.technique)
+        return fail(Fault::usage, "{} has no parameter '{}'{}", change.technique->name, change.key,
+                    did_you_mean(change.key, known));
+    if (owner == techniques().end())
+        return fail(Fault::usage, "no technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
+    const auto chosen = choices.find(owner->stage);
+    return fail(Fault::usage, "{} is the chosen technique of {} and has no parameter '{}'; {} has it: pass --use {} instead",
+                chosen == choices.end() ? "nothing" : chosen->second.technique->name, name(owner->stage), change.key, owner->name,
+                owner->name);
+}
+
 Result<void> apply(Choices& choices, const SettingChange& change) {
     bool found = false;
     std::vector<std::string_view> known;
@@ -40,17 +57,7 @@ Result<void> apply(Choices& choices, const SettingChange& change) {
         if (const auto done = std::visit(set, change.value); !done) return done.error();
         found = true;
     }
-    if (!found) {
-        const auto has_it = [&](const Technique& one) { return std::ranges::count(one.params, change.key, &Param::name) > 0; };
-        const auto is_meant = [&](const Technique& one) {
-            return (!change.technique || change.technique == &one) && has_it(one);
-        };
-        const auto owner = std::ranges::find_if(techniques(), is_meant);
-        return fail(Fault::usage, "no chosen technique has a parameter '{}'{}", change.key,
-                    owner == techniques().end() ? did_you_mean(change.key, known)
-                                                : fmt::format("; {0} has it: pass --use {0}", owner->name));
-    }
-    return {};
+    return found ? Result<void>() : Result<void>(no_such_parameter(choices, change, known));
 }
 
 /// Declares what the technique does at one place of the frame, in a scope of its own.

@@ -189,9 +189,23 @@ TEST(Options, ThatCannotBeFollowedAreASentence) {
         {"accept sound.strata --allow-partial", "accept has no option --allow-partial"},
         {"replay sound.strata -- --json", "arguments after -- are file names"},
         {"record smoke", "did you mean smoke_"},
-        {"replay sound.strata --set weight=w9", "transparency/weighted has it: pass --use transparency/weighted"},
+        {"replay sound.strata --set weight=w9", "transparency/weighted has it: pass --use transparency/weighted instead"},
         {"import x.exr", "is an OpenEXR image: pass --deep"},
         {"report sound.strata --sweep weight=w7,w99 --methods weighted", "--sweep weight=w99: transparency/weighted"},
+        {"report sound.strata --methods weighted,alpha_blend,weighted", "give the row 'transparency/weighted' twice"},
+        {"report sound.strata --methods 'sorted_lists,sorted_lists pool=2'", "the row 'transparency/sorted_lists pool=2' twice"},
+        {"report sound.strata --sweep weight=w7,w7 --methods weighted", "the row 'transparency/weighted weight=w7' twice"},
+        {"probe sound.strata --at 1,1 --methods weighted,weighted", "--methods gives 'transparency/weighted' twice"},
+        {"replay sound.strata --frames 0,0", "--frames lists frame 0 twice in '0,0'"},
+        {"replay sound.strata --frames 0,", "--frames takes a list like 0,4-8, not '0,'"},
+        {"export sound.strata --image color --caption -o x.exr", "--caption is for a .png"},
+        {"export sound.strata --deep --sample 4294967295 -o x.exr", "there is no sample 4294967295"},
+        {"report --flicker sound.strata", "a number of positions from 2 to 10000, not 'sound.strata'; captures stand before it"},
+        {"report sound.strata --use weighted", "choose them with --methods weighted"},
+        {"report sound.strata --set pool=3", "give it to one row with --methods 'sorted_lists pool=3'"},
+        {"report sound.strata --set weighted:weight=w8", "transparency/weighted:weight=w8 cannot be given to every row"},
+        {"replay sound.strata --set sorted_lists:weight=w9", "transparency/sorted_lists has no parameter 'weight'"},
+        {"replay sound.strata --set weihgt=w9", "no technique has a parameter 'weihgt'"},
     };
     for (const auto& [command, says] : all) {
         const Finished refused = strata(command);
@@ -222,6 +236,22 @@ TEST(Options, OfTheFramingCameraAreRefusedWhereAnotherOneIsUsed) {
                                 {"own.glb --gpu no_such_device --size 16x9", 2, "no device is called 'no_such_device'"}};
     expect_refusals("import", refusals);
     EXPECT_EQ(strata("import own.glb --eye 0,1,5 --fov 30 --size 16x9").code, 0);
+}
+
+TEST(Techniques, OfAStageThatIsLeftOutAreNamedOnceWithTheOptionThatRunsThem) {
+    write_file(folder() / "sound.strata", sound_capture());
+    const std::string lens =
+        "strata: lens/camera and bloom=off have no effect in frame 0: its stage is left out (the frame has no lens "
+        "effects); --force bloom or --force auto_exposure or --force depth_of_field or --force lens_distortion runs it all the "
+        "same\n";
+    const Finished made = strata("replay sound.strata --use lens/camera --set bloom=off");
+    EXPECT_EQ(made.code, 0);
+    ASSERT_THAT(made.err, HasSubstr(lens));
+    EXPECT_THAT(made.err.substr(made.err.find(lens) + lens.size()), Not(HasSubstr("no effect")));
+    EXPECT_THAT(strata("graph sound.strata --use all_samples").err, HasSubstr("edges/all_samples has no effect in frame 0"));
+    EXPECT_THAT(strata("graph sound.strata --use all_samples").err, HasSubstr("--samples 4 runs it all the same"));
+    for (const char* runs : {"--use lens/camera --force bloom", "--use all_samples --samples 4", "--use weighted"})
+        EXPECT_EQ(strata(fmt::format("graph sound.strata {}", runs)).err, "") << runs;
 }
 
 TEST(Techniques, NeedTheirStageOnlyWhereSeveralHaveOneOfThatName) {
