@@ -46,6 +46,12 @@ void warn_of_light(std::vector<std::string>& warnings, int number, const LightSo
     if (source.type != "directional" && source.type != "point" && source.type != "spot")
         warn(fmt::format("has the unknown type '{:.60}'; a point light is used", source.type));
     if (source.intensity < 0) warn(fmt::format("has the intensity {:g}, which is below 0", source.intensity));
+    if (const glm::dvec3 c = source.color; c != glm::clamp(c, 0.0, 1.0))
+        warn(fmt::format("has the color ({:g}, {:g}, {:g}); glTF allows 0 to 1", c.x, c.y, c.z));
+    if (source.range < 0) warn(fmt::format("has the range {:g}, which is not above 0; it is ignored", source.range));
+    if (source.type == "spot" && source.outer_angle > 1.0001 * std::numbers::pi / 2)  // some round the right angle up
+        warn(fmt::format("has an outer cone of {:g} radians, more than a right angle; {:.3g} is used", source.outer_angle,
+                         widest_spot));
     if (source.type == "spot" && source.inner_angle > source.outer_angle)
         warn(fmt::format("has an inner cone of {:g} and an outer of {:g} radians; the outer is used for both", source.inner_angle,
                          source.outer_angle));

@@ -19,6 +19,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ImportGltf, TriangleWithoutNormalsGetsTheNormalOfItsPlane) {
     const Frame frame = imported(Gltf().with_triangle().text(showing(triangle))).frame;
@@ -213,6 +214,19 @@ TEST(ImportGltf, PunctualLightsKeepColorIntensityAndCone) {
     EXPECT_FLOAT_EQ(frame.lights[1].outer_angle, 0.2f);
     EXPECT_EQ(frame.sun.irradiance, glm::vec3(3));
     EXPECT_EQ(frame.hemisphere.sky, glm::vec3(0));
+}
+
+TEST(ImportGltf, LightsBeyondTheSpecificationAreWarnedOf) {
+    const std::vector<std::string> warnings = imported(Gltf().with_triangle().text(showing(triangle) + R"(,
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","color":[2,-1,0],"intensity":-5,"range":-3,
+        "spot":{"outerConeAngle":9}},{"type":"spot","spot":{"outerConeAngle":1.5707964}}]}},
+        "nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},{"extensions":{"KHR_lights_punctual":{"light":1}}}])"))
+                                                  .warnings;
+    for (const char* what : {"the color (2, -1, 0); glTF allows 0 to 1", "the intensity -5, which is below 0",
+                             "the range -3, which is not above 0; it is ignored",
+                             "an outer cone of 9 radians, more than a right angle; 1.54 is used"})
+        EXPECT_THAT(warnings, Contains(fmt::format("light 0 '' has {}", what)));
+    EXPECT_THAT(warnings, Not(Contains(HasSubstr("light 1"))));
 }
 
 TEST(ImportGltf, MaterialsKeepTheirFactorsAndModes) {

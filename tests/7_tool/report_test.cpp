@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "captures/scenarios.h"
 #include "passes/reference/difference.h"
 #include "passes/transparency/judge.h"
 #include "replay/report/flicker.h"
@@ -250,6 +251,17 @@ TEST(Report, HasNoImplementationErrorWhereItsModelDecidesNothing) {
     EXPECT_TRUE(nlohmann::json::parse(as_json(report))["rows"][0]["implementation_error"]["rmse"].is_null());
     report.rows[0].accuracy.compared = 1;
     EXPECT_EQ(nlohmann::json::parse(as_json(report))["rows"][0]["implementation_error"]["rmse"], 0);
+}
+
+/// Above 640 x 360 samples models are compared at a smaller extent.
+TEST(Report, OfALargeFrameSaysHowManyTexelsWereComparedWithTheModel) {
+    const Scenario* scenario = must(find_scenario("crossing_planes"));
+    const auto session = session_of({scenario->build(0, {.width = 345, .height = 171, .samples = 4})});
+    const Report report = must(make_report(*session, {.stage = Stage::edges, .methods = {"bitwise"}, .repeats = 1}));
+    const Accuracy& accuracy = report.rows.front().accuracy;
+    EXPECT_EQ(accuracy.compared + accuracy.undecided, std::size_t{345 / 2} * (171 / 2));
+    EXPECT_GT(accuracy.compared, 0u);
+    EXPECT_EQ(accuracy.worst.image, "edges");
 }
 
 TEST(HardCaseReport, HasTheCasesThatWereCompleteWhenItWasStopped) {
