@@ -177,7 +177,9 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
 
 /// Beyond an end of the legend values have the end's color, and the end says so.
 Panel image_panel(const std::string& label, const Texels& texels, const Range& range, const std::string& unit = "") {
-    const bool below = quantile(texels.values, 0)<range.low, above = quantile(texels.values, 1)> range.high;
+    const double step = (range.high - range.low) / 255;  // less is no other color
+    const bool below = range.low - quantile(texels.values, 0) > step;
+    const bool above = quantile(texels.values, 1) - range.high > step;
     Panel panel{label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
                 [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
                 (below ? "<= " : "") + text_of(range.low, 3) + unit, (above ? ">= " : "") + text_of(range.high, 3) + unit};
