@@ -82,7 +82,8 @@ public:
         };
         const Canvas canvas =
             difference_picture(made, a, b,
-                               {fmt::format("frame {}  {}: {}  {}", frame, act.label, made.image, strata::name(made.verdict)),
+                               {fmt::format("frame {}  {}: {}  {}", frame, act.label, made.image,
+                                            made.verdict == Verdict::over ? "over tolerance" : strata::name(made.verdict)),
                                 side(options_.a, act.choice_a), side(options_.b, act.choice_b)});
         if (const auto done = write_png(path, canvas); !done) return done;
         to_stderr("wrote {}\n", path.string());

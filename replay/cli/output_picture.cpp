@@ -6,6 +6,7 @@
 
 #include "passes/frame_images.h"
 #include "passes/registry.h"
+#include "passes/view_params.h"
 #include "replay/difference/picture.h"
 #include "replay/images/image_io.h"
 #include "replay/standard_streams.h"
@@ -31,44 +32,55 @@ ImageLegend legend_of(const DebugView& view) {
                        .if_zero = std::string(view.if_zero),
                        .help = std::string(view.help)};
     if (view.low == -view.high) legend.middle = 0;
+    if (view.unit == "x") legend.middle = 1;  // a factor
     for (const ViewColor& color : view.colors) legend.colors.push_back({Rgb(color.color * 255.f + .5f), color.meaning});
     return legend;
 }
 
-/// Of an image of the frame, or of a debug view "stage/technique:name".
+/// The debug view "stage/technique:name", or null.
+const DebugView* find_shown_view(std::string_view image) {
+    const std::size_t colon = image.find(':');
+    const auto technique = colon == image.npos ? Result<const Technique*>(nullptr) : find_technique(image.substr(0, colon));
+    if (!technique || !*technique) return nullptr;
+    const auto view = std::ranges::find((*technique)->views, image.substr(colon + 1), &DebugView::name);
+    return view == (*technique)->views.end() ? nullptr : &*view;
+}
+
+/// Of an image of the frame, or of a debug view.
 ImageLegend legend_of(std::string_view image) {
     if (const FrameImageRow* row = find_frame_image(image))
         return {.low = {}, .channels = channel_swatches(row->channels), .help = std::string(row->help)};
-    const std::size_t colon = image.find(':');
-    const auto technique = colon == image.npos ? Result<const Technique*>(nullptr) : find_technique(image.substr(0, colon));
-    if (!technique || !*technique) return {};
-    const auto view = std::ranges::find((*technique)->views, image.substr(colon + 1), &DebugView::name);
-    return view == (*technique)->views.end() ? ImageLegend{} : legend_of(*view);
+    const DebugView* view = find_shown_view(image);
+    return view ? legend_of(*view) : ImageLegend{};
 }
 
-/// The choice of the last stage that writes the image.
-std::string choice_of(const Run& run, std::string_view image) {
-    std::string last;
-    for (const StageInfo& stage : stages()) {
-        const auto choice = run.choices.find(std::string(stage.name));
-        const bool is_its = image.starts_with(std::string(stage.name) + "/") || std::ranges::count(stage.outputs, image) > 0;
-        if (is_its && choice != run.choices.end()) last = without_defaults(choice->second);
-    }
-    return last;
-}
-
-}  // namespace
-
-std::string without_defaults(const std::string& choice) {
+/// Without the parameters that have their defaults and that the sentence does not name.
+std::string without_defaults(const std::string& choice, std::string_view sentence) {
     std::istringstream words(choice);
     std::string text, word;
     words >> text;
     const auto technique = find_technique(text);
     const std::vector<std::string> defaults = technique ? Settings((*technique)->params).lines() : std::vector<std::string>();
     while (words >> word)
-        if (std::ranges::count(defaults, word) == 0) text += " " + word;
+        if (std::ranges::count(defaults, word) == 0 || has_word(sentence, word.substr(0, word.find('=')))) text += " " + word;
     return text;
 }
+
+/// The choice of the last stage that writes the image.
+std::string choice_of(const Run& run, std::string_view image) {
+    const DebugView* view = find_shown_view(image);
+    std::string last;
+    for (const StageInfo& stage : stages()) {
+        const auto choice = run.choices.find(std::string(stage.name));
+        const bool is_its = image.starts_with(std::string(stage.name) + "/") || std::ranges::count(stage.outputs, image) > 0;
+        if (is_its && choice != run.choices.end()) last = without_defaults(choice->second, view ? view->help : "");
+    }
+    return last;
+}
+
+}  // namespace
+
+std::string without_defaults(const std::string& choice) { return without_defaults(choice, ""); }
 
 Result<void> write_output_picture(const std::filesystem::path& path, const Run& run, const std::string& image,
                                   const std::string& of) {

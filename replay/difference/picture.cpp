@@ -15,6 +15,8 @@ constexpr Rgb paper(24, 24, 28), ink(235, 235, 235), faint(150, 150, 155), not_a
 constexpr int gap = 12, bar_height = 12;
 // Panels are at least this wide: letters and a pixel's frame can then be seen.
 constexpr int least_width = 480;
+// Images are not enlarged beyond this height: one of 17 x 241 pixels would be 7000 high.
+constexpr int most_enlarged_height = 1080;
 
 struct Texels {
     int width = 0, height = 0;
@@ -54,13 +56,13 @@ Texels alpha_of(const Texels& all) {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
-/// The value below which a share of all finite channels lies.
+/// The value up to which a share of all finite channels lies: of few values the larger neighbor.
 double quantile(const std::vector<glm::dvec3>& values, double share) {
     std::vector<double> all;
     for (const glm::dvec3& v : values)
         if (finite(v)) all.insert(all.end(), {v.x, v.y, v.z});
     if (all.empty()) return 0;
-    const auto at = all.begin() + static_cast<std::ptrdiff_t>(share * double(all.size() - 1));
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * double(all.size() - 1)));
     std::ranges::nth_element(all, at);
     return *at;
 }
@@ -93,7 +95,7 @@ struct Range {
 
     Rgb color(const glm::dvec3& v) const {
         if (!finite(v)) return not_a_number;
-        if (middle) return difference_color(glm::dvec3(*middle), v, 2 / (high - low), 1);
+        if (middle) return difference_color(glm::dvec3(*middle), v, 1 / std::max(high - *middle, *middle - low), 1);
         const glm::dvec3 share = (v - low) / (high - low);
         return content == Content::radiance ? light_rgb(share) : byte_rgb(share);
     }
@@ -130,7 +132,15 @@ struct Panel {
     ColorOf color;
     std::function<Rgb(double share)> legend = {};  ///< null: none
     std::string low = {}, high = {}, note = {};    ///< numbers at the ends of the legend, and what stands between them
+    double note_at = .5;                           ///< share of the legend at which the note is centered
+    bool has_tick = false;                         ///< at note_at
 };
+
+/// How often an image is enlarged, and how wide its panel is.
+int zoom_of(const Texels& image) {
+    return std::max(1, std::min((least_width + image.width - 1) / image.width, most_enlarged_height / image.height));
+}
+int panel_width(const Texels& image) { return std::max(least_width, image.width * zoom_of(image)); }
 
 /// A frame around a pixel of the panel's image, whose upper left corner and enlargement are given.
 void draw_mark(Canvas& canvas, int left, int top, int zoom, const WorstPixel& worst) {
@@ -143,7 +153,7 @@ void draw_mark(Canvas& canvas, int left, int top, int zoom, const WorstPixel& wo
 
 /// The panel's image with a pixel framed where one is the worst, its label above and its legend below.
 void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const WorstPixel* worst) {
-    const int zoom = box.width / size.width;
+    const int zoom = zoom_of(size);
     canvas.text(shortened(panel.label, box.width), {box.x, box.y, box.width, 0}, ink);
     const int top = box.y + Canvas::line;
     for (int y = 0; y < size.height; ++y)
@@ -159,13 +169,25 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
     const int text = bar + bar_height + 4;
     canvas.text(panel.low, {box.x, text, box.width, 0}, faint);
     canvas.text(panel.high, {box.x + box.width - text_width(panel.high), text, box.width, 0}, faint);
-    canvas.text(panel.note, {box.x + (box.width - text_width(panel.note)) / 2, text, box.width, 0}, ink);
+    const int center = box.x + static_cast<int>(panel.note_at * (box.width - 1)), begin = center - text_width(panel.note) / 2;
+    if (panel.has_tick) canvas.fill({center, bar, 1, bar_height + 4}, ink);
+    const int first = box.x + text_width(panel.low) + gap, last = box.x + box.width - text_width(panel.high) - gap;
+    if (begin >= first && begin + text_width(panel.note) <= last) canvas.text(panel.note, {begin, text, box.width, 0}, ink);
 }
 
-Panel image_panel(const std::string& label, const Texels& texels, const Range& range) {
-    return {label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
-            [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
-            text_of(range.low, 3), text_of(range.high, 3)};
+/// Beyond an end of the legend values have the end's color, and the end says so.
+Panel image_panel(const std::string& label, const Texels& texels, const Range& range, const std::string& unit = "") {
+    const double step = (range.high - range.low) / 255;  // less is no other color
+    const bool below = range.low - quantile(texels.values, 0) > step;
+    const bool above = quantile(texels.values, 1) - range.high > step;
+    Panel panel{label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
+                [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
+                (below ? "<= " : "") + text_of(range.low, 3) + unit, (above ? ">= " : "") + text_of(range.high, 3) + unit};
+    if (!range.middle) return panel;
+    panel.note = text_of(*range.middle, 3);
+    panel.note_at = (*range.middle - range.low) / (range.high - range.low);
+    panel.has_tick = true;
+    return panel;
 }
 
 Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) {
@@ -196,8 +218,11 @@ Range range_of(const Texels& shown, Format format, const ImageLegend& legend) {
     if (!legend.low) return range_of(shown, format);
     const double high = quantile(shown.values, 1);
     if (legend.middle) {
-        const double reach = std::max({high - *legend.middle, *legend.middle - quantile(shown.values, 0), 1e-6});
-        return {*legend.middle - reach, *legend.middle + reach, Content::numbers, legend.middle};
+        const double least = quantile(shown.values, 0);
+        const double reach = std::max({high - *legend.middle, *legend.middle - least, 1e-6});
+        // What no value of the view can be is no part of the scale: a factor is not below 0.
+        const double low = std::max(*legend.middle - reach, std::min(*legend.low, least));
+        return {low, *legend.middle + reach, Content::numbers, legend.middle};
     }
     const double low = std::min(*legend.low, quantile(shown.values, 0));
     return {low, high > low ? high : low + 1};
@@ -227,6 +252,17 @@ std::vector<Swatch> seen_in(const Texels& shown, const Range& range, const std::
     return seen;
 }
 
+/// Whether a pixel shows two of the channels that have a meaning at once: its color is no swatch's.
+bool mixes_channels(const Texels& shown, const Range& range, const std::vector<Swatch>& channels) {
+    return std::ranges::any_of(shown.values, [&](const glm::dvec3& v) {
+        const auto seen = std::ranges::count_if(channels, [&](const Swatch& swatch) {
+            const glm::ivec3 both = glm::min(glm::ivec3(range.color(v)), glm::ivec3(swatch.color));
+            return std::max({both.x, both.y, both.z}) > 25;
+        });
+        return finite(v) && seen > 1;
+    });
+}
+
 constexpr int swatch_width = 2 * Canvas::line;
 
 /// A line of text below an image, beside a swatch or not.
@@ -248,6 +284,8 @@ std::vector<Line> lines_below(const Texels& shown, const ImageLegend& legend, co
         for (const std::string& text : wrapped(swatch.meaning, width - indent))
             lines.push_back({text, ink, indent, std::exchange(color, std::nullopt)});
     }
+    if (legend.colors.empty() && mixes_channels(shown, range, legend.channels))
+        for (const std::string& text : wrapped("mixed colors: several at one pixel", width)) lines.push_back({text, ink});
     if (!legend.help.empty())
         for (const std::string& text : wrapped(legend.help, width)) lines.push_back({text, faint});
     return lines;
@@ -262,15 +300,14 @@ Canvas image_picture(std::string_view name, const HostImage& image, const std::s
     const bool is_averaged = shown.content == Content::radiance || shown.content == Content::display;
     std::string label(name);
     if (image.shape.layers > 1 && !is_averaged) label += fmt::format(", layer 0 of {}", image.shape.layers);
-    const int zoom = std::max(1, (least_width + shown.width - 1) / shown.width), width = shown.width * zoom;
-    Panel panel = image_panel(label, shown, range);
-    panel.low += unit, panel.high += unit;
+    const int width = panel_width(shown);
+    Panel panel = image_panel(label, shown, range, unit);
     if (!legend.colors.empty()) panel.legend = nullptr;
 
     const std::vector<std::string> titles = wrapped(title, width);
     const std::vector<Line> lines = lines_below(shown, legend, range, width);
     const int top = 2 * gap + static_cast<int>(titles.size()) * Canvas::line;
-    int below = top + Canvas::line + shown.height * zoom + (panel.legend ? bar_height + 10 + Canvas::line : gap);
+    int below = top + Canvas::line + shown.height * zoom_of(shown) + (panel.legend ? bar_height + 10 + Canvas::line : gap);
     Canvas canvas(width + 2 * gap, below + static_cast<int>(lines.size()) * Canvas::line + gap, paper);
     canvas.text(titles, {gap, gap, width, 0}, mark);
     draw(canvas, panel, {gap, top, width, 0}, shown, nullptr);
@@ -314,10 +351,11 @@ Canvas difference_picture(const ImageComparison& made, const HostImage& a, const
         panel.note = fmt::format("mean {:.4f}", made.flip->mean);
         panels.push_back(std::move(panel));
     }
-    // Four panels make two rows of two, three a row.
-    const int zoom = std::max(1, (least_width + of_a.width - 1) / of_a.width), columns = panels.size() == 4 ? 2 : 3;
+    // Four panels make two rows of two, three a row, and those of a narrow image a row however many they are.
+    const bool is_narrow = of_a.height * zoom_of(of_a) > panel_width(of_a) * 3 / 2;
+    const int columns = is_narrow ? static_cast<int>(panels.size()) : panels.size() == 4 ? 2 : 3;
     const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-    const Box cell{0, 0, of_a.width * zoom, of_a.height * zoom + 2 * Canvas::line + bar_height + 10};
+    const Box cell{0, 0, panel_width(of_a), of_a.height * zoom_of(of_a) + 2 * Canvas::line + bar_height + 10};
     const int across = columns * (cell.width + gap) + gap;
     const std::vector<std::string> title = wrapped(titles.title, across - 2 * gap),
                                    reason = wrapped(made.reason, across - 2 * gap);

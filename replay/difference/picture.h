@@ -32,7 +32,7 @@ struct ImageLegend {
     std::vector<Swatch> colors = {};    ///< of an image that has no scale: those that are seen in it are listed
     std::string if_zero = {};           ///< the sentence where every value is 0
     std::string help = {};              ///< a sentence about the image, below all
-    std::optional<double> middle = {};  ///< of one number with a sign: red above, blue below, black where it is this
+    std::optional<double> middle = {};  ///< of one number around this one: red above, blue below, black where it is this
 };
 
 /// One image under a title, with its scale and what its values lie between, or that all are one. Samples of light are averaged;

@@ -32,7 +32,7 @@ public:
     explicit Plot(const Probe& probe)
         : probe_(probe),
           order_(best_first(probe)),
-          height_(std::max(750., 96 + legend_line * double(order_.size() + 1))),
+          height_(std::max(750., 128 + legend_line * double(order_.size() + 1))),
           drawing_(1180, height_) {
         std::vector<double> errors;  // the most of each curve
         for (const ProbeCurve* curve : order_) {
@@ -226,6 +226,8 @@ private:
                               : curve.not_supported,
                           Anchor::start, 10);
         }
+        drawing_.text({left, y + 42}, "L1: mean error over the depth axis", Anchor::start, 10);
+        drawing_.text({left, y + 56}, "E_w: over fragments, weighted by what each hides", Anchor::start, 10);
     }
 
     const Probe& probe_;

@@ -191,6 +191,7 @@ TEST(Probe, TellsTheSlicesOfAMethodThatHasSome) {
     EXPECT_TRUE(made.curves[2].slices.empty());
     EXPECT_NE(as_json(made).find("\"slices\":[["), std::string::npos);
     EXPECT_NE(as_svg(made).find(">slices<"), std::string::npos);
+    EXPECT_NE(as_svg(made).find(">E_w: over fragments"), std::string::npos) << "a figure of the legend without its meaning";
 }
 
 TEST(Probe, ACaptureIsTheSameAfterwards) {

@@ -102,12 +102,15 @@ TEST(TileWaves, AreDrawnInColorsThatTheLegendHasToo) {
     for (const Rgb& pixel : canvas.pixels()) ++area[{pixel.x, pixel.y, pixel.z}];
     const auto area_of = [&](Rgb color) { return area[{color.x, color.y, color.z}]; };
     const Rgb three = magma(std::log2(4.) / std::log2(11.)), ten = magma(1), nothing = magma(0);
-    // One pixel of five is 192 x 192 here; the swatches come on top, and what is not shaded has none.
+    // One pixel of five is 192 x 192 here; the swatches come on top.
     constexpr std::size_t pixel = 192 * 192;
     EXPECT_GT(area_of(three), 3 * pixel);
     EXPECT_GT(area_of(ten), pixel);
-    EXPECT_EQ(area_of(nothing), pixel);
     EXPECT_EQ(area_of(three) - 3 * pixel, area_of(ten) - pixel) << "swatches of one size";
+    EXPECT_EQ(area_of(nothing) - pixel, area_of(ten) - pixel) << "one for what is not shaded, too";
+    TileWaves narrow = *made;
+    narrow.picture = {{.extent = {2, 300, 1}, .format = Format::r32f}, std::vector<std::byte>(2 * 300 * sizeof(float))};
+    EXPECT_LT(tile_waves_picture(narrow, bonaire()).height(), 1400) << "two pixels wide are not 480 times enlarged";
 }
 
 TEST(TileWaves, OfAReportAreInItsTextAndItsJson) {

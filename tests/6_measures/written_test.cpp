@@ -109,6 +109,76 @@ TEST(DifferencePicture, ShowsWhereAlphaDiffers) {
     EXPECT_GE(std::ranges::count(canvas.pixels(), Rgb(255, 89, 0)), 20 * 20) << "more in B, 30 times enlarged, less its frame";
 }
 
+HostImage even(std::uint32_t width, std::uint32_t height, float value) {
+    return image(std::vector<float>(std::size_t{4} * width * height, value), width);
+}
+
+/// Left column and first row of the image that the picture shows, below a title of one line.
+constexpr int image_left = 12, image_top = 2 * 12 + 2 * Canvas::line;
+
+Rgb at(const Canvas& canvas, int x, int y) {
+    return canvas.pixels()[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width()) + static_cast<std::size_t>(x)];
+}
+
+/// One of 17 x 241 pixels was enlarged to a picture 7000 pixels high.
+TEST(ImagePicture, OfANarrowImageIsNoTowerAndHasRoomForItsText) {
+    const HostImage narrow = even(17, 241, .25f), flat = even(3000, 2, .25f);
+    const Canvas high = image_picture("a:b", narrow, "title", {.low = 0}), wide = image_picture("a:b", flat, "title", {.low = 0});
+    EXPECT_LT(high.height(), 1300);
+    EXPECT_GT(high.height(), 241 * 4) << "enlarged nevertheless";
+    EXPECT_GE(high.width(), 480);
+    EXPECT_EQ(wide.width(), 3000 + 2 * image_left);
+    const Canvas both = difference_picture(*compare_images("a", narrow, even(17, 241, .5f), {}), narrow, even(17, 241, .5f), {});
+    EXPECT_LT(both.height(), 1400);
+    EXPECT_GE(both.width(), 2 * 480);
+}
+
+/// Of the three numbers of one pixel the second was white.
+TEST(ImagePicture, OfOnePixelIsNotClipped) {
+    const Canvas canvas = image_picture("color", image({.25f, .1f, .05f, 1}, 1), "title", {});
+    EXPECT_EQ(at(canvas, image_left + 9, image_top + 9), Rgb(255, 170, 124)) << "1, .4 and .2 in sRGB";
+}
+
+/// White was everything from the bar's end on, and the bar did not say so.
+TEST(ImagePicture, SaysThatTheScaleEndsBelowTheLargestValue) {
+    std::vector<float> values(4 * 40 * 30, .5f);
+    const Canvas none = image_picture("color", image(values, 40), "title", {});
+    std::fill_n(values.begin(), 4, 8.f);
+    const Canvas one = image_picture("color", image(values, 40), "title", {});
+    const int label = image_top + 30 * 12 + 6 + 12 + 4;
+    const auto letters = [&](const Canvas& canvas) {
+        long count = 0;
+        for (int y = label; y < label + Canvas::line - 6; ++y)
+            for (int x = canvas.width() / 2; x < canvas.width(); ++x) count += at(canvas, x, y) != at(canvas, 0, 0) ? 1 : 0;
+        return count;
+    };
+    ASSERT_EQ(at(one, image_left + 100, image_top + 100), at(none, image_left + 100, image_top + 100)) << "one scale";
+    EXPECT_GT(letters(none), 0);
+    EXPECT_GT(letters(one), letters(none)) << ">= 0.5";
+}
+
+/// A factor: black where it is 1, which the bar marks.
+TEST(ImagePicture, ShowsWhereAFactorIsOne) {
+    std::vector<float> values(4 * 40 * 30, 1.f);
+    std::fill_n(values.begin(), 4, 2.5f);
+    std::fill_n(values.begin() + 4, 4, .5f);
+    const Canvas canvas = image_picture("a:b", image(values, 40), "title", {.low = 0, .unit = "x", .middle = 1});
+    EXPECT_EQ(at(canvas, image_left + 5, image_top + 5), Rgb(255, 89, 0));
+    EXPECT_EQ(at(canvas, image_left + 17, image_top + 5), Rgb(0, 38, 85)) << "a third of the largest distance";
+    EXPECT_EQ(at(canvas, image_left + 100, image_top + 5), Rgb(0, 0, 0));
+    // The bar runs from 0, below which no factor is, to 2.5: 1 lies at .4 of it.
+    const int bar = image_top + 30 * 12 + 6;
+    EXPECT_EQ(at(canvas, image_left + 191, bar + 14), Rgb(235, 235, 235)) << "the tick";
+    EXPECT_EQ(at(canvas, image_left + 185, bar + 14), at(canvas, 0, 0));
+}
+
+TEST(ImagePicture, SaysWhatMixedColorsAre) {
+    const ImageLegend legend{.low = 0, .channels = {{{255, 0, 0}, "across x"}, {{0, 255, 0}, "across y"}}};
+    const Canvas apart = image_picture("a:b", image({1, 0, 0, 1, 0, 1, 0, 1}, 2), "title", legend),
+                 mixed = image_picture("a:b", image({1, 0, 0, 1, 1, 1, 0, 1}, 2), "title", legend);
+    EXPECT_EQ(mixed.height(), apart.height() + Canvas::line);
+}
+
 TEST(DifferencePicture, WritesLetters) {
     Canvas canvas(200, 40, {0, 0, 0});
     const int width = canvas.text("FLIP 0.25", {4, 4, 190, 0}, {255, 255, 255});

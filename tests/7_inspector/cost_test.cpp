@@ -3,11 +3,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <glm/glm.hpp>
 
+#include "capture_format/srgb.h"
 #include "replay/session/choice_text.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/support/session.h"
 #include "ui/report/report_columns.h"
+#include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {
@@ -39,6 +42,27 @@ Report report() {
 
 const ReportColumn& column(const std::vector<ReportColumn>& columns, std::string_view head) {
     return *std::ranges::find(columns, head, &ReportColumn::head);
+}
+
+double linear(float channel) { return decode_srgb(double{channel}); }
+
+/// In Oklab (Ottosson 2020), where a distance of .02 is just seen.
+glm::dvec3 perceived(const ImVec4& color) {
+    const glm::dvec3 rgb(linear(color.x), linear(color.y), linear(color.z));
+    const glm::dvec3 cones = glm::pow(glm::dvec3(.4122214708 * rgb.x + .5363325363 * rgb.y + .0514459929 * rgb.z,
+                                                 .2119034982 * rgb.x + .6806995451 * rgb.y + .1073969566 * rgb.z,
+                                                 .0883024619 * rgb.x + .2817188376 * rgb.y + .6299787005 * rgb.z),
+                                      glm::dvec3(1 / 3.));
+    return {.2104542553 * cones.x + .7936177850 * cones.y - .0040720468 * cones.z,
+            1.9779984951 * cones.x - 2.4285922050 * cones.y + .4505937099 * cones.z,
+            .0259040371 * cones.x + .7827717662 * cones.y - .8086757660 * cones.z};
+}
+
+/// Of the fourteen techniques of transparency six had almost the color of another: points and names were mistaken.
+TEST(ReportColumns, TellFourteenTechniquesApartByColor) {
+    for (std::size_t i = 0; i < 14; ++i)
+        for (std::size_t j = i + 1; j < 14; ++j)
+            EXPECT_GT(glm::distance(perceived(color_of_stage(i)), perceived(color_of_stage(j))), .07) << i << " " << j;
 }
 
 TEST(ReportColumns, AreTheErrorsThenTheCostsThatWereMeasured) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "passes/view_params.h"
 #include "tests/7_inspector/desk.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/session.h"

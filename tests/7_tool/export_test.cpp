@@ -188,6 +188,33 @@ TEST(OutputPictures, ColorANumberBySignWhereItHasOne) {
     EXPECT_EQ(middle_of(0), Rgb(0, 0, 0));
 }
 
+/// The view `class` is of one light, the view `pyramid` of one level: which, was said only where it was not the default.
+TEST(OutputPictures, NameTheParametersThatTheViewDependsOn) {
+    ASSERT_EQ(strata("record spot_and_box --size 64x36 -o spot.strata").code, 0);
+    const std::string class_of = "export spot.strata --use shadows/min_max --image shadows/min_max:class ";
+    ASSERT_EQ(strata(class_of + "-o default.png").code, 0);
+    ASSERT_EQ(strata(class_of + "--set class_light=9 -o other.png").code, 0) << "the last light: there is one";
+    const HostImage named = must(read_png(folder() / "default.png")), other = must(read_png(folder() / "other.png"));
+    EXPECT_EQ(named.shape.extent, other.shape.extent) << "as many lines of title";
+    EXPECT_NE(named.texels, other.texels) << "class_light=0, class_light=9";
+}
+
+/// Outlines of two kinds on one pixel have a color of their own, which the legend has.
+TEST(OutputPictures, NameTheColorsOfCrossingBounds) {
+    ASSERT_EQ(strata("record city_of_boxes --size 96x54 -o city.strata").code, 0);
+    ASSERT_EQ(strata("export city.strata --use hiz_two_phase --image culling/hiz_two_phase:bounds -o bounds.exr").code, 0);
+    const auto views = must(find_technique("culling/hiz_two_phase"))->views;
+    const auto view = std::ranges::find(views, "bounds", &DebugView::name);
+    ASSERT_NE(view, views.end());
+    std::set<std::string> seen;
+    for (const glm::dvec4& texel : in_double(must(read_exr(folder() / "bounds.exr")).begin()->second).texels) {
+        const auto color = std::ranges::find(view->colors, glm::vec3(texel), &ViewColor::color);
+        ASSERT_NE(color, view->colors.end()) << texel.x << " " << texel.y << " " << texel.z;
+        seen.insert(color->meaning);
+    }
+    EXPECT_TRUE(seen.contains("red and green on one pixel"));
+}
+
 /// One formula gives the colors to the shader and to the legend.
 TEST(OutputPictures, NameEveryModeThatTilesAreShadedBy) {
     ASSERT_EQ(strata("record agents_hq --size 96x54 -o hq.strata").code, 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/view_params.h"
 #include "replay/difference/compare_images.h"
 #include "replay/plural.h"
 #include "ui/picture/legend.h"

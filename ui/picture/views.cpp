@@ -1,27 +1,16 @@
 #include "ui/picture/views.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 
+#include "passes/view_params.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {
 
 constexpr std::uint32_t thumbnail_width = 160;
-
-bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
-/// Whether the text has it between characters of no word.
-bool has_word(std::string_view text, std::string_view word) {
-    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
-        const std::size_t end = at + word.size();
-        if ((at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end]))) return true;
-    }
-    return false;
-}
 
 bool has_column(const Technique& technique, std::string_view name) {
     return std::ranges::any_of(technique.tables, [&](const DebugTable& table) {
@@ -119,13 +108,6 @@ std::vector<PixelRow> rows_of_pixel(const TechniqueViews& views, glm::ivec2 pixe
                 if (table.rows[r][c] == *number) found.push_back({name, &table, r});
             break;
         }
-    return found;
-}
-
-std::vector<const Param*> params_of(const Technique& technique, const DebugView& view) {
-    std::vector<const Param*> found;
-    for (const Param& param : technique.params)
-        if (has_word(view.help, param.name)) found.push_back(&param);
     return found;
 }
 

@@ -48,8 +48,6 @@ struct PixelRow {
 /// By the column that tells most: where a table has several of them, its first.
 std::vector<PixelRow> rows_of_pixel(const TechniqueViews&, glm::ivec2 pixel);
 
-/// The technique's parameters that the view's help names.
-std::vector<const Param*> params_of(const Technique&, const DebugView&);
 /// The columns of a table over its first one.
 std::vector<PlotSeries> curves_of(const NumberTable&);
 

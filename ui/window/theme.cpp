@@ -123,10 +123,11 @@ ImU32 packed(const ImVec4& color, float alpha) {
 }
 
 ImVec4 color_of_stage(std::size_t index) {
-    // The golden angle keeps neighbors apart whatever their count.
+    // The golden angle keeps neighbors apart whatever their count; from the eighth on hues come near to the first ones.
     const float hue = std::fmod(.58f + static_cast<float>(index) * .381966f, 1.0f);
+    const bool repeats = index >= 7;
     ImVec4 color(0, 0, 0, 1);
-    ImGui::ColorConvertHSVtoRGB(hue, .45f, .82f, color.x, color.y, color.z);
+    ImGui::ColorConvertHSVtoRGB(hue, repeats ? .7f : .45f, repeats ? 1.0f : .82f, color.x, color.y, color.z);
     return color;
 }
 

@@ -22,6 +22,18 @@ Image view(Graph& graph, FrameImages& frame, const Settings& settings) {
     return picture;
 }
 
+/// Of outlines, and of those that cross or lie upon each other.
+std::vector<ViewColor> border_colors() {
+    return {{{1, 0, 0}, "hidden"},
+            {{0, 1, 0}, "visible and drawn in phase 1"},
+            {{0, 0, 1}, "visible and not drawn in phase 1"},
+            {{1, 1, 0}, "red and green on one pixel"},
+            {{1, 0, 1}, "red and blue on one pixel"},
+            {{0, 1, 1}, "green and blue on one pixel"},
+            {{1, 1, 1}, "all three on one pixel"},
+            {{0, 0, 0}, "no outline"}};
+}
+
 }  // namespace
 
 std::vector<DebugView> hiz_two_phase_views() {
@@ -44,7 +56,7 @@ std::vector<DebugView> hiz_two_phase_views() {
              .low = 0,
              .high = 1,
              .declare = view<hiz_view_bounds>,
-             .channels = {"hidden", "drawn in phase 1 and visible", "visible, and not drawn in phase 1"}}};
+             .colors = border_colors()}};
 }
 
 }  // namespace strata::culling

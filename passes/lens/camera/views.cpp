@@ -32,7 +32,7 @@ std::vector<DebugView> camera_views() {
              .if_zero = "no pixel gathers light of others"},
             {.name = "bloom",
              .help = "the glow alone: radiance before exposure that bloom adds to every sample of a pixel",
-             .unit = "radiance",
+             .unit = "W/(m^2 sr)",
              .declare = made<show_glow>,
              .channels = {"red", "green", "blue"},
              .if_zero = "nothing glows"}};

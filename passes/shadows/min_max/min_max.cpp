@@ -105,8 +105,12 @@ std::vector<Param> params() {
                                                 .choices = blocks}));
     rows.push_back(param<&MinMaxParams::verify>(
         {.name = "verify", .help = "on: filter every lookup in full as well and count mismatches", .choices = switches}));
-    rows.push_back(param<&MinMaxParams::class_light>(
-        {.name = "class_light", .low = 0, .high = 63, .help = "light with a map whose lookups the view class shows"}));
+    rows.push_back(param<&MinMaxParams::class_light>({.name = "class_light",
+                                                      .low = 0,
+                                                      .high = 63,
+                                                      .help = "number, among lights with a shadow map, of the light whose "
+                                                              "lookups the view class shows; 0: the sun if it has a map, "
+                                                              "else the first of the others, which follow as recorded"}));
     return rows;
 }
 
@@ -124,16 +128,17 @@ std::vector<Counter> counters() {
 
 std::vector<DebugView> views() {
     std::vector<DebugView> rows = shadow_map_views();
-    rows.push_back(
-        {.name = "class",
-         .help = "what answers the shadow lookup of one light (class_light); of two blended cascades the costlier answer",
-         .unit = "",
-         .declare = class_view,
-         .colors = {{{1, 0.9f, 0.4f}, "lit: answered by bounds"},
-                    {{0, 0.1f, 0.4f}, "shadowed: answered by bounds"},
-                    {{1, 0, 0}, "expensive: texels are compared"},
-                    {{0.3f, 0.3f, 0.3f}, "outside: beyond the map, lit"},
-                    {{0, 0, 0}, "no lookup"}}});
+    rows.push_back({.name = "class",
+                    .help = "what answers the shadow lookups of light class_light, counted from 0: the sun, then lights with a "
+                            "map as recorded; of two "
+                            "blended cascades the costlier answer",
+                    .unit = "",
+                    .declare = class_view,
+                    .colors = {{{1, 0.9f, 0.4f}, "lit: answered by bounds"},
+                               {{0, 0.1f, 0.4f}, "shadowed: answered by bounds"},
+                               {{1, 0, 0}, "expensive: texels are compared"},
+                               {{0.3f, 0.3f, 0.3f}, "outside: beyond the map, lit"},
+                               {{0, 0, 0}, "no lookup"}}});
     return rows;
 }
 

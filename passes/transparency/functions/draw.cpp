@@ -166,7 +166,7 @@ DebugView normalization_row(Image (*declare)(Graph&, FrameImages&, const Setting
         .name = "normalization",
         .help =
             "factor that the resolve applies to the color: 1 where T(z) is exact, below 1 where T(z) lets too much light through",
-        .unit = "",
+        .unit = "x",
         .low = 0,
         .high = 2,
         .declare = declare};
