@@ -193,6 +193,13 @@ Panel image_panel(const std::string& label, const Texels& texels, const Range& r
 Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) {
     const double gain = gain_of(a, b);
     const std::uint32_t channels = a.channels;
+    bool less = false, more = false;  // than the legend's ends, by what is another color
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double apart = (b.values[i][c] - a.values[i][c]) * gain;
+            more |= (channels > 1 ? std::abs(apart) : apart) > 1 + 1 / 255.;
+            less |= apart < -1 - 1 / 255.;
+        }
     const std::string scaled = gain < 1 ? fmt::format("/ {:g}", 1 / gain) : fmt::format("x {:g}", gain);
     return {fmt::format("{}{} {}", of, channels > 1 ? "abs(B - A)" : "B - A", scaled),
             [&a, &b, gain, channels](std::size_t i) { return difference_color(a.values[i], b.values[i], gain, channels); },
@@ -200,7 +207,7 @@ Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) 
                 const double v = channels > 1 ? share : 2 * share - 1;
                 return difference_color(glm::dvec3(0), glm::dvec3(v / gain), gain, channels);
             },
-            channels > 1 ? "0" : text_of(-1 / gain, 3), text_of(1 / gain, 3)};
+            channels > 1 ? "0" : (less ? "<= " : "") + text_of(-1 / gain, 3), (more ? ">= " : "") + text_of(1 / gain, 3)};
 }
 
 }  // namespace

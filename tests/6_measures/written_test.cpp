@@ -179,6 +179,21 @@ TEST(ImagePicture, SaysWhatMixedColorsAre) {
     EXPECT_EQ(mixed.height(), apart.height() + Canvas::line);
 }
 
+/// One pixel of 1200 lies beyond the 99.5 % that the gain is made for.
+TEST(DifferencePicture, SaysThatTheScaleEndsBelowTheLargestDifference) {
+    const HostImage a = even(40, 30, .25f);
+    std::vector<float> values(4 * 40 * 30, .5f);
+    const auto picture_of_b = [&] {
+        const HostImage b = image(values, 40);
+        return difference_picture(*compare_images("color", a, b, {}), a, b, {"title", "left", "right"});
+    };
+    const Canvas none = picture_of_b();
+    std::fill_n(values.begin(), 3, 8.f);
+    const Canvas one = picture_of_b();
+    const auto faint = [](const Canvas& canvas) { return std::ranges::count(canvas.pixels(), Rgb(150, 150, 155)); };
+    EXPECT_GT(faint(one), faint(none)) << ">= 0.25";
+}
+
 TEST(DifferencePicture, WritesLetters) {
     Canvas canvas(200, 40, {0, 0, 0});
     const int width = canvas.text("FLIP 0.25", {4, 4, 190, 0}, {255, 255, 255});
