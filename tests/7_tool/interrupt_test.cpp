@@ -88,7 +88,7 @@ TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
 }
 
 /// The least time in which one ratio is measured is not known.
-TEST(Interrupt, OfABenchPrintsTheRatiosThatAreComplete) {
+TEST(ExhaustiveInterrupt, OfABenchPrintsTheRatiosThatAreComplete) {
     for (double seconds = 2; seconds < 60; seconds *= 2) {
         const pid_t process = start_strata("bench voxel --size 32x18 --repeats 100", "printed.txt");
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
