@@ -303,7 +303,9 @@ Result<std::unique_ptr<Session>> Session::open(std::vector<Frame> frames, const 
 }
 
 std::unique_ptr<Session> open_session_on(Device& device, std::vector<Frame> frames) {
-    return std::make_unique<DeviceSession>(device, std::move(frames));
+    auto session = std::make_unique<DeviceSession>(device, std::move(frames));
+    session->give_back_memory();  // what sessions before it left
+    return session;
 }
 
 Result<std::vector<ActImages>> Session::act_images(Request request) {
