@@ -10,6 +10,7 @@
 
 #include "capture_format/nearest_name.h"
 #include "replay/gpu/feature_table.h"
+#include "replay/gpu/kept_pipelines.h"
 #include "replay/gpu/library_build.h"
 #include "replay/gpu/opened_device.h"
 
@@ -184,9 +185,12 @@ OpenedDevice::OpenedDevice(Instance instance, vk::raii::PhysicalDevice physical,
       device_(make_device(physical_, info_.capabilities)),
       queue_(device_, *queue_family(physical_), 0),
       commands_(device_, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, *queue_family(physical_))),
-      memory_(physical_, device_, memory_budget) {}
+      memory_(physical_, device_, memory_budget),
+      pipelines_(*this) {}
 
 OpenedDevice::~OpenedDevice() = default;
+
+void keep_pipelines(Device& device, std::size_t at_most) { static_cast<OpenedDevice&>(device).pipelines().keep_at_most(at_most); }
 
 void OpenedDevice::set_label(vk::ObjectType type, std::uint64_t handle, std::string_view name) const {
     if (!instance_.has_labels()) return;

@@ -55,7 +55,7 @@ void go_to(const vk::raii::CommandBuffer& commands, DeviceImage& image, const Pa
 class VulkanExecutor final : public Executor {
 public:
     explicit VulkanExecutor(OpenedDevice& device)
-        : device_(&device), pipelines_(device), samplers_(device), placeholders_(device), imports_(device) {}
+        : device_(&device), pipelines_(&device.pipelines()), samplers_(device), placeholders_(device), imports_(device) {}
 
     void upload(ImportId id, std::span<const std::byte> bytes) override {
         as_device_failure("upload", [&] { imports_.upload(id, bytes); });
@@ -69,7 +69,7 @@ public:
         as_device_failure("prepare the frame", [&] { execution = record_and_submit(plan, options); });
         return execution;
     }
-    std::size_t pipelines_created() const override { return pipelines_.created(); }
+    std::size_t pipelines_created() const override { return pipelines_->created(); }
     DeviceMemory memory() const override {
         const PoolBytes& pool = device_->memory().bytes();
         return {memory_ ? memory_->bytes_held() : 0,
@@ -109,7 +109,7 @@ private:
     void as_device_failure(std::string place, Action action);
 
     OpenedDevice* device_;
-    PipelineStore pipelines_;
+    PipelineStore* pipelines_;
     Samplers samplers_;
     Placeholders placeholders_;
     Imports imports_;
@@ -165,10 +165,10 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
                 {Readback(*device_), {}},
                 std::vector<HostCopies::Copy>(options.peeks.size())};
     execution.host_ms.allocate = timer();
-    const double pipelines_ms = pipelines_.milliseconds();
-    const std::size_t pipelines_before = pipelines_.created();
+    const double pipelines_ms = pipelines_->milliseconds();
+    const std::size_t pipelines_before = pipelines_->created();
 
-    pipelines_.make(plan, steps_to_run(plan, options), options.stop);
+    pipelines_->make(plan, steps_to_run(plan, options), options.stop);
     if (options.stop.stop_requested()) throw DeviceFailure("stopped");
     auto commands = device_->begin_commands();
     try {
@@ -178,8 +178,8 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
         throw;
     }
     commands.end();
-    execution.pipelines_created = pipelines_.created() - pipelines_before;
-    execution.host_ms.pipelines = pipelines_.milliseconds() - pipelines_ms;
+    execution.pipelines_created = pipelines_->created() - pipelines_before;
+    execution.host_ms.pipelines = pipelines_->milliseconds() - pipelines_ms;
     execution.host_ms.record = timer() - execution.host_ms.pipelines;
 
     place_ = "run the frame";
@@ -196,7 +196,7 @@ Execution VulkanExecutor::record_and_submit(const Plan& plan, const RunOptions& 
 
 void VulkanExecutor::record(const vk::raii::CommandBuffer& commands, Frame& frame) {
     const Plan& plan = frame.plan;
-    StepRecorder recorder(commands, plan, frame.resources, pipelines_, frame.sets);
+    StepRecorder recorder(commands, plan, frame.resources, *pipelines_, frame.sets);
     const bool has_labels = device_->instance().has_labels(), is_timed = frame.options.timestamps == Timestamps::on;
     const std::size_t end = steps_to_run(plan, frame.options);
     full_barrier(commands);  // what ran before the plan is visible when it starts
@@ -225,7 +225,7 @@ HostCopies::Copy VulkanExecutor::copy_out(const vk::raii::CommandBuffer& command
     HostCopies::Copy copy;
     if (image.shape().samples > 1) {
         auto& spread = copies.spread.emplace_back(std::make_unique<SampleLayers>(*device_, image, samplers_, placeholders_));
-        const DeviceImage& layers = spread->record(commands, pipelines_);
+        const DeviceImage& layers = spread->record(commands, *pipelines_);
         copy = copies.copy(commands, layers, {});
     } else {
         go_to(commands, image, top, vk::ImageLayout::eTransferSrcOptimal);

@@ -1,5 +1,5 @@
-// What stands behind Device: the handles everything in this folder works with. The one queue and its command pool live as long as
-// the device.
+// What stands behind Device: the handles everything in this folder works with. The one queue, its command pool and the pipelines
+// live as long as the device.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,7 @@
 #include "replay/gpu/device.h"
 #include "replay/gpu/instance.h"
 #include "replay/gpu/memory.h"
+#include "replay/gpu/pipelines.h"
 
 namespace strata {
 
@@ -21,6 +22,7 @@ public:
     const Instance& instance() const { return instance_; }
     const vk::raii::Device& handle() const { return device_; }
     MemoryPool& memory() { return memory_; }
+    PipelineStore& pipelines() { return pipelines_; }
     double timestamp_period_ns() const { return timestamp_period_ns_; }
     bool counts_invocations() const { return counts_invocations_; }
 
@@ -48,6 +50,7 @@ private:
     vk::raii::Queue queue_;
     vk::raii::CommandPool commands_;
     MemoryPool memory_;
+    PipelineStore pipelines_;
 };
 
 }  // namespace strata

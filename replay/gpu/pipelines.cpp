@@ -22,9 +22,6 @@ namespace {
 // Vulkan measures winding as displayed.
 constexpr vk::FrontFace front_face = vk::FrontFace::eCounterClockwise;
 
-// As many as a group of a report's rows uses, and some.
-constexpr std::size_t most_kept = 32;
-
 /// Specialization constants of one shader, in the shader's order.
 struct Constants {
     std::vector<vk::SpecializationMapEntry> entries;
@@ -271,12 +268,12 @@ const Pipeline& PipelineStore::keep(std::string key, Pipeline pipeline) {
 }
 
 void PipelineStore::drop_old() {
-    if (pipelines_.size() <= most_kept) return;
+    if (pipelines_.size() <= most_kept_) return;
     std::vector<std::map<std::string, Kept>::iterator> old;
     for (auto kept = pipelines_.begin(); kept != pipelines_.end(); ++kept)
         if (kept->second.used < plans_) old.push_back(kept);
     std::ranges::sort(old, {}, [](const auto& kept) { return kept->second.used; });
-    for (std::size_t i = 0; i < old.size() && pipelines_.size() > most_kept; ++i) pipelines_.erase(old[i]);
+    for (std::size_t i = 0; i < old.size() && pipelines_.size() > most_kept_; ++i) pipelines_.erase(old[i]);
 }
 
 const Pipeline& PipelineStore::find(const PlannedStep& planned, const std::vector<ImageRecord>& images) {

@@ -1,6 +1,6 @@
-// Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once and
-// kept while they are among the latest used: a CPU driver compiles at the first use of each, for up to seconds, and holds
-// 2.5 MB for it.
+// Pipelines by what they are made of: shaders, constants, attachments, blending, depth, culling. Equal ones are made once for a
+// device, whichever executor runs them, and kept while they are among the latest used: a CPU driver compiles at the first use of
+// each, for up to seconds, and holds 2.5 MB for it.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,8 @@ public:
     /// The pipeline of a compute or raster step. Images are those of the plan.
     const Pipeline& find(const PlannedStep&, const std::vector<ImageRecord>& images);
     std::size_t created() const { return created_; }
+    /// How many are kept from here on.
+    void keep_at_most(std::size_t count) { most_kept_ = count; }
     /// What making them took so far.
     double milliseconds() const { return milliseconds_; }
 
@@ -54,6 +56,7 @@ private:
     std::map<std::string, Kept> pipelines_;
     std::uint64_t plans_ = 0;
     std::size_t created_ = 0;
+    std::size_t most_kept_ = 32;  ///< as many as a group of a report's rows uses, and some
     double milliseconds_ = 0;
 };
 

@@ -24,6 +24,8 @@ public:
 
     /// memory_budget: as in DeviceChoice.
     DeviceSession(std::unique_ptr<Device>, Source, std::uint64_t memory_budget);
+    /// On a device that outlives it and has no memory budget.
+    DeviceSession(Device&, Source);
 
     const DeviceInfo& device() const override { return device_->info(); }
     const Capture* capture() const override { return std::get_if<Capture>(&source_); }
@@ -135,13 +137,14 @@ private:
     /// Of the device; measured when it is first asked for.
     Result<BlendRounding> rounding();
 
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<Device> own_device_;  ///< null on a device of others
+    Device* device_;
     std::unique_ptr<Executor> executor_;
     DeviceScene scene_;
     Memo memo_;
     std::unique_ptr<LoadedFrame> loaded_;
     std::optional<SceneRecords> not_uploaded_;  ///< the loaded frame's scene, until a plan is known to fit beside it
-    std::uint64_t memory_budget_;
+    std::uint64_t memory_budget_ = 0;
     std::set<std::uint64_t> remembered_;  ///< keys of buffers that are there
     RunTimes times_;                      ///< of the latest request
     std::optional<Found> found_;

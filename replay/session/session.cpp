@@ -11,6 +11,7 @@
 #include "replay/scene/shrink_textures.h"
 #include "replay/session/describe_run.h"
 #include "replay/session/device_session.h"
+#include "replay/session/session_on_device.h"
 
 namespace strata {
 namespace {
@@ -27,11 +28,16 @@ Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
 }  // namespace
 
 DeviceSession::DeviceSession(std::unique_ptr<Device> device, Source source, std::uint64_t memory_budget)
-    : device_(std::move(device)),
+    : DeviceSession(*device, std::move(source)) {
+    own_device_ = std::move(device);
+    memory_budget_ = memory_budget;
+}
+
+DeviceSession::DeviceSession(Device& device, Source source)
+    : device_(&device),
       executor_(Executor::create(*device_)),
       scene_(*executor_),
       memo_(*executor_, memo_budget_bytes),
-      memory_budget_(memory_budget),
       source_(std::move(source)) {}
 
 std::size_t DeviceSession::frame_count() const {
@@ -294,6 +300,12 @@ Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path
 
 Result<std::unique_ptr<Session>> Session::open(std::vector<Frame> frames, const DeviceChoice& choice) {
     return open_session(choice, std::move(frames));
+}
+
+std::unique_ptr<Session> open_session_on(Device& device, std::vector<Frame> frames) {
+    auto session = std::make_unique<DeviceSession>(device, std::move(frames));
+    session->give_back_memory();  // what sessions before it left
+    return session;
 }
 
 Result<std::vector<ActImages>> Session::act_images(Request request) {

@@ -42,8 +42,7 @@ const std::vector<Merging>& merging() {
 
 Session& smoke() {
     static const auto session =
-        must(Session::open({low_resolution_smoke(96, 54, 1), low_resolution_smoke(53, 31, 1), low_resolution_smoke(64, 36, 4)},
-                           {.validation = true}));
+        session_of({low_resolution_smoke(96, 54, 1), low_resolution_smoke(53, 31, 1), low_resolution_smoke(64, 36, 4)});
     return *session;
 }
 

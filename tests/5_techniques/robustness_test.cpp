@@ -1,9 +1,11 @@
 // Frames that no artist would send and every method must survive: tiny, odd, empty, opaque, 200 layers, behind the eye. Where
 // a frame must look like a simpler one, it must do so bit for bit.
 #include <algorithm>
-#include <iterator>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "captures/scenarios.h"
@@ -74,11 +76,16 @@ Session& session_of_hard_frames() {
     return *session;
 }
 
-class HardFrames : public testing::TestWithParam<HardFrame> {
+/// Frames that one process replays, because the techniques' pipelines are the same for all of them.
+using HardGroup = std::vector<HardFrame>;
+
+class HardFrames : public testing::TestWithParam<HardGroup> {
 protected:
-    HardFrames() {
+    HardFrames() { choose(GetParam().front()); }
+
+    void choose(const HardFrame& chosen) {
         for (const HardFrame& hard : hard_frames)
-            if (hard.name == GetParam().name) hard_ = 2 * static_cast<std::size_t>(&hard - hard_frames);
+            if (hard.name == chosen.name) hard_ = 2 * static_cast<std::size_t>(&hard - hard_frames);
         twin_ = hard_ + 1;
     }
 
@@ -104,12 +111,22 @@ protected:
         return feature != Feature::multisampled || must(session_.frame(hard_)).view.samples > 1;
     }
 
+    void expect_numbers_and_what_models_say(std::string_view name_of_frame);
+
     Session& session_ = session_of_hard_frames();
     std::size_t hard_ = 0, twin_ = 0;
 };
 
 /// With every stage forced: what a frame does not call for changes nothing that a model says.
 TEST_P(HardFrames, LeaveEveryTechniqueWithNumbersAndWhatItsModelSays) {
+    for (const HardFrame& hard : GetParam()) {
+        SCOPED_TRACE(hard.name);
+        choose(hard);
+        expect_numbers_and_what_models_say(hard.name);
+    }
+}
+
+void HardFrames::expect_numbers_and_what_models_say(std::string_view name_of_frame) {
     const Features called_for = frame_features(must(session_.frame(hard_)));
     for (const Technique& technique : techniques()) {
         const Request request = forced(technique);
@@ -121,7 +138,7 @@ TEST_P(HardFrames, LeaveEveryTechniqueWithNumbersAndWhatItsModelSays) {
         if (info(technique.stage).unwanted(called_for)) continue;
         const auto judged = session_.judge(request, technique.stage, Against::model);
         ASSERT_TRUE(judged) << technique.name << ": " << judged.error().sentence;
-        expect_within_tolerance(*judged, technique, request, GetParam().name);  // some are scenarios
+        expect_within_tolerance(*judged, technique, request, name_of_frame);  // some are scenarios
     }
 }
 
@@ -139,18 +156,30 @@ TEST_P(TwinFrames, LookLikeTheirSimplerTwins) {
     }
 }
 
-std::string name_of(const testing::TestParamInfo<HardFrame>& hard) { return std::string(hard.param.name); }
+std::string name_of(const testing::TestParamInfo<HardGroup>& group) {
+    const HardGroup& frames = group.param;
+    return frames.size() == 1 ? std::string(frames.front().name)
+                              : fmt::format("{}_and_{}", frames.front().name, frames.back().name);
+}
 
-std::vector<HardFrame> with_twins() {
-    std::vector<HardFrame> found;
-    std::ranges::copy_if(hard_frames, std::back_inserter(found),
-                         [](const HardFrame& hard) { return hard.looks_like != nullptr; });
+std::vector<HardGroup> each_by_itself(std::span<const HardFrame> frames) {
+    std::vector<HardGroup> groups;
+    for (const HardFrame& hard : frames) groups.push_back({hard});
+    return groups;
+}
+
+std::vector<HardGroup> with_twins() {
+    std::vector<HardGroup> found = each_by_itself(hard_frames);
+    std::erase_if(found, [](const HardGroup& group) { return group.front().looks_like == nullptr; });
     return found;
 }
 
 // One pixel of one sample finds what one of four samples does, where there are no edges, and makes every pipeline for it.
-INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(std::next(hard_frames), std::end(hard_frames)), name_of);
-INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames, testing::Values(hard_frames[0]), name_of);
+constexpr std::size_t at_one_sample = 3;  // from here on
+INSTANTIATE_TEST_SUITE_P(FourSamples, HardFrames, testing::Values(HardGroup{hard_frames[1], hard_frames[2]}), name_of);
+INSTANTIATE_TEST_SUITE_P(Frames, HardFrames, testing::ValuesIn(each_by_itself(std::span(hard_frames).subspan(at_one_sample))),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, HardFrames, testing::Values(HardGroup{hard_frames[0]}), name_of);
 INSTANTIATE_TEST_SUITE_P(Frames, TwinFrames, testing::ValuesIn(with_twins()), name_of);
 
 }  // namespace

@@ -19,17 +19,18 @@ std::vector<std::string> scenario_names() {
 }
 
 TEST_P(EveryScenario, ForcingEverythingChangesNoPixel) {
-    const auto session = scenario_session(GetParam());
-    const auto plain = must(session->run({.outputs = {"color", "display"}}));
-    Request forced{.outputs = {"color", "display"}};
-    forced.variant.force.assign(all_features().begin(), all_features().end());
-    const auto all = must(session->run(forced));
+    Request request = on_scenario(GetParam());
+    request.outputs = {"color", "display"};
+    const auto plain = must(session_of_scenarios().run(request));
+    request.variant.force.assign(all_features().begin(), all_features().end());
+    const auto all = must(session_of_scenarios().run(request));
     for (const auto& [name, image] : plain.images) EXPECT_EQ(hash_of(image), hash_of(all.images.at(name))) << name;
 }
 
 TEST_P(EveryScenario, AStageThatIsLeftOutCountsNothingAndHoldsNothing) {
-    const auto session = scenario_session(GetParam());
-    const auto run = must(session->run({}));
+    Request request = on_scenario(GetParam());
+    request.once = true;  // a stage that is kept from another run has no steps
+    const auto run = must(session_of_scenarios().run(request));
     for (const SkippedStage& skipped : run.skipped) {
         EXPECT_FALSE(skipped.reason.empty());
         EXPECT_FALSE(run.stage_bytes.contains(std::string(name(skipped.stage)))) << name(skipped.stage);

@@ -1,5 +1,7 @@
-// Scenes made by others, through the whole tool: import, check, replay, report. They lie beside the project or not at all.
+// Scenes made by others, through the whole tool: import, check, replay, report. They lie beside the project or not at all. By
+// default techniques are judged on two of them; a feature that one calls for and these do not belongs among them.
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include <fmt/core.h>
@@ -9,6 +11,7 @@
 #include "passes/registry.h"
 #include "tests/7_tool/process.h"
 #include "tests/support/agreement.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -36,14 +39,57 @@ std::string asset_test_name(const testing::TestParamInfo<std::filesystem::path>&
     return name;
 }
 
-class Asset : public testing::TestWithParam<std::filesystem::path> {};
+class Asset : public testing::TestWithParam<std::filesystem::path> {
+protected:
+    void SetUp() override {
+        const Finished imported = strata("import '" + GetParam().string() + "' -o scene.strata --size 96x54");
+        ASSERT_EQ(imported.code, 0) << imported.err;
+    }
+};
+class JudgedAsset : public Asset {};
+class ExhaustiveAsset : public Asset {};
 
-// Where no assets are, the suite is empty.
+// Where no assets are, the suites are empty.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Asset);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(JudgedAsset);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ExhaustiveAsset);
+
+/// What was imported, on the device whose pipelines the scenes share.
+std::unique_ptr<Session> scene_session() {
+    const Capture capture = must(Capture::open(folder() / "scene.strata"));
+    return session_of({must(capture.frame(0))});
+}
+
+TEST_P(Asset, IsImportedValidatedAndReplayed) {
+    const Finished validated = strata("validate scene.strata");
+    EXPECT_EQ(validated.code, 0) << validated.err;
+    const auto run = must(scene_session()->run({.outputs = {"color", "display"}}));
+    for (const auto& [name, image] : run.images) EXPECT_EQ(texel_that_is_no_number(image), std::nullopt) << name;
+}
+
+bool takes(const Technique& technique, std::string_view param) {
+    return std::ranges::find(technique.params, param, &Param::name) != technique.params.end();
+}
+
+TEST_P(JudgedAsset, IsWhatTheModelOfEveryTechniqueSays) {
+    const auto session = scene_session();
+    const auto skipped = must(session->plan({})).skipped;
+    for (const Stage stage : {Stage::shadows, Stage::gbuffer, Stage::lighting, Stage::transparency}) {
+        if (std::ranges::find(skipped, stage, &SkippedStage::stage) != skipped.end()) continue;
+        for (const Technique* technique : techniques_of(stage)) {
+            const auto sets = takes(*technique, "pool") ? std::vector<std::string>{"pool=2"} : std::vector<std::string>();
+            const Request request{.choices = chosen({std::string(technique->name)}, sets)};
+            const Accuracy accuracy = must(session->judge(request, stage, Against::model));
+            if (accuracy.not_supported.empty()) expect_within_tolerance(accuracy, *technique, request);
+        }
+    }
+}
 
 /// The tool's own report, of the stage that transparent assets are about.
-void expect_report_within_tolerance(const json& report) {
-    for (const json& row : report["rows"]) {
+TEST_P(ExhaustiveAsset, IsReportedWithinEveryTolerance) {
+    const Finished report = strata("report scene.strata --repeats 1 --sweep pool=2 --json");
+    ASSERT_EQ(report.code, 0) << report.err;
+    for (const json& row : json::parse(report.out)["rows"]) {
         if (row.contains("not_supported")) continue;
         const auto technique = find_technique(row["technique"].get<std::string>());
         ASSERT_TRUE(technique) << row.dump(2);
@@ -53,34 +99,24 @@ void expect_report_within_tolerance(const json& report) {
     }
 }
 
-/// The opaque stages; one session instead of a process each, because reading the textures costs more than the frames.
-void expect_opaque_stages_within_tolerance(const std::filesystem::path& capture) {
-    const auto session = must(Session::open(capture, {}));
-    const auto skipped = must(session->plan({})).skipped;
-    for (const Stage stage : {Stage::shadows, Stage::gbuffer, Stage::lighting}) {
-        if (std::ranges::find(skipped, stage, &SkippedStage::stage) != skipped.end()) continue;
-        for (const Technique* technique : techniques_of(stage)) {
-            const Request request{.choices = chosen({std::string(technique->name)})};
-            const Accuracy accuracy = must(session->judge(request, stage, Against::model));
-            if (accuracy.not_supported.empty()) expect_within_tolerance(accuracy, *technique, request);
-        }
-    }
-}
+/// Between them they call for every feature that a scene here calls for: masked foliage and glass under a sun and a sky; colored
+/// glass, emission and punctual lights, with textures of 90 MB.
+constexpr std::array judged_by_default = {std::string_view("GlassVaseFlowers"), std::string_view("LightsPunctualLamp")};
 
-TEST_P(Asset, IsImportedReplayedAndReportedWithinEveryTolerance) {
-    const Finished imported = strata("import '" + GetParam().string() + "' -o scene.strata --size 96x54");
-    ASSERT_EQ(imported.code, 0) << imported.err;
-    const Finished validated = strata("validate scene.strata");
-    EXPECT_EQ(validated.code, 0) << validated.err;
-    const Finished replayed = strata("replay scene.strata --validation --json");
-    EXPECT_EQ(replayed.code, 0) << replayed.err;
-    const Finished report = strata("report scene.strata --repeats 1 --sweep pool=2 --json");
-    ASSERT_EQ(report.code, 0) << report.err;
-    expect_report_within_tolerance(json::parse(report.out));
-    expect_opaque_stages_within_tolerance(folder() / "scene.strata");
+std::vector<std::filesystem::path> scenes_judged(bool (*wanted)(bool by_default)) {
+    std::vector<std::filesystem::path> found = scenes();
+    std::erase_if(found, [&](const auto& scene) {
+        return !wanted(std::ranges::count(judged_by_default, scene.parent_path().filename().string()) > 0);
+    });
+    return found;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Asset, testing::ValuesIn(scenes()), asset_test_name);
+INSTANTIATE_TEST_SUITE_P(Few, JudgedAsset, testing::ValuesIn(scenes_judged([](bool by_default) { return by_default; })),
+                         asset_test_name);
+INSTANTIATE_TEST_SUITE_P(Exhaustive, JudgedAsset, testing::ValuesIn(scenes_judged([](bool by_default) { return !by_default; })),
+                         asset_test_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, ExhaustiveAsset, testing::ValuesIn(scenes()), asset_test_name);
 
 }  // namespace
 }  // namespace strata

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "replay/gpu/kept_pipelines.h"
 #include "tests/support/session.h"
 
 namespace strata {
@@ -19,10 +20,16 @@ private:
     Device* device_;
 };
 
+// Tests of one kind follow each other and make the same ones. 600 MB on a CPU driver.
+constexpr std::size_t kept_pipelines = 256;
+
 struct Opened {
     std::unique_ptr<Device> device = must(Device::open({.validation = true}));
     std::unique_ptr<Executor> executor = Executor::create(*device);
-    Opened() { testing::UnitTest::GetInstance()->listeners().Append(new MessagesFailTests(*device)); }  // the framework owns it
+    Opened() {
+        keep_pipelines(*device, kept_pipelines);
+        testing::UnitTest::GetInstance()->listeners().Append(new MessagesFailTests(*device));  // the framework owns it
+    }
 };
 
 Opened& opened() {

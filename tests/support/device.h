@@ -1,5 +1,5 @@
-// One opened device and executor per test program, with the validation layer on. A message of the layer fails the test that
-// caused it, and so does the lack of a device.
+// One opened device per test program, which session_of() opens its sessions on, and one executor, with the validation layer on. A
+// message of the layer fails the test that caused it, and so does the lack of a device.
 #pragma once
 
 #include "replay/gpu/device.h"

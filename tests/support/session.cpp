@@ -3,6 +3,8 @@
 #include "captures/scenarios.h"
 #include "replay/images/image_io.h"
 #include "replay/session/choice_text.h"
+#include "replay/session/session_on_device.h"
+#include "tests/support/device.h"
 
 namespace strata {
 namespace {
@@ -24,9 +26,7 @@ std::unique_ptr<Session> scenario_session(std::string_view scenario, std::uint32
     return session_of(scenario_frames(scenario, samples, count));
 }
 
-std::unique_ptr<Session> session_of(std::vector<Frame> frames) {
-    return must(Session::open(std::move(frames), {.validation = true}));
-}
+std::unique_ptr<Session> session_of(std::vector<Frame> frames) { return open_session_on(shared_device(), std::move(frames)); }
 
 Session& session_of_scenarios() {
     static const std::unique_ptr<Session> session = [] {
