@@ -61,7 +61,8 @@ TEST(ReloadedShaders, ChangeThePictureAndGivenBackGiveItBackBitByBit) {
 
 TEST(ReloadedShaders, HaveOnlyWhatDependsOnThemCompiledAndExecutedAgain) {
     const ShaderFolder folder;
-    const auto session = scenario_session("three_panes");
+    // On a device of its own, which has no pipelines of other tests.
+    const auto session = must(Session::open(scenario_frames("three_panes"), {.validation = true}));
     must(session->run({}));
     darken(folder);
     must(session->reload_shaders(folder.path()));

@@ -46,7 +46,8 @@ TEST(StepCounts, OfATechniqueThatDrawsOnceAreItsOwn) {
 }
 
 TEST(StepCounts, AreKnownWithoutTheShadersThatTheyAreOf) {
-    const auto session = scenario_session("agents_hq");
+    // On a device of its own, which has no pipelines of other tests.
+    const auto session = must(Session::open(scenario_frames("agents_hq"), {.validation = true}));
     Request request{.choices = chosen({"lighting/tiled"})};
     must(count_steps(*session, request));
     request.until = "lighting/tiled/shade.comp";
