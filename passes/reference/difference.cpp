@@ -17,25 +17,6 @@ double percentile(std::span<const double> ascending, double share) {
     return ascending[std::clamp<std::size_t>(rank, 1, ascending.size()) - 1];
 }
 
-double signed_error(double got, double wanted) {
-    if (got == wanted || (std::isnan(got) && std::isnan(wanted))) return 0;
-    const double error = got - wanted;
-    return std::isnan(error) ? HUGE_VAL : error;
-}
-
-void ErrorSums::add(double got, double wanted) {
-    const double error = signed_error(got, wanted);
-    squares += error * error;
-    power += std::isfinite(wanted) ? wanted * wanted : 0;
-    ++values;
-}
-
-double ErrorSums::rmse() const { return std::sqrt(squares / std::max(1.0, values)); }
-
-double ErrorSums::relative() const { return power > 0 ? std::sqrt(squares / power) : rmse(); }
-
-double ErrorSums::reference() const { return std::sqrt(power / std::max(1.0, values)); }
-
 Difference difference(const ReferenceImage& got, const ReferenceImage& wanted) {
     assert(got.width == wanted.width && got.height == wanted.height && got.layers == wanted.layers);
     Difference d;

@@ -10,18 +10,18 @@ namespace {
 
 constexpr std::string_view verdict_names[] = {"same", "not compared", "within", "warning", "over"};
 
-/// "r, channel 0 of an id": what people call it.
+/// What people call the channel of the worst pixel.
 std::string_view channel_name(const ImageError& error) {
-    constexpr std::string_view letters[] = {"r", "g", "b", "a"};
+    constexpr std::string_view names[] = {"red", "green", "blue", "alpha"};
     if (error.channels == 1) return error.kind == ImageError::Kind::depth ? "z" : "value";
-    return letters[error.worst_pixel.channel];
+    return names[error.worst_pixel.channel];
 }
 
 std::string at_text(const ImageError& error) {
     const WorstPixel& worst = error.worst_pixel;
     std::string place = fmt::format("({}, {})", worst.x, worst.y);
     if (worst.layer > 0) place += fmt::format(" layer {}", worst.layer);
-    return fmt::format("{} at {}: {:.9g} against {:.9g}", channel_name(error), place, worst.a, worst.b);
+    return fmt::format("{} at {}: A {:.9g}, B {:.9g}", channel_name(error), place, worst.a, worst.b);
 }
 
 double percent(std::uint64_t part, std::uint64_t whole) { return 100 * double(part) / double(std::max<std::uint64_t>(1, whole)); }

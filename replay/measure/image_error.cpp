@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "passes/reference/difference.h"
+#include "passes/error_sums.h"
 
 namespace strata {
 namespace {

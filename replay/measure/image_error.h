@@ -1,5 +1,5 @@
 // How far an image is from another in numbers, and what a person allows. Values are compared by their difference, depth by the
-// floats that lie between, integers by equality. rmse and relative rmse are those of a report (passes/reference/difference.h).
+// floats that lie between, integers by equality. rmse and relative rmse are those of a report (passes/error_sums.h).
 #pragma once
 
 #include <array>

@@ -191,7 +191,7 @@ TEST(OutputPictures, ColorANumberBySignWhereItHasOne) {
 /// The view `class` is of one light, the view `pyramid` of one level: which, was said only where it was not the default.
 TEST(OutputPictures, NameTheParametersThatTheViewDependsOn) {
     ASSERT_EQ(strata("record spot_and_box --size 64x36 -o spot.strata").code, 0);
-    const std::string class_of = "export spot.strata --use shadows/min_max --image shadows/min_max:class ";
+    const std::string class_of = "export spot.strata --use shadows/min_max --image shadows/min_max:class --caption ";
     ASSERT_EQ(strata(class_of + "-o default.png").code, 0);
     ASSERT_EQ(strata(class_of + "--set class_light=9 -o other.png").code, 0) << "the last light: there is one";
     const HostImage named = must(read_png(folder() / "default.png")), other = must(read_png(folder() / "other.png"));

@@ -58,7 +58,6 @@ constexpr std::array shows_references = {
     Exception{"replay/probe/probe_frame", "measures functions of a pixel's fragments"},
     Exception{"ui/pixel/pixel_fragments", "shows a pixel's fragments"},
     Exception{"replay/report/picture_error", "compares the displayed picture with that of the truth"},
-    Exception{"replay/measure/image_error", "has the definition of error that judges have"},
     Exception{"replay/session/judgement", "leaves out samples whose coverage hangs on the steps of the device"},
 };
 
