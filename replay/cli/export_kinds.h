@@ -12,7 +12,7 @@ struct ExportOptions {
     ChoiceOptions choices;
     std::size_t frame = 0;
     std::vector<std::string> images;                ///< --image
-    bool deep = false, gltf = false, json = false;  ///<
+    bool deep = false, gltf = false, json = false;
     bool caption = false;                           ///< --caption
     std::optional<std::uint32_t> sample;            ///< --sample
     std::string transmittance = "refused";
