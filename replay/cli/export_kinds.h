@@ -11,10 +11,10 @@ struct ExportOptions {
     OpenOptions open;
     ChoiceOptions choices;
     std::size_t frame = 0;
-    std::vector<std::string> images;                ///< --image
+    std::vector<std::string> images;  ///< --image
     bool deep = false, gltf = false, json = false;
-    bool caption = false;                           ///< --caption
-    std::optional<std::uint32_t> sample;            ///< --sample
+    bool caption = false;                 ///< --caption
+    std::optional<std::uint32_t> sample;  ///< --sample
     std::string transmittance = "refused";
     std::filesystem::path output;
 };
