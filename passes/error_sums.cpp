@@ -11,11 +11,12 @@ double signed_error(double got, double wanted) {
     return std::isnan(error) ? HUGE_VAL : error;
 }
 
-void ErrorSums::add(double got, double wanted) {
+double ErrorSums::add(double got, double wanted) {
     const double error = signed_error(got, wanted);
     squares += error * error;
     power += std::isfinite(wanted) ? wanted * wanted : 0;
     ++values;
+    return error;
 }
 
 double ErrorSums::rmse() const { return std::sqrt(squares / std::max(1.0, values)); }

@@ -11,8 +11,8 @@ double signed_error(double got, double wanted);
 struct ErrorSums {
     double squares = 0, power = 0, values = 0;
 
-    /// The error counts as signed_error() has it; what is wanted and not finite has no power.
-    void add(double got, double wanted);
+    /// Gives the error, which counts as signed_error() has it; what is wanted and not finite has no power.
+    double add(double got, double wanted);
     double rmse() const;
     double relative() const;
     double reference() const;  ///< root mean square of what was wanted

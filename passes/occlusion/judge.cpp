@@ -33,10 +33,9 @@ struct Sums {
     ErrorSums visibility, light;
 
     void add(double got, double wanted, double ambient) {
-        const double error = signed_error(got, wanted);
+        const double error = visibility.add(got, wanted);
         worst = std::max(worst, std::abs(error));
         errors += error;
-        visibility.add(got, wanted);
         light.add(got * ambient, wanted * ambient);
     }
 };

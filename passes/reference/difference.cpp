@@ -24,8 +24,7 @@ Difference difference(const ReferenceImage& got, const ReferenceImage& wanted) {
     for (std::size_t i = 0; i < wanted.texels.size(); ++i) {
         if (!decided(got, wanted, i)) continue;
         for (int c = 0; c < 3; ++c) {
-            const double error = signed_error(got.texels[i][c], wanted.texels[i][c]);
-            sums.add(got.texels[i][c], wanted.texels[i][c]);
+            const double error = sums.add(got.texels[i][c], wanted.texels[i][c]);
             d.bias += error;
             d.worst = std::max(d.worst, std::abs(error));
         }

@@ -13,10 +13,9 @@ namespace {
 
 /// Whether a setting reaches techniques of this stage alone.
 bool is_of(const SettingChange& change, Stage stage) {
-    if (change.technique) return change.technique->stage == stage;
     bool found = false;
     for (const Technique& technique : techniques()) {
-        if (std::ranges::count(technique.params, change.key, &Param::name) == 0) continue;
+        if (!change.fits(technique)) continue;
         if (technique.stage != stage) return false;
         found = true;
     }

@@ -101,22 +101,15 @@ std::string written(const ReportArguments& options, std::span<const Report> made
     return text + as_text(pool);
 }
 
-bool has_param(const Technique& technique, std::string_view key) {
-    return std::ranges::count(technique.params, key, &Param::name) > 0;
-}
-
 /// A setting of the measured stage alone that not every row has: which rows are to have it?
 Result<void> check_setting(const SettingChange& change, const ReportRequest& wanted, std::span<const Variant> rows) {
-    const auto has_it = [&](const Technique& one) {
-        return (!change.technique || change.technique == &one) && has_param(one, change.key);
-    };
     const Technique* own = nullptr;
     for (const Technique& technique : techniques()) {
-        if (!has_it(technique)) continue;
+        if (!change.fits(technique)) continue;
         if (technique.stage != wanted.stage) return {};
         if (!own) own = &technique;
     }
-    const auto lacking = std::ranges::find_if(rows, [&](const Variant& row) { return !has_it(*row.technique); });
+    const auto lacking = std::ranges::find_if(rows, [&](const Variant& row) { return !change.fits(*row.technique); });
     if (!own || lacking == rows.end()) return {};
     ChoiceChanges alone;
     alone.settings.push_back(change);

@@ -25,6 +25,11 @@ void Canvas::outline(Box box, Rgb color) {
     fill({box.x + box.width - 1, box.y, 1, box.height}, color);
 }
 
+int enlargement(int width, int height, int least_width) {
+    constexpr int most_enlarged_height = 1080;
+    return std::max(1, std::min((least_width + width - 1) / width, most_enlarged_height / height));
+}
+
 int text_width(std::string_view text) {
     std::string copy(text);
     return stb_easy_font_width(copy.data()) * Canvas::scale;

@@ -42,6 +42,8 @@ private:
     std::vector<Rgb> pixels_;
 };
 
+/// How often an image is enlarged to be at least so wide, yet no higher than 1080 pixels: one of 17 x 241 would be 7000 high.
+int enlargement(int width, int height, int least_width);
 /// Pixels that `text` takes.
 int text_width(std::string_view);
 /// The text in lines that fit into a width, broken at spaces; a longer word is broken where it must.

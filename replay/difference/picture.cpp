@@ -15,8 +15,6 @@ constexpr Rgb paper(24, 24, 28), ink(235, 235, 235), faint(150, 150, 155), not_a
 constexpr int gap = 12, bar_height = 12;
 // Panels are at least this wide: letters and a pixel's frame can then be seen.
 constexpr int least_width = 480;
-// Images are not enlarged beyond this height: one of 17 x 241 pixels would be 7000 high.
-constexpr int most_enlarged_height = 1080;
 
 struct Texels {
     int width = 0, height = 0;
@@ -137,9 +135,7 @@ struct Panel {
 };
 
 /// How often an image is enlarged, and how wide its panel is.
-int zoom_of(const Texels& image) {
-    return std::max(1, std::min((least_width + image.width - 1) / image.width, most_enlarged_height / image.height));
-}
+int zoom_of(const Texels& image) { return enlargement(image.width, image.height, least_width); }
 int panel_width(const Texels& image) { return std::max(least_width, image.width * zoom_of(image)); }
 
 /// A frame around a pixel of the panel's image, whose upper left corner and enlargement are given.

@@ -16,8 +16,6 @@ constexpr Rgb paper(24, 24, 28), ink(235, 235, 235), faint(150, 150, 155);
 constexpr int gap = 12;
 // At least this wide: a line of the legend then fits.
 constexpr int least_width = 960;
-// Images are not enlarged beyond this height.
-constexpr int most_enlarged_height = 1080;
 
 /// Twice the waves are one step: what few waves hide counts most.
 Rgb color_of(double waves, const GpuModel& model) { return magma(std::log2(1 + waves) / std::log2(1. + model.unit->wave_slots)); }
@@ -81,7 +79,7 @@ void draw_legend(Canvas& canvas, int top, const std::vector<LegendLine>& lines) 
 Canvas tile_waves_picture(const TileWaves& waves, const GpuModel& model) {
     const Extent extent = waves.picture.shape.extent;
     const int width = static_cast<int>(extent.width), height = static_cast<int>(extent.height);
-    const int zoom = std::max(1, std::min((least_width + width - 1) / width, most_enlarged_height / height));
+    const int zoom = enlargement(width, height, least_width);
     const int top = 2 * gap + Canvas::line;
     const std::vector<LegendLine> lines = legend_lines(waves, model);
     Canvas canvas(std::max(least_width, width * zoom) + 2 * gap,

@@ -12,10 +12,6 @@
 namespace strata {
 namespace {
 
-bool has_param(const Technique& technique, std::string_view key) {
-    return std::ranges::count(technique.params, key, &Param::name) > 0;
-}
-
 /// "key=value" on top of what the variant has.
 Variant with(Variant variant, std::string_view setting) {
     variant.request.choices.settings.push_back(*parse_setting(*variant.technique, setting));

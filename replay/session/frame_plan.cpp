@@ -31,10 +31,7 @@ void apply_recorded(const Frame& frame, Choices& choices) {
 
 /// Of a setting that no chosen technique has; `known`: the parameters of those it might have meant.
 Error no_such_parameter(const Choices& choices, const SettingChange& change, std::span<const std::string_view> known) {
-    const auto has_it = [&](const Technique& one) {
-        return (!change.technique || change.technique == &one) && std::ranges::count(one.params, change.key, &Param::name) > 0;
-    };
-    const auto owner = std::ranges::find_if(techniques(), has_it);
+    const auto owner = std::ranges::find_if(techniques(), [&](const Technique& one) { return change.fits(one); });
     if (owner == techniques().end() && change.technique)
         return fail(Fault::usage, "{} has no parameter '{}'{}", change.technique->name, change.key,
                     did_you_mean(change.key, known));
@@ -52,7 +49,7 @@ Result<void> apply(Choices& choices, const SettingChange& change) {
     for (auto& [stage, choice] : choices) {
         if (change.technique && choice.technique != change.technique) continue;
         for (const Param& param : choice.technique->params) known.push_back(param.name);
-        if (std::ranges::count(choice.technique->params, change.key, &Param::name) == 0) continue;
+        if (!change.fits(*choice.technique)) continue;
         const auto set = [&](const auto& value) { return choice.settings.set(change.key, value); };
         if (const auto done = std::visit(set, change.value); !done) return done.error();
         found = true;
@@ -96,6 +93,12 @@ std::optional<std::string> unserved(Stage stage, const Choices& choices) {
 }
 
 }  // namespace
+
+bool has_param(const Technique& technique, std::string_view key) {
+    return std::ranges::count(technique.params, key, &Param::name) > 0;
+}
+
+bool SettingChange::fits(const Technique& one) const { return (!technique || technique == &one) && has_param(one, key); }
 
 void ChoiceChanges::drop(Stage stage) {
     techniques[static_cast<std::size_t>(stage)] = nullptr;

@@ -30,7 +30,10 @@ struct SettingChange {
     /// A number. A text where no one technique reads it, or where the technique refuses it.
     std::variant<double, std::string> value;
     friend bool operator==(const SettingChange&, const SettingChange&) = default;
+    /// Whether it is a setting of this technique, chosen or not.
+    bool fits(const Technique&) const;
 };
+bool has_param(const Technique&, std::string_view key);
 
 /// What a request changes about the choices that a frame was recorded with.
 struct ChoiceChanges {
