@@ -14,6 +14,7 @@ using nlohmann::ordered_json;
 ordered_json json_of(const Measurement& row, bool is_timed) {
     ordered_json json{{"technique", row.technique}, {"settings", row.settings}};
     if (!row.truth.empty()) json["truth"] = row.truth;
+    if (row.has_other_truth) json["has_other_truth"] = true;
     if (!row.accuracy.not_supported.empty()) {
         json["not_supported"] = row.accuracy.not_supported;
         return json;
@@ -65,6 +66,7 @@ ordered_json json_of(const PooledRow& row) {
     json["bytes_per_pixel"] = row.bytes_per_pixel;
     if (row.flicker) json["flicker"] = *row.flicker;
     json["captures"] = row.captures;
+    if (row.has_other_truth) json["has_other_truth"] = true;
     json["on_pareto_front"] = row.on_front;
     json["on_memory_front"] = row.on_memory_front;
     return json;

@@ -12,6 +12,7 @@ namespace strata {
 namespace {
 
 constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
+constexpr std::string_view other_truth_legend = "t measured against another truth, so it is not ranked\n";
 constexpr std::string_view tie_legend = "= faster than a more accurate row, but by less than the spread of their times\n";
 
 /// The stage is named once, above the table.
@@ -20,8 +21,16 @@ std::string short_label(const Row& row) {
     return below_stage(label(row.technique, row.settings));
 }
 
-std::string marks(bool fast, bool small, bool tied = false) {
-    return fmt::format("{}{}", fast ? '*' : tied ? '=' : ' ', small ? '+' : ' ');
+template <typename Row>
+std::string marks(const Row& row, bool tied = false) {
+    const char of_time = row.on_front ? '*' : row.has_other_truth ? 't' : tied ? '=' : ' ';
+    return {of_time, row.on_memory_front ? '+' : ' '};
+}
+
+/// What the marks of a table stand for.
+template <typename Row>
+std::string legends(const std::vector<Row>& rows) {
+    return std::string(legend) + std::string(std::ranges::any_of(rows, &Row::has_other_truth) ? other_truth_legend : "");
 }
 
 std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time, x {}", below_stage(unit)); }
@@ -69,7 +78,7 @@ Table table_of(const Report& report) {
     if (report.flicker) table.heads.emplace_back("flicker");
     if (has_coverage_flicker(report)) table.heads.emplace_back("coverage flicker");
     for (const Measurement& row : report.rows) {
-        Table::Row line{marks(row.on_front, row.on_memory_front, row.is_tied), short_label(row), {}};
+        Table::Row line{marks(row, row.is_tied), short_label(row), {}};
         if (!row.accuracy.not_supported.empty()) {
             line.cells = {"not supported: " + row.accuracy.not_supported};
         } else {
@@ -219,8 +228,8 @@ std::string as_text(const Report& report) {
     const std::string stopped = report.stopped.empty() ? "" : "\n" + report.stopped + "\n";
     if (!report.is_timed) return text + "\n" + as_text(table_of(report)) + "\n" + implementation_text(report) + stopped;
     const bool has_ties = std::ranges::any_of(report.rows, &Measurement::is_tied);
-    const std::string legends = std::string(legend) + std::string(has_ties ? tie_legend : "");
-    return text + "\n" + as_text(table_of(report)) + "\n" + legends + implementation_text(report) + mirrors_text(report) +
+    const std::string marked = legends(report.rows) + std::string(has_ties ? tie_legend : "");
+    return text + "\n" + as_text(table_of(report)) + "\n" + marked + implementation_text(report) + mirrors_text(report) +
            best_rows(report.rows, standings(report.rows), ranking_name(report), report.time_unit) + counters_text(report) +
            stopped + answer_text(report);
 }
@@ -235,14 +244,14 @@ std::string as_text(const Pool& pool) {
     if (flickers) table.heads.emplace_back("flicker");
     table.heads.emplace_back("captures");
     for (const PooledRow& row : pool.rows) {
-        Table::Row line{marks(row.on_front, row.on_memory_front), short_label(row), {short_number(row.error)}};
+        Table::Row line{marks(row), short_label(row), {short_number(row.error)}};
         if (!pool.time_unit.empty()) line.cells.push_back(row.time ? fmt::format("{:.2f}", *row.time) : "");
         line.cells.push_back(fmt::format("{:.0f}", row.bytes_per_pixel));
         if (flickers) line.cells.push_back(short_number(*row.flicker));
         line.cells.push_back(row.captures == pool.captures ? "all" : fmt::format("{} of {}", row.captures, pool.captures));
         table.rows.push_back(std::move(line));
     }
-    return text + as_text(table) + "\n" + std::string(legend) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit);
+    return text + as_text(table) + "\n" + legends(pool.rows) + best_rows(pool.rows, standings(pool), pool.error, pool.time_unit);
 }
 
 }  // namespace strata

@@ -29,7 +29,8 @@ PooledRow pooled_row(std::span<const Measurement* const> rows) {
         .time = mean_of(rows, [](const Measurement& row) { return row.time ? std::optional(row.time->median) : std::nullopt; }),
         .bytes_per_pixel = bytes,
         .flicker = mean_of(rows, [](const Measurement& row) { return row.flicker; }),
-        .captures = rows.size()};
+        .captures = rows.size(),
+        .has_other_truth = std::ranges::any_of(rows, [](const Measurement* row) { return row->has_other_truth; })};
 }
 
 void mark_fronts(Pool& pool) {
@@ -73,8 +74,9 @@ Pool pooled(std::span<const Report> reports) {
     if (!one_unit) pool.time_unit.clear();
     for (const auto& same : rows) pool.rows.push_back(pooled_row(same));
     mark_fronts(pool);
-    std::ranges::stable_sort(pool.rows, {},
-                             [&](const PooledRow& row) { return std::tuple(pool.captures - row.captures, row.error); });
+    std::ranges::stable_sort(pool.rows, {}, [&](const PooledRow& row) {
+        return std::tuple(pool.captures - row.captures, row.has_other_truth, row.error);
+    });
     return pool;
 }
 
@@ -82,7 +84,7 @@ std::vector<Standing> standings(const Pool& pool) {
     std::vector<Standing> all;
     for (const PooledRow& row : pool.rows) {
         Standing standing{.time = row.time.value_or(HUGE_VAL), .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (row.captures == pool.captures) standing.error = row.error;
+        if (row.captures == pool.captures && !row.has_other_truth) standing.error = row.error;
         all.push_back(standing);
     }
     return all;

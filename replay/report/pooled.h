@@ -18,7 +18,8 @@ struct PooledRow {
     std::optional<double> time;  ///< in the time unit; none where a capture has none
     double bytes_per_pixel = 0;  ///< arithmetic mean: it may be 0
     std::optional<double> flicker;
-    std::size_t captures = 0;  ///< that it can do; only rows that can do all of them are ranked
+    std::size_t captures = 0;      ///< that it can do; only rows that can do all of them are ranked
+    bool has_other_truth = false;  ///< in any of them: not ranked, see Measurement
     bool on_front = false, on_memory_front = false;
 };
 
@@ -27,7 +28,7 @@ struct Pool {
     std::size_t captures = 0;     ///< whose frame needs the stage
     std::string error;            ///< name of what PooledRow::error is the mean of
     std::string time_unit;        ///< as in Report; empty when not all have the same
-    std::vector<PooledRow> rows;  ///< those that can do all captures first, then the most accurate first
+    std::vector<PooledRow> rows;  ///< those that can do all captures first, then the ranked ones, then the most accurate first
 };
 
 /// Of reports on one stage.
@@ -37,7 +38,7 @@ Pool pooled(std::span<const Report>);
 /// would be all of its mean, and the rounding of an exact method is no merit.
 double geometric_mean(std::span<const double>);
 
-/// Rows that cannot do all captures have no error.
+/// Rows that are not ranked have no error.
 std::vector<Standing> standings(const Pool&);
 
 std::string as_text(const Pool&);

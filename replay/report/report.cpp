@@ -104,7 +104,7 @@ std::vector<Standing> standings(std::span<const Measurement> rows) {
         Standing standing{.time = row.time ? row.time->median : row.stage_ms.median,
                           .spread = row.time ? row.time->mad : row.stage_ms.mad,
                           .bytes_per_pixel = std::round(row.bytes_per_pixel)};
-        if (!row.accuracy.method.empty()) standing.error = ranking_figure(row).value;
+        if (!row.accuracy.method.empty() && !row.has_other_truth) standing.error = ranking_figure(row).value;
         all.push_back(standing);
     }
     return all;
@@ -189,7 +189,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     }
     if (report.is_timed) mark_fronts(report.rows);
     std::ranges::stable_sort(report.rows, {}, [](const Measurement& row) {
-        return row.accuracy.method.empty() ? HUGE_VAL : ranking_figure(row).value;
+        const bool is_measured = !row.accuracy.method.empty();
+        return std::tuple(!is_measured, row.has_other_truth, is_measured ? ranking_figure(row).value : 0);
     });
     tell("done", 1);
     return report;

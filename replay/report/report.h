@@ -54,6 +54,8 @@ struct ReportRequest {
 struct Measurement {
     std::string technique, settings;  ///< settings: "falloff=20 weight=w9", only what differs from the defaults
     std::string truth = {};           ///< ReportTruth::name
+    /// Than the report's first row, the time unit's: it answers another question, often an easier one, and is not ranked.
+    bool has_other_truth = false;
     Accuracy accuracy;
     double tolerance = 0;               ///< of the technique, for accuracy.model_rmse
     double tolerated_worst = HUGE_VAL;  ///< and for accuracy.model_worst
@@ -92,7 +94,7 @@ struct Report {
     std::string time_unit;        ///< the technique whose time is 1; empty: none could be measured
     std::optional<Walk> flicker;  ///< with its dolly
     Question question;
-    std::vector<Measurement> rows;  ///< most accurate first, then what is not supported
+    std::vector<Measurement> rows;  ///< most accurate first, then those with another truth, then what is not supported
     std::string skipped;            ///< why the frame does not need the stage; then there are no rows
     std::string stopped;            ///< what is missing because a stop was asked for: "stopped after 16 of 97 rows"
     bool is_timed = true;           ///< false: stopped before any time was measured
@@ -109,7 +111,8 @@ void mark_fronts(std::vector<Measurement>&);
 const Figure& ranking_figure(const Measurement&);
 /// Its name, and whether it is over what the stage touches alone: "relative rmse touched".
 std::string ranking_name(const Measurement&);
-/// The rows by their ranking figures; time in the time unit, or in milliseconds without one.
+/// The rows by their ranking figures; time in the time unit, or in milliseconds without one. Rows that are not ranked have no
+/// error.
 std::vector<Standing> standings(std::span<const Measurement>);
 /// The row whose time is 1, if it was measured.
 std::optional<std::size_t> baseline_of(const Report&);

@@ -76,6 +76,7 @@ Result<void> RowMaker::make_group(std::size_t end, const Progress& tell) {
         report_->rows.push_back({.technique = std::string(variant.technique->name),
                                  .settings = variant.settings,
                                  .truth = std::string(yardstick.of.name),
+                                 .has_other_truth = yardsticks_->of_row[i] != yardsticks_->of_row.front(),
                                  .accuracy = *std::move(accuracy),
                                  .tolerance = tolerance.rmse,
                                  .tolerated_worst = tolerance.worst,

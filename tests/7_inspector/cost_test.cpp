@@ -81,7 +81,11 @@ TEST(ReportColumns, ABiasRanksByItsSizeAndIsShownWithItsSign) {
     EXPECT_EQ(bias.axis_label(), "|bias| (radiance)");
     EXPECT_THAT(sorted_rows(bias, SortOrder::ascending), ElementsAre(0, 2, 3, 1, 4));
     EXPECT_THAT(sorted_rows(bias, SortOrder::descending), ElementsAre(1, 3, 2, 0, 4));
-    EXPECT_THAT(front_of(bias, column(columns, "ms")), ElementsAre(true, false, true, true, false));
+    EXPECT_THAT(front_of(report(), bias, column(columns, "ms")), ElementsAre(true, false, true, true, false));
+    Report other = report();
+    other.rows[0].has_other_truth = true;
+    EXPECT_THAT(front_of(other, bias, column(columns, "ms")), ElementsAre(false, true, true, true, false))
+        << "a row with another truth neither is on the front nor pushes others off it";
 }
 
 TEST(ReportColumns, AnAxisIsLogarithmicWhereThatIsWorthIt) {

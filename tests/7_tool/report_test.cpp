@@ -58,6 +58,19 @@ TEST(ParetoFront, EqualRowsShareIt) {
     EXPECT_TRUE(rows[1].on_front);
 }
 
+/// It answers another question, as occlusion within a shorter radius does: it neither is ranked nor pushes others off the front.
+TEST(ParetoFront, WhatHasAnotherTruthIsNotRanked) {
+    std::vector<Measurement> rows = {row("easier", .01, 1, 1), row("default", .1, 2, 2)};
+    rows[0].has_other_truth = true;
+    mark_fronts(rows);
+    EXPECT_FALSE(rows[0].on_front);
+    EXPECT_FALSE(rows[0].on_memory_front);
+    EXPECT_TRUE(rows[1].on_front);
+    EXPECT_TRUE(rows[1].on_memory_front);
+    EXPECT_EQ(best_within(standings(rows), {&Standing::time, 4}), 1u);
+    EXPECT_EQ(find_answer(standings(rows), {}, {.error = .2}).cheapest, 1u);
+}
+
 TEST(ParetoFront, WhatIsNotSupportedIsNeverOnIt) {
     std::vector<Measurement> rows = {row("one", .1, 1), {.technique = "cannot"}};
     rows[1].accuracy.not_supported = "chromatic";
@@ -210,7 +223,14 @@ TEST(Report, MeasuresSettingsAgainstTheTruthThatTheyApproximate) {
     EXPECT_THAT(as_text(report), HasSubstr("\ntruth of lpv map_size=16 bounces=2: one and two bounces gathered"));
     const auto json = nlohmann::json::parse(as_json(report));
     EXPECT_EQ(json["truths"][1]["name"], "two bounces");
-    for (const auto& row : json["rows"]) EXPECT_EQ(row.contains("truth"), row["technique"] == "indirect/lpv");
+    for (const auto& row : json["rows"]) {
+        EXPECT_EQ(row.contains("truth"), row["technique"] == "indirect/lpv");
+        EXPECT_EQ(row.contains("has_other_truth"), row["technique"] == "indirect/lpv");
+    }
+    for (const auto& best : json["best_within"]) EXPECT_NE(best["technique"], "indirect/lpv");
+    EXPECT_EQ(report.rows.back().technique, "indirect/lpv") << "what is not ranked comes after what is";
+    EXPECT_THAT(as_text(report), AllOf(HasSubstr("\nt  lpv map_size=16"), HasSubstr("\nt measured against another truth")));
+    EXPECT_THAT(as_csv(report), HasSubstr(",,\"two bounces\"\n"));
 }
 
 /// The truth takes the place of the stage's outputs: what is exact differs from it by float rounding, if at all.
@@ -434,6 +454,17 @@ TEST(Pool, TakesGeometricMeansOfEqualRows) {
     EXPECT_TRUE(pool.rows[0].on_front);
     EXPECT_EQ(pool.rows[1].settings, "k=2");
     EXPECT_FALSE(pool.rows[1].on_front);
+}
+
+TEST(Pool, DoesNotRankWhatHasAnotherTruth) {
+    Measurement easier = row("transparency/easier", .01, 1);
+    easier.has_other_truth = true;
+    const std::vector<Measurement> rows = {easier, row("transparency/one", .4, 4)};
+    const Pool pool = pooled(std::vector{report_on("a", rows), report_on("b", rows)});
+    EXPECT_EQ(pool.rows[0].technique, "transparency/one");
+    EXPECT_TRUE(pool.rows[0].on_front);
+    EXPECT_FALSE(pool.rows[1].on_front);
+    EXPECT_EQ(best_within(standings(pool), {&Standing::time, 4}), 0u);
 }
 
 TEST(Pool, PrefersTheRelativeErrorBecauseFramesDifferInBrightness) {

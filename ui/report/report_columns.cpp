@@ -83,6 +83,7 @@ std::string note_of(const Report& report, const ReportAxes& axes, std::size_t ro
     std::string note = settings.empty() ? "default settings" : settings;
     if (!axes.cost.spreads.empty())
         note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), plural(report.repeats, "repeat"));
+    if (report.rows[row].has_other_truth) note += "\nmeasured against another truth, so it is not ranked";
     if (on_front) note += "\nnothing is both more accurate and cheaper";
     return note + "\nclick applies it";
 }
@@ -179,11 +180,12 @@ AxisScale natural_scale(const ReportColumn& column) {
     return low > 0 && high >= worth_a_logarithm * low ? AxisScale::logarithmic : AxisScale::linear;
 }
 
-std::vector<bool> front_of(const ReportColumn& error, const ReportColumn& cost) {
+std::vector<bool> front_of(const Report& report, const ReportColumn& error, const ReportColumn& cost) {
     std::vector<Standing> standings;
     for (std::size_t row = 0; row < error.values.size(); ++row) {
         const auto spent = cost.size(row);
-        standings.push_back({.error = spent ? error.size(row) : std::nullopt, .time = spent.value_or(0)});
+        const bool is_ranked = spent && !report.rows[row].has_other_truth;
+        standings.push_back({.error = is_ranked ? error.size(row) : std::nullopt, .time = spent.value_or(0)});
     }
     return pareto_front(standings, &Standing::time);
 }
@@ -214,7 +216,7 @@ std::optional<PlotPoint> ReportPlot::point_of(std::size_t row) const {
 }
 
 ReportPlot plot_of(const Report& report, const ReportAxes& axes, std::optional<std::size_t> now) {
-    PlotMaker maker{report, axes, front_of(axes.error, axes.cost), {}};
+    PlotMaker maker{report, axes, front_of(report, axes.error, axes.cost), {}};
     for (std::size_t row = 0; row < report.rows.size(); ++row)
         if (axes.error.size(row) && axes.cost.size(row) && !maker.has_place(row)) ++maker.plot.without_place;
     add_methods(maker);

@@ -39,7 +39,7 @@ const ReportColumn& column_of(std::span<const ReportColumn>, ReportColumn::Kind,
 AxisScale natural_scale(const ReportColumn&);
 
 /// For each row whether nothing is both more accurate and cheaper; rows that lack either are not on it.
-std::vector<bool> front_of(const ReportColumn& error, const ReportColumn& cost);
+std::vector<bool> front_of(const Report&, const ReportColumn& error, const ReportColumn& cost);
 
 /// Rows in the order of a column's sizes, then those that lack it; equal ones as they were.
 enum class SortOrder { ascending, descending };

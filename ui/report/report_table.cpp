@@ -39,7 +39,7 @@ std::optional<std::size_t> ReportTable::draw(Widgets& widgets, const Study& stud
     if (!ImGui::BeginTable("rows", static_cast<int>(2 + columns.size()), flags, size)) return clicked;
     ImGui::TableSetupScrollFreeze(2, 1);
     draw_heads(widgets, columns, marks.axes);
-    const std::vector<bool> front = front_of(marks.axes.error, marks.axes.cost);
+    const std::vector<bool> front = front_of(study.report, marks.axes.error, marks.axes.cost);
     const auto sorted_by = std::ranges::find(study.columns, sorted_by_, &ReportColumn::label);
     for (const std::size_t row : sorted_rows(sorted_by == study.columns.end() ? marks.axes.error : *sorted_by, order_)) {
         if (!study.report.rows[row].accuracy.not_supported.empty()) continue;
@@ -79,7 +79,8 @@ bool ReportTable::draw_row(Widgets& widgets, const Study& study, std::size_t row
     const std::string name = name_of(measured);
     const auto scope = widgets.in(name);
     ImGui::TableNextColumn();
-    widgets.text("front", look.on_front ? star : " ", &palette().warning);
+    widgets.text("front", look.on_front ? star : measured.has_other_truth ? "t" : " ", &palette().warning);
+    if (measured.has_other_truth) widgets.help("t: measured against another truth, so it is not ranked");
     ImGui::TableNextColumn();
     ImGui::TextColored(color_of_method(measured.technique), "%s", dot);
     ImGui::SameLine();
