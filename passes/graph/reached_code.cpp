@@ -2,162 +2,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
-#include <optional>
-#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
-#define SPV_ENABLE_UTILITY_CODE
 #include <GLSL.std.450.h>
-#include <spirv.hpp>
 
+#include "passes/graph/running_blocks.h"
 #include "passes/graph/shader.h"
 
 namespace strata {
 namespace {
-
-constexpr std::size_t header_words = 5;
-
-struct Instruction {
-    spv::Op op;
-    std::span<const std::uint32_t> words;  ///< the first holds opcode and length
-
-    /// The id that it defines, or nothing.
-    std::optional<std::uint32_t> result() const {
-        bool has_result = false, has_type = false;
-        spv::HasResultAndType(op, &has_result, &has_type);
-        if (!has_result) return {};
-        return words[has_type ? 2 : 1];
-    }
-};
-
-std::vector<Instruction> instructions_of(std::span<const std::uint32_t> code) {
-    std::vector<Instruction> all;
-    for (std::size_t at = header_words; at < code.size();) {
-        const std::size_t length = code[at] >> 16;
-        if (length == 0 || at + length > code.size()) return {};
-        all.push_back({static_cast<spv::Op>(code[at] & 0xffffu), code.subspan(at, length)});
-        at += length;
-    }
-    return all;
-}
-
-/// What an operation on constants gives, where it is one that shaders choose branches by.
-std::optional<std::uint32_t> result_of(spv::Op op, std::span<const std::uint32_t> in) {
-    const std::uint32_t a = in[0], b = in.size() > 1 ? in[1] : 0, c = in.size() > 2 ? in[2] : 0;
-    switch (op) {
-        case spv::OpLogicalNot:
-            return !a;
-        case spv::OpNot:
-            return ~a;
-        case spv::OpIEqual:
-        case spv::OpLogicalEqual:
-            return a == b;
-        case spv::OpINotEqual:
-        case spv::OpLogicalNotEqual:
-            return a != b;
-        case spv::OpUGreaterThan:
-            return a > b;
-        case spv::OpUGreaterThanEqual:
-            return a >= b;
-        case spv::OpULessThan:
-            return a < b;
-        case spv::OpULessThanEqual:
-            return a <= b;
-        case spv::OpLogicalAnd:
-        case spv::OpBitwiseAnd:
-            return a & b;
-        case spv::OpLogicalOr:
-        case spv::OpBitwiseOr:
-            return a | b;
-        case spv::OpIAdd:
-            return a + b;
-        case spv::OpISub:
-            return a - b;
-        case spv::OpSelect:
-            return a ? b : c;
-        default:
-            return {};
-    }
-}
-
-/// The values of constants that are a 32-bit integer or a bool (0 or 1), by id.
-class KnownConstants {
-public:
-    explicit KnownConstants(std::span<const ConstantBits> given) {
-        for (const ConstantBits& constant : given) given_[constant.id] = constant.bits;
-    }
-
-    /// To be called for a module's instructions in their order.
-    void add(const Instruction& i) {
-        const std::span<const std::uint32_t> words = i.words;
-        if (i.op == spv::OpDecorate && words[2] == spv::DecorationSpecId) spec_ids_[words[1]] = words[3];
-        if (i.op == spv::OpTypeInt && words[2] == 32) integers_.insert(words[1]);
-        if (i.op == spv::OpTypeBool) integers_.insert(words[1]);
-        const auto result = i.result();
-        if (!result || words.size() < 3 || !integers_.contains(words[1])) return;
-        if (i.op == spv::OpConstantTrue || i.op == spv::OpConstantFalse) values_[*result] = i.op == spv::OpConstantTrue;
-        if (i.op == spv::OpSpecConstantTrue || i.op == spv::OpSpecConstantFalse)
-            values_[*result] = given(*result, i.op == spv::OpSpecConstantTrue) != 0;
-        if (i.op == spv::OpConstant) values_[*result] = words[3];
-        if (i.op == spv::OpSpecConstant) values_[*result] = given(*result, words[3]);
-        if (i.op == spv::OpSpecConstantOp) add_operation(*result, static_cast<spv::Op>(words[3]), words.subspan(4));
-    }
-
-    std::optional<std::uint32_t> find(std::uint32_t id) const {
-        const auto found = values_.find(id);
-        return found == values_.end() ? std::nullopt : std::optional(found->second);
-    }
-
-private:
-    std::uint32_t given(std::uint32_t id, std::uint32_t otherwise) const {
-        const auto spec = spec_ids_.find(id);
-        const auto found = spec == spec_ids_.end() ? given_.end() : given_.find(spec->second);
-        return found == given_.end() ? otherwise : found->second;
-    }
-    void add_operation(std::uint32_t id, spv::Op op, std::span<const std::uint32_t> operands) {
-        std::vector<std::uint32_t> in;
-        for (const std::uint32_t operand : operands) {
-            const auto value = find(operand);
-            if (!value) return;
-            in.push_back(*value);
-        }
-        if (in.empty()) return;
-        if (const auto value = result_of(op, in)) values_[id] = *value;
-    }
-
-    std::unordered_map<std::uint32_t, std::uint32_t> given_, spec_ids_, values_;
-    std::unordered_set<std::uint32_t> integers_;  ///< types
-};
-
-/// Where a block's last instruction may lead.
-std::vector<std::uint32_t> successors(const Instruction& last, const KnownConstants& constants) {
-    const std::span<const std::uint32_t> words = last.words;
-    if (last.op == spv::OpBranch) return {words[1]};
-    if (last.op == spv::OpBranchConditional) {
-        if (const auto taken = constants.find(words[1])) return {*taken ? words[2] : words[3]};
-        return {words[2], words[3]};
-    }
-    std::vector<std::uint32_t> labels;
-    if (last.op != spv::OpSwitch) return labels;
-    const auto selected = constants.find(words[1]);
-    std::uint32_t chosen = words[2];
-    for (std::size_t i = 3; i + 1 < words.size(); i += 2) {
-        labels.push_back(words[i + 1]);
-        if (selected == words[i]) chosen = words[i + 1];
-    }
-    labels.push_back(words[2]);
-    return selected ? std::vector{chosen} : labels;
-}
-
-/// A function: its instructions, and those of the blocks that run.
-struct Function {
-    std::span<const Instruction> body;                       ///< OpFunction to OpFunctionEnd
-    std::vector<std::uint32_t> calls;                        ///< in blocks that run
-    std::set<std::size_t> idle_calls;                        ///< in the others, by place in the body
-    std::vector<std::span<const Instruction>> running = {};  ///< blocks that run
-};
 
 /// Numbers that values consist of.
 class Components {
@@ -209,75 +63,9 @@ std::uint64_t operations_of(const Instruction& i, const Components& components) 
     return computes ? components.of_type(words[1]) : 0;
 }
 
-Function function_of(std::span<const Instruction> body, const KnownConstants& constants) {
-    struct Block {
-        std::size_t first = 0, last = 0;
-    };
-    std::map<std::uint32_t, Block> blocks;
-    std::vector<std::uint32_t> next;
-    std::uint32_t label = 0;
-    for (std::size_t i = 0; i < body.size(); ++i) {
-        if (body[i].op == spv::OpLabel) blocks[label = body[i].words[1]].first = i;
-        if (label != 0 && next.empty()) next.push_back(label);
-        if (label != 0) blocks[label].last = body[i].op == spv::OpFunctionEnd ? i - 1 : i;
-    }
-    std::set<std::uint32_t> reached(next.begin(), next.end());
-    Function function{body, {}, {}};
-    while (!next.empty()) {
-        const Block block = blocks[next.back()];
-        next.pop_back();
-        function.running.push_back(body.subspan(block.first, block.last - block.first + 1));
-        for (const Instruction& i : function.running.back())
-            if (i.op == spv::OpFunctionCall) function.calls.push_back(i.words[3]);
-        for (const std::uint32_t to : successors(body[block.last], constants))
-            if (reached.insert(to).second) next.push_back(to);
-    }
-    for (const auto& [id, block] : blocks)
-        for (std::size_t i = block.first; i <= block.last && !reached.contains(id); ++i)
-            if (body[i].op == spv::OpFunctionCall) function.idle_calls.insert(i);
-    return function;
-}
-
-/// A module taken apart.
-struct Module {
-    std::span<const Instruction> head;  ///< all before the first function
-    std::map<std::uint32_t, Function> functions;
-    std::vector<std::uint32_t> order;  ///< of the functions
-    std::set<std::uint32_t> called;    ///< functions that run
-    std::set<std::uint32_t> void_types = {};
-    std::vector<std::uint32_t> entries = {};
-};
-
-Module module_of(std::span<const Instruction> all, std::span<const ConstantBits> given) {
-    const auto first = std::ranges::find(all, spv::OpFunction, &Instruction::op);
-    Module module{all.first(static_cast<std::size_t>(first - all.begin())), {}, {}, {}, {}};
-    KnownConstants constants(given);
-    for (const Instruction& i : module.head) {
-        constants.add(i);
-        if (i.op == spv::OpEntryPoint) module.entries.push_back(i.words[2]);
-        if (i.op == spv::OpTypeVoid) module.void_types.insert(i.words[1]);
-    }
-    for (auto begin = first; begin != all.end();) {
-        const auto end = std::find_if(begin, all.end(), [](const Instruction& i) { return i.op == spv::OpFunctionEnd; });
-        if (end == all.end()) break;
-        module.order.push_back(begin->words[2]);
-        module.functions.emplace(begin->words[2], function_of({begin, end + 1}, constants));
-        begin = end + 1;
-    }
-    std::vector<std::uint32_t> next = module.entries;
-    module.called.insert(next.begin(), next.end());
-    while (!next.empty()) {
-        const std::vector<std::uint32_t> calls = module.functions.at(next.back()).calls;
-        next.pop_back();
-        for (const std::uint32_t callee : calls)
-            if (module.called.insert(callee).second) next.push_back(callee);
-    }
-    return module;
-}
-
 /// Of a function with what it calls.
-OperationCount count_of(const Module& module, const Components& components, std::uint32_t id) {
-    const Function& function = module.functions.at(id);
+OperationCount count_of(const RunningModule& module, const Components& components, std::uint32_t id) {
+    const RunningFunction& function = module.functions.at(id);
     OperationCount count;
     for (const std::span<const Instruction> block : function.running)
         for (const Instruction& i : block) {
@@ -293,7 +81,7 @@ OperationCount count_of(const Module& module, const Components& components, std:
 }
 
 /// What the functions that are left out define: names and decorations of it go, too.
-std::unordered_set<std::uint32_t> ids_left_out(const Module& module) {
+std::unordered_set<std::uint32_t> ids_left_out(const RunningModule& module) {
     std::unordered_set<std::uint32_t> ids;
     for (const auto& [id, function] : module.functions) {
         for (std::size_t i = 0; i < function.body.size(); ++i) {
@@ -306,7 +94,7 @@ std::unordered_set<std::uint32_t> ids_left_out(const Module& module) {
 }
 
 /// Outputs of sample masks that no function writes any more: undefined, and lavapipe 22.3 covers no sample by them.
-std::unordered_set<std::uint32_t> unwritten_masks(const Module& module) {
+std::unordered_set<std::uint32_t> unwritten_masks(const RunningModule& module) {
     std::unordered_set<std::uint32_t> masks, outputs;
     for (const Instruction& i : module.head) {
         const bool is_builtin = i.op == spv::OpDecorate && i.words[2] == spv::DecorationBuiltIn;
@@ -350,7 +138,7 @@ std::vector<ConstantBits> fixed_constants(const Shader& shader, const Step& step
 
 OperationCount count_operations(std::span<const std::uint32_t> code, std::span<const ConstantBits> constants) {
     const std::vector<Instruction> all = instructions_of(code);
-    const Module module = module_of(all, constants);
+    const RunningModule module = running_blocks(all, constants);
     Components components;
     for (const Instruction& i : all) components.add(i);
     return module.entries.empty() ? OperationCount{} : count_of(module, components, module.entries.front());
@@ -359,11 +147,11 @@ OperationCount count_operations(std::span<const std::uint32_t> code, std::span<c
 std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std::span<const ConstantBits> given) {
     const std::vector<Instruction> all = instructions_of(code);
     if (all.empty()) return {code.begin(), code.end()};
-    const Module module = module_of(all, given);
+    const RunningModule module = running_blocks(all, given);
     auto left_out = ids_left_out(module);
     const auto masks = unwritten_masks(module);
     left_out.insert(masks.begin(), masks.end());
-    std::vector<std::uint32_t> reached(code.begin(), code.begin() + header_words);
+    std::vector<std::uint32_t> reached(code.begin(), code.begin() + spirv_header_words);
     const auto keep = [&](std::span<const std::uint32_t> words) { reached.insert(reached.end(), words.begin(), words.end()); };
     for (const Instruction& i : module.head) {
         const bool is_about_an_id = i.op == spv::OpName || i.op == spv::OpDecorate;
@@ -374,7 +162,7 @@ std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std
     }
     for (const std::uint32_t id : module.order) {
         if (!module.called.contains(id)) continue;
-        const Function& function = module.functions.at(id);
+        const RunningFunction& function = module.functions.at(id);
         for (std::size_t i = 0; i < function.body.size(); ++i) {
             const std::span<const std::uint32_t> words = function.body[i].words;
             if (!function.idle_calls.contains(i)) keep(words);

@@ -20,7 +20,8 @@ struct ConstantBits {
 /// The constants of the shader that the step fixes, in the shader's order.
 std::vector<ConstantBits> fixed_constants(const Shader&, const Step&);
 
-/// SPIR-V without the functions that are only called where a branch on constants never leads. A constant that is not given has
+/// SPIR-V without the functions that are only called where a branch on constants never leads; running_blocks.h says how far
+/// constants are followed. A constant that is not given has
 /// the shader's default. Every other instruction stays, the constants and the branches too: what runs is the same, step by step.
 /// An output gl_SampleMask that is written by functions left out alone goes, too: it would be undefined.
 std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std::span<const ConstantBits> constants);

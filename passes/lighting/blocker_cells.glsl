@@ -77,13 +77,13 @@ BlockerRecord portal_rectangle(BlockerRecord blocker, BlockerPortalRecord portal
     return r;
 }
 
-uint classify_blocker(LightRecord light, uint local, Cell cell) {
-    return classify_rectangle(blockers[light_blockers[light.first_blocker + local].blocker], light_point(light), cell);
+BlockerRecord rectangle_of_blocker(LightRecord light, uint local) {
+    return blockers[light_blockers[light.first_blocker + local].blocker];
 }
 
-uint classify_portal(LightRecord light, uint local, Cell cell) {
+BlockerRecord rectangle_of_portal(LightRecord light, uint local) {
     const BlockerPortalRecord portal = blocker_portals[light.first_portal + local];
-    return classify_rectangle(portal_rectangle(blockers[portal.blocker], portal), light_point(light), cell);
+    return portal_rectangle(blockers[portal.blocker], portal);
 }
 
 #endif

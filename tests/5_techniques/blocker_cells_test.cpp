@@ -35,13 +35,14 @@ constexpr std::string_view shader = R"(
         uint open = 0u;
         uvec3 left = uvec3(0u);
         for (uint k = 0u; k < light.portals; ++k) {
-            const uint c = classify_portal(light, k, cell);
+            const uint c = classify_rectangle(rectangle_of_portal(light, k), light_point(light), cell);
             f.portals |= c << (2u * k);
             if (c == class_full) open |= 1u << k;
             if (c == class_partial) left.y |= 1u << k;
         }
         for (uint b = 0u; b < light.blockers; ++b) {
-            const uint c = classify_blocker(light, b, cell), holes = light_blockers[light.first_blocker + b].portals;
+            const uint c = classify_rectangle(rectangle_of_blocker(light, b), light_point(light), cell);
+            const uint holes = light_blockers[light.first_blocker + b].portals;
             f.blockers |= c << (2u * b);
             if ((holes & open) != 0u || c == class_none) continue;
             if (c == class_full && (holes & left.y) == 0u) left.z = 1u;

@@ -42,14 +42,20 @@ uvec2 pair_of_thread() {
     return uvec2(pair >> 5 & 63u, pair & 31u);
 }
 
-// Of both cells: what holds in each holds in the tile.
-uint in_both(uint near, uint far) { return near == far ? near : class_partial; }
+// In all cells of the tile: what holds in each holds in the tile.
+uint class_in_tile(BlockerRecord rectangle, LightRecord light, TileCells cells) {
+    uint reach = class_partial;
+    for (uint i = 0u; i < cell_count(cells); ++i) {
+        const uint here = classify_rectangle(rectangle, light_point(light), cell_of(cells, i));
+        reach = i == 0u || here == reach ? here : class_partial;
+    }
+    return reach;
+}
 
 void classify_portals(TileCells cells) {
     const uvec2 pair = pair_of_thread();
     const LightRecord light = lights[lists.initial[pair.x]];
-    const uint near = classify_portal(light, pair.y, cells.near);
-    const uint reach = cells.two ? in_both(near, classify_portal(light, pair.y, cells.far)) : near;
+    const uint reach = class_in_tile(rectangle_of_portal(light, pair.y), light, cells);
     if (reach == class_full) atomicOr(lists.portals_full[pair.x], 1u << pair.y);
     if (reach != class_partial) atomicAnd(lists.portals_part[pair.x], ~(1u << pair.y));
     atomicAdd(lists.classes[reach], 1u);
@@ -59,8 +65,7 @@ void classify_blockers(TileCells cells) {
     const uvec2 pair = pair_of_thread();
     const LightRecord light = lights[lists.initial[pair.x]];
     const uint portals = light_blockers[light.first_blocker + pair.y].portals;
-    const uint near = classify_blocker(light, pair.y, cells.near);
-    const uint reach = cells.two ? in_both(near, classify_blocker(light, pair.y, cells.far)) : near;
+    const uint reach = class_in_tile(rectangle_of_blocker(light, pair.y), light, cells);
     if (reach == class_none) atomicAnd(lists.blockers_part[pair.x], ~(1u << pair.y));
     if (reach == class_full && (portals & lists.portals_part[pair.x]) == 0u)
         atomicOr(lists.killed[pair.x / 32u], 1u << (pair.x & 31u));

@@ -15,7 +15,9 @@ uint candidate_count() { return is_prefiltered != 0u ? candidates[candidate_list
 uint candidate_light(uint place) { return is_prefiltered != 0u ? candidates[candidate_list() + 1u + place] : place; }
 
 bool touches_tile(LightRecord light, TileCells cells) {
-    return light_touches(light, cells.near) || cells.two && light_touches(light, cells.far);
+    for (uint i = 0u; i < cell_count(cells); ++i)
+        if (light_touches(light, cell_of(cells, i))) return true;
+    return false;
 }
 
 void begin_tile() {

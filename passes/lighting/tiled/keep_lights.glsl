@@ -15,7 +15,8 @@ uint features_here(LightRecord light, uint blocker_mask, uint portal_mask, TileC
     if (light.visibility_layer != no_index) here |= (light.features | feature_shadows) & shadow_features;
     if (blocker_mask != 0u) here |= feature_blockers;
     if (has_live_portal(light, blocker_mask, portal_mask)) here |= feature_portals;
-    const bool is_cut = is_straddled(light, cells.near) || cells.two && is_straddled(light, cells.far);
+    bool is_cut = false;
+    for (uint i = 0u; i < cell_count(cells) && !is_cut; ++i) is_cut = is_straddled(light, cell_of(cells, i));
     return is_cut ? here : here & ~feature_clip_planes;
 }
 
