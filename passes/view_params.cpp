@@ -1,6 +1,7 @@
 #include "passes/view_params.h"
 
 #include <cctype>
+#include <string>
 
 namespace strata {
 namespace {
@@ -17,10 +18,16 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
+bool names_param(const DebugView& view, std::string_view param) {
+    std::string marked = "`";
+    marked.append(param).append("`");
+    return view.help.find(marked) != view.help.npos;
+}
+
 std::vector<const Param*> params_of(const Technique& technique, const DebugView& view) {
     std::vector<const Param*> found;
     for (const Param& param : technique.params)
-        if (has_word(view.help, param.name)) found.push_back(&param);
+        if (names_param(view, param.name)) found.push_back(&param);
     return found;
 }
 

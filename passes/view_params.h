@@ -1,4 +1,4 @@
-// The parameters that a debug view depends on: its help names them.
+// The parameters that a debug view is read with: its help has their names in backticks.
 #pragma once
 
 #include <string_view>
@@ -10,6 +10,10 @@ namespace strata {
 
 /// Whether the text has the word, between characters that are no part of one.
 bool has_word(std::string_view text, std::string_view word);
+
+/// Whether the view's help names the parameter, as in "texels of pyramid level `level`". Words that are a parameter's name by
+/// coincidence ("before distortion") are none.
+bool names_param(const DebugView&, std::string_view param);
 
 std::vector<const Param*> params_of(const Technique&, const DebugView&);
 

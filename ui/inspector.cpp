@@ -226,7 +226,8 @@ void Inspector::draw_top_bar() {
 
 void Inspector::draw_frame_choice() {
     const std::size_t count = replayer_->facts() ? replayer_->facts()->frames : 1;
-    widgets_.text("frame text", fmt::format("frame {} of {}", model_.edits().variant.frame, count), &palette().dim);
+    const std::string range_text = count < 2 ? "frame 0" : fmt::format("frame (0 to {})", count - 1);
+    widgets_.text("frame text", range_text, &palette().dim);
     if (count < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(140);

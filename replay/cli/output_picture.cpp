@@ -49,20 +49,24 @@ const DebugView* find_shown_view(std::string_view image) {
 /// Of an image of the frame, or of a debug view.
 ImageLegend legend_of(std::string_view image) {
     if (const FrameImageRow* row = find_frame_image(image))
-        return {.low = {}, .channels = channel_swatches(row->channels), .help = std::string(row->help)};
+        return {.low = {},
+                .unit = row->content == Content::radiance ? "W/(m^2 sr)" : "",
+                .channels = channel_swatches(row->channels),
+                .help = std::string(row->help)};
     const DebugView* view = find_shown_view(image);
     return view ? legend_of(*view) : ImageLegend{};
 }
 
-/// Without the parameters that have their defaults and that the sentence does not name.
-std::string without_defaults(const std::string& choice, std::string_view sentence) {
+/// Without the parameters that have their defaults and that the view, if there is one, does not name.
+std::string without_defaults(const std::string& choice, const DebugView* view) {
     std::istringstream words(choice);
     std::string text, word;
     words >> text;
     const auto technique = find_technique(text);
     const std::vector<std::string> defaults = technique ? Settings((*technique)->params).lines() : std::vector<std::string>();
     while (words >> word)
-        if (std::ranges::count(defaults, word) == 0 || has_word(sentence, word.substr(0, word.find('=')))) text += " " + word;
+        if (std::ranges::count(defaults, word) == 0 || (view && names_param(*view, word.substr(0, word.find('=')))))
+            text += " " + word;
     return text;
 }
 
@@ -73,14 +77,14 @@ std::string choice_of(const Run& run, std::string_view image) {
     for (const StageInfo& stage : stages()) {
         const auto choice = run.choices.find(std::string(stage.name));
         const bool is_its = image.starts_with(std::string(stage.name) + "/") || std::ranges::count(stage.outputs, image) > 0;
-        if (is_its && choice != run.choices.end()) last = without_defaults(choice->second, view ? view->help : "");
+        if (is_its && choice != run.choices.end()) last = without_defaults(choice->second, view);
     }
     return last;
 }
 
 }  // namespace
 
-std::string without_defaults(const std::string& choice) { return without_defaults(choice, ""); }
+std::string without_defaults(const std::string& choice) { return without_defaults(choice, nullptr); }
 
 Result<void> write_output_picture(const std::filesystem::path& path, const Run& run, const std::string& image,
                                   const std::string& of) {

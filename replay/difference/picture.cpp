@@ -22,7 +22,21 @@ struct Texels {
     std::uint32_t channels = 4;
     std::vector<glm::dvec3> values;
     std::vector<double> alpha = {};
+    double least = 0, most = 0;  ///< of all channels of the texels that are finite; 0 where none is
+    std::size_t finite_texels = 0;
 };
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
+
+void find_ends(Texels& texels) {
+    for (const glm::dvec3& v : texels.values) {
+        if (!finite(v)) continue;
+        const double least = std::min({v.x, v.y, v.z}), most = std::max({v.x, v.y, v.z});
+        texels.least = texels.finite_texels == 0 ? least : std::min(texels.least, least);
+        texels.most = texels.finite_texels == 0 ? most : std::max(texels.most, most);
+        ++texels.finite_texels;
+    }
+}
 
 /// The part of an image that is shown: samples of light averaged, of anything else one layer.
 Texels texels_of(std::string_view name, const HostImage& image, std::uint32_t layer_shown) {
@@ -42,6 +56,7 @@ Texels texels_of(std::string_view name, const HostImage& image, std::uint32_t la
             shown.alpha.push_back(sum.w / double(count));
             if (shown.channels == 1) shown.values.back() = glm::dvec3(shown.values.back().x);
         }
+    find_ends(shown);
     return shown;
 }
 
@@ -49,14 +64,14 @@ Texels texels_of(std::string_view name, const HostImage& image, std::uint32_t la
 Texels alpha_of(const Texels& all) {
     Texels shown{all.width, all.height, Content::numbers, 1, {}};
     for (double alpha : all.alpha) shown.values.push_back(glm::dvec3(alpha));
+    find_ends(shown);
     return shown;
 }
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
-
-/// The value up to which a share of all finite channels lies: of few values the larger neighbor.
+/// The value up to which a share of all finite channels lies: of few values the larger neighbor. 0 where none is finite.
 double quantile(const std::vector<glm::dvec3>& values, double share) {
     std::vector<double> all;
+    all.reserve(3 * values.size());
     for (const glm::dvec3& v : values)
         if (finite(v)) all.insert(all.end(), {v.x, v.y, v.z});
     if (all.empty()) return 0;
@@ -103,8 +118,8 @@ struct Range {
 Range range_of(const Texels& a, Format format) {
     if (a.content == Content::display)
         return {0, 1, row(format).bytes == row(format).channels ? Content::numbers : Content::radiance};
-    const double high = quantile(a.values, a.content == Content::radiance ? .99 : 1),
-                 low = a.content == Content::radiance ? 0 : quantile(a.values, 0);
+    const double high = a.content == Content::radiance ? quantile(a.values, .99) : a.most,
+                 low = a.content == Content::radiance ? 0 : a.least;
     const Content shown = a.content == Content::radiance ? Content::radiance : Content::numbers;
     if (high > low) return {low, high, shown};
     return {std::min(low, 0.), low > 0 ? low : std::min(low, 0.) + 1, shown};  // one value everywhere: white above 0, not black
@@ -174,8 +189,8 @@ void draw(Canvas& canvas, const Panel& panel, Box box, const Texels& size, const
 /// Beyond an end of the legend values have the end's color, and the end says so.
 Panel image_panel(const std::string& label, const Texels& texels, const Range& range, const std::string& unit = "") {
     const double step = (range.high - range.low) / 255;  // less is no other color
-    const bool below = range.low - quantile(texels.values, 0) > step;
-    const bool above = quantile(texels.values, 1) - range.high > step;
+    const bool below = range.low - texels.least > step;
+    const bool above = texels.most - range.high > step;
     Panel panel{label, [&texels, range](std::size_t i) { return range.color(texels.values[i]); },
                 [range](double share) { return range.color(glm::dvec3(range.low + share * (range.high - range.low))); },
                 (below ? "<= " : "") + text_of(range.low, 3) + unit, (above ? ">= " : "") + text_of(range.high, 3) + unit};
@@ -206,40 +221,30 @@ Panel difference_panel(const Texels& a, const Texels& b, const std::string& of) 
             channels > 1 ? "0" : (less ? "<= " : "") + text_of(-1 / gain, 3), (more ? ">= " : "") + text_of(1 / gain, 3)};
 }
 
-}  // namespace
-
-Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) {
-    const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
-    return write_png(path, extent, std::as_bytes(std::span(canvas.pixels())));
-}
-
-namespace {
-
 /// Of a debug view from its lowest value on, of anything else as in a difference.
 Range range_of(const Texels& shown, Format format, const ImageLegend& legend) {
     if (!legend.colors.empty()) return {0, 1};
     if (!legend.low) return range_of(shown, format);
-    const double high = quantile(shown.values, 1);
+    const double high = shown.most;
     if (legend.middle) {
-        const double least = quantile(shown.values, 0);
-        const double reach = std::max({high - *legend.middle, *legend.middle - least, 1e-6});
+        const double reach = std::max({high - *legend.middle, *legend.middle - shown.least, 1e-6});
         // What no value of the view can be is no part of the scale: a factor is not below 0.
-        const double low = std::max(*legend.middle - reach, std::min(*legend.low, least));
+        const double low = std::max(*legend.middle - reach, std::min(*legend.low, shown.least));
         return {low, *legend.middle + reach, Content::numbers, legend.middle};
     }
-    const double low = std::min(*legend.low, quantile(shown.values, 0));
+    const double low = std::min(*legend.low, shown.least);
     return {low, high > low ? high : low + 1};
 }
 
 /// What the values of an image say of themselves, in a sentence.
 std::string values_note(const Texels& shown, const ImageLegend& legend) {
     const std::string unit = legend.unit.empty() ? "" : " " + legend.unit;
-    const double least = quantile(shown.values, 0), most = quantile(shown.values, 1);
-    if (std::ranges::none_of(shown.values, finite)) return "every pixel is NaN or infinite";
+    const double least = shown.least, most = shown.most;
+    if (shown.finite_texels == 0) return "every pixel is NaN or infinite";
     std::string note = fmt::format("values {} to {}{}", text_of(least, 4), text_of(most, 4), unit);
     if (least == most) note = fmt::format("every pixel is {}{}", text_of(least, 4), unit);
     if (least == most && least == 0 && !legend.if_zero.empty()) note = legend.if_zero;
-    if (!std::ranges::all_of(shown.values, finite)) note += ", magenta: NaN or infinite";
+    if (shown.finite_texels < shown.values.size()) note += ", magenta: NaN or infinite";
     return note;
 }
 
@@ -266,6 +271,15 @@ bool mixes_channels(const Texels& shown, const Range& range, const std::vector<S
     });
 }
 
+/// What a channel's color stands for, and what the channel's values lie between: one that is small beside another is not seen.
+std::string channel_text(const Texels& shown, const Swatch& channel) {
+    const glm::length_t c = channel.color.x > 0 ? 0 : channel.color.y > 0 ? 1 : 2;
+    Texels one;
+    for (const glm::dvec3& v : shown.values) one.values.emplace_back(v[c]);
+    find_ends(one);
+    return fmt::format("{} ({} to {})", channel.meaning, text_of(one.least, 3), text_of(one.most, 3));
+}
+
 constexpr int swatch_width = 2 * Canvas::line;
 
 /// A line of text below an image, beside a swatch or not.
@@ -282,7 +296,10 @@ std::vector<Line> lines_below(const Texels& shown, const ImageLegend& legend, co
     if (legend.colors.empty())
         for (const std::string& text : wrapped(values_note(shown, legend), width)) lines.push_back({text, ink});
     constexpr int indent = swatch_width + gap;
-    for (const Swatch& swatch : legend.colors.empty() ? legend.channels : seen_in(shown, range, legend.colors)) {
+    std::vector<Swatch> swatches = seen_in(shown, range, legend.colors);
+    if (legend.colors.empty())
+        for (const Swatch& channel : legend.channels) swatches.push_back({channel.color, channel_text(shown, channel)});
+    for (const Swatch& swatch : swatches) {
         std::optional<Rgb> color = swatch.color;
         for (const std::string& text : wrapped(swatch.meaning, width - indent))
             lines.push_back({text, ink, indent, std::exchange(color, std::nullopt)});
@@ -295,6 +312,11 @@ std::vector<Line> lines_below(const Texels& shown, const ImageLegend& legend, co
 }
 
 }  // namespace
+
+Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) {
+    const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};
+    return write_png(path, extent, std::as_bytes(std::span(canvas.pixels())));
+}
 
 Canvas image_picture(std::string_view name, const HostImage& image, const std::string& title, const ImageLegend& legend) {
     const Texels shown = texels_of(name, image, 0);

@@ -147,6 +147,20 @@ TEST(edges_judge, tells_missed_edges_from_needless_ones) {
     EXPECT_EQ(figures.at("shaded per sample"), 75);
 }
 
+TEST(edges_judge, counts_decided_pixels_only) {
+    ReferenceImage truth(4, 1), got(4, 1);
+    truth.texels[0].x = 1;  // missed, but rounding decides it
+    got.texels[1].x = 1;    // needless, but rounding decides it
+    truth.texels[2].x = got.texels[2].x = 1;
+    truth.undecided = {true, false, false, false};
+    got.undecided = {false, true, false, false};
+    const Frame frame = tiny::frame(4, 1, 4);
+    const Figures figures = by_name(edges_judge({{"edges", got}}, {{"edges", truth}}, {frame, {}}));
+    EXPECT_EQ(figures.at("missed"), 0);
+    EXPECT_EQ(figures.at("needless"), 0);
+    EXPECT_EQ(figures.at("shaded per sample"), 50) << "of two pixels that are decided";
+}
+
 namespace {
 
 /// Four samples in a row, three of them of a surface at 5 m that faces the eye.

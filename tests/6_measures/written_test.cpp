@@ -179,6 +179,21 @@ TEST(ImagePicture, SaysWhatMixedColorsAre) {
     EXPECT_EQ(mixed.height(), apart.height() + Canvas::line);
 }
 
+/// Of red to 199 and green to 14 only red was to be seen.
+TEST(ImagePicture, SaysWhatEachChannelLiesBetween) {
+    const auto with = [](float green) {
+        const ImageLegend legend{.low = 0, .channels = {{{0, 255, 0}, "culled"}}};
+        return image_picture("a:b", image({199, 0, 0, 1, 0, green, 0, 1}, 2), "title", legend);
+    };
+    const Canvas few = with(14), one_more = with(15);
+    // The line beside the swatch, below the scale and the line of values.
+    const int top = 2 * 12 + 2 * Canvas::line + 240 + 12 + 10 + 2 * Canvas::line;
+    bool differs = false;
+    for (int y = top; y < few.height(); ++y)
+        for (int x = 0; x < few.width(); ++x) differs |= at(few, x, y) != at(one_more, x, y);
+    EXPECT_TRUE(differs);
+}
+
 /// One pixel of 1200 lies beyond the 99.5 % that the gain is made for.
 TEST(DifferencePicture, SaysThatTheScaleEndsBelowTheLargestDifference) {
     const HostImage a = even(40, 30, .25f);

@@ -256,6 +256,25 @@ TEST(Compare, ATruthIsHeldAgainstWhatItsStageLeft) {
     EXPECT_NEAR(std::stod(desk.said("Compare/rmse").substr(5)), wanted, 1e-3 * wanted + 1e-7);
 }
 
+/// The truth's other channels are 0: it was red, over a gray scale.
+TEST(Compare, ATruthOfOneNumberIsGray) {
+    Desk& desk = comparing();
+    desk.model().select_frame(frame_of("corners"));
+    desk.model().image = {.name = "occlusion"};
+    must(desk.player->choose("Compare/A/source", "truth"));
+    must(desk.player->wait());
+    const WidgetRecord canvas = desk.widget("Compare/picture");
+    const Picture window = must(desk.player->picture());
+    std::size_t lit = 0;
+    for (float x = canvas.from.x + 60; x < canvas.from.x + (canvas.to.x - canvas.from.x) * .4f; x += 7) {
+        const auto y = static_cast<std::size_t>((canvas.from.y + canvas.to.y) / 2);
+        const std::size_t at = 3 * (y * window.width + static_cast<std::size_t>(x));
+        lit += window.rgb[at] > std::byte{40};
+        ASSERT_LT(std::abs(int(window.rgb[at]) - int(window.rgb[at + 1])), 12) << x;
+    }
+    EXPECT_GT(lit, 3u);
+}
+
 TEST(Compare, ASideThatHasNothingSaysWhy) {
     Desk& desk = comparing();
     must(desk.player->choose("Compare/A/source", "expectation"));

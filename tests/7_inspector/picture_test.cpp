@@ -38,6 +38,21 @@ glm::ivec2 corner_of(const WidgetRecord& canvas, std::uint32_t width, std::uint3
     return {static_cast<int>(placement.corner.x), static_cast<int>(placement.corner.y)};
 }
 
+/// An image of ones (nothing is occluded) was black.
+TEST(DefaultLook, OfOneValueEverywhereIsWhiteAboveZeroAndBlackAtIt) {
+    const auto look = [](float value) {
+        const auto image = std::make_shared<HostImage>(image_of(2, 1, Format::r32f, {value, value}));
+        return default_look("occlusion", look_at(image, 0));
+    };
+    EXPECT_EQ(look(1).black, 0);
+    EXPECT_EQ(look(1).white, 1);
+    EXPECT_EQ(look(.25f).white, .25f);
+    EXPECT_EQ(look(0).black, 0);
+    EXPECT_EQ(look(0).white, 1);
+    EXPECT_EQ(look(-2).black, -2);
+    EXPECT_GT(look(-2).white, -2);
+}
+
 TEST(ImageView, ShowsTheBytesThatAHeadlessReplayOfTheCommandWrites) {
     Desk& desk = Desk::clean();
     auto session = must(Session::open(small_scenarios(), {.validation = true}));

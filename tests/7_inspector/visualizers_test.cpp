@@ -188,11 +188,26 @@ TEST(Views, ASliceKeepsTheTexelsOfItsValuesBitForBit) {
 }
 
 TEST(Views, HaveTheParametersThatTheirHelpNames) {
-    const Technique& voxel = *must(find_technique("transparency/voxel"));
-    const auto view = std::ranges::find(voxel.views, "slice", &DebugView::name);
-    std::vector<std::string_view> names;
-    for (const Param* param : params_of(voxel, *view)) names.push_back(param->name);
-    EXPECT_THAT(names, ElementsAre("shown_slice"));
+    const auto names_of = [](std::string_view technique, std::string_view view) {
+        const Technique& of = *must(find_technique(technique));
+        std::vector<std::string_view> names;
+        for (const Param* param : params_of(of, *std::ranges::find(of.views, view, &DebugView::name)))
+            names.push_back(param->name);
+        return names;
+    };
+    EXPECT_THAT(names_of("transparency/voxel", "slice"), ElementsAre("shown_slice"));
+    EXPECT_THAT(names_of("culling/hiz_two_phase", "pyramid"), ElementsAre("level"))
+        << "of occluders, which is a parameter's name";
+    EXPECT_THAT(names_of("lens/camera", "taps"), testing::IsEmpty()) << "before distortion, which is one, too";
+}
+
+TEST(Views, NameNothingButParametersInBackticks) {
+    for (const Technique& technique : techniques())
+        for (const DebugView& view : technique.views) {
+            const auto marks = std::ranges::count(view.help, '`');
+            EXPECT_EQ(static_cast<std::size_t>(marks), 2 * params_of(technique, view).size())
+                << technique.name << ":" << view.name;
+        }
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ TEST(Export, WritesImagesAndViewsByTheirNames) {
     EXPECT_EQ(display.shape.extent.width, 64u) << "the picture, as it is";
     EXPECT_GE(layers.shape.extent.width, 480u) << "under a title, over a legend";
     const Finished plain = strata("export panes.strata --image color -o color.png");
-    EXPECT_THAT(plain.err, testing::ContainsRegex("in color.png 0 is black, [0-9.]+ white; an .exr has the values"));
+    EXPECT_THAT(plain.err,
+                testing::ContainsRegex("in color.png 0 W/.m.2 sr. is black, [0-9.]+ W/.m.2 sr. white; an .exr has the values"));
     EXPECT_EQ(must(read_png(folder() / "color.png")).shape.extent, display.shape.extent) << "texels and no words";
     ASSERT_EQ(strata("export panes.strata --image color --caption -o color.png").code, 0);
     EXPECT_GE(must(read_png(folder() / "color.png")).shape.extent.width, 480u);

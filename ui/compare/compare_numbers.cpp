@@ -55,7 +55,7 @@ std::string oddities_text(const ComparedPictures& compared) {
     if (error.in_a.inf + error.in_b.inf > 0) text += fmt::format("infinite: {} in A, {} in B  ", error.in_a.inf, error.in_b.inf);
     if (error.disagreeing > 0) text += fmt::format("{} in one alone, in no RMSE  ", plural(error.disagreeing, "value"));
     if (compared.undecided > 0)
-        text += fmt::format("{} where rounding decides coverage count as equal", plural(compared.undecided, "texel"));
+        text += fmt::format("{} ignored (coverage depends on rounding)", plural(compared.undecided, "texel"));
     return text;
 }
 

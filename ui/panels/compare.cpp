@@ -134,8 +134,12 @@ private:
     Look look_of(const Model& model) const {
         const auto own = model.looks.find(sides_.image());
         if (own != model.looks.end()) return own->second;
-        const PictureInfo *a = sides_.a().shown.picture(), *picture = a ? a : sides_.b().shown.picture();
-        return picture ? default_look(sides_.image(), *picture) : Look();
+        const PictureInfo *a = sides_.a().shown.picture(), *b = sides_.b().shown.picture(), *picture = a ? a : b;
+        if (!picture) return {};
+        Look look = default_look(sides_.image(), *picture);
+        // A truth has four channels whatever the image has: that of an image of one number would be red.
+        if (b && b->channels() == 1) look.channels = Channels::red;
+        return look;
     }
 
     void draw_exposure(Model& model, Widgets& widgets) const {

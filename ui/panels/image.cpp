@@ -179,9 +179,10 @@ private:
         const auto own = model.looks.find(shown_name_);
         return own == model.looks.end() ? default_ : own->second;
     }
+    /// Of it, too: a key may come while another picture is on its way, whose look is its own.
     void set_look(Model& model, const Look& look) const {
-        if (look == default_) model.looks.erase(model.image.name);
-        else model.looks[model.image.name] = look;
+        if (look == default_) model.looks.erase(shown_name_);
+        else model.looks[shown_name_] = look;
     }
 
     static std::string made_text(const ImageChoice& image) {

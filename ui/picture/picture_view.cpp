@@ -56,8 +56,9 @@ ImVec2 Placement::on_screen(double x, double y) const {
 }
 
 glm::ivec2 Placement::texel_at(ImVec2 point) const {
-    return {static_cast<int>(std::floor(double{point.x - corner.x} / zoom)),
-            static_cast<int>(std::floor(double{point.y - corner.y} / zoom))};
+    // Without a mouse Dear ImGui says -FLT_MAX, which is no int.
+    const auto whole = [&](float pixels) { return static_cast<int>(std::clamp(std::floor(double{pixels} / zoom), -1e9, 1e9)); };
+    return {whole(point.x - corner.x), whole(point.y - corner.y)};
 }
 
 ImVec2 mouse_point() {
@@ -192,8 +193,10 @@ Look default_look(const std::string& name, const PictureInfo& picture) {
         look.white = static_cast<float>(view->high);
         return look;
     }
-    look.black = static_cast<float>(picture.bulk.low);
-    look.white = static_cast<float>(picture.bulk.high > picture.bulk.low ? picture.bulk.high : picture.bulk.low + 1);
+    const auto [low, high] = picture.bulk;
+    const double black = high > low ? low : std::min(low, 0.);  // one value everywhere: white above 0, not black
+    look.black = static_cast<float>(black);
+    look.white = static_cast<float>(high > black ? high : black + 1);
     return look;
 }
 

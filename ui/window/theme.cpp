@@ -77,7 +77,7 @@ void set_colors(ImGuiStyle& style) {
         {ImGuiCol_ScrollbarGrabHovered, rgb(0x4a5364)},
         {ImGuiCol_ScrollbarGrabActive, rgb(0x596479)},
         {ImGuiCol_CheckMark, accent},
-        {ImGuiCol_SliderGrab, tinted(.75f)},
+        {ImGuiCol_SliderGrab, tinted(.5f)},  // a number may stand on it
         {ImGuiCol_SliderGrabActive, accent},
         {ImGuiCol_Button, rgb(0x2c323d)},
         {ImGuiCol_ButtonHovered, rgb(0x3a4352)},

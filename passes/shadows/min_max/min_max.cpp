@@ -129,7 +129,7 @@ std::vector<Counter> counters() {
 std::vector<DebugView> views() {
     std::vector<DebugView> rows = shadow_map_views();
     rows.push_back({.name = "class",
-                    .help = "what answers the shadow lookups of light class_light, counted from 0: the sun, then lights with a "
+                    .help = "what answers the shadow lookups of light `class_light`, counted from 0: the sun, then lights with a "
                             "map as recorded; of two "
                             "blended cascades the costlier answer",
                     .unit = "",
