@@ -31,7 +31,7 @@ Result<void> check(const GltfOptions& options) {
                     options.samples);
     }
     if (options.fps && !(*options.fps > 0 && *options.fps <= 1e6)) {
-        return fail(Fault::usage, "there are more than 0 and at most 1000000 frames per second, not {}", *options.fps);
+        return fail(Fault::usage, "frames per second must be above 0 and at most 1000000, not {}", *options.fps);
     }
     return {};
 }

@@ -12,6 +12,8 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/bench/device_bench.h"
+#include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
 #include "replay/session/choice_text.h"
@@ -123,7 +125,9 @@ Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std
 template <typename Bench>
 Result<void> print(const BenchArguments& options, const Bench& made) {
     to_stdout("{}", options.json ? as_json(made) : as_text(made));
-    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(made));
+    if (!options.output.empty())
+        if (const auto done = write_whole_file(options.output, as_json(made)); !done) return done;
+    return made.stopped.empty() ? Result<void>() : fail(Fault::stopped, "{}", made.stopped);
 }
 
 Result<void> bench_the_device(const BenchArguments& options) {
@@ -139,9 +143,13 @@ Result<void> bench_the_device(const BenchArguments& options) {
     const bool is_scenario = options.open.capture.empty();
     const auto session = is_scenario ? open_scenarios(options, frames_of) : open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto for_limits = Device::open(options.open.device);
     if (!for_limits) return for_limits.error();
-    auto made = bench_device(**session, *request, **for_limits, options.repeats, progress_line());
+    const StopAtSignal signal;
+    auto made =
+        bench_device(**session, **for_limits,
+                     {.request = *request, .repeats = options.repeats, .progress = progress_line(), .stop = signal.token()});
     if (!made) return made.error();
     made->scene = is_scenario ? std::string(device_scenario) : options.open.capture.filename().string();
     return print(options, *made);
@@ -157,12 +165,14 @@ Result<void> bench(const BenchArguments& options) {
     const auto frames = [&](PixelExtent extent) { return frames_of(*claims, extent); };
     const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
     if (!session) return session.error();
+    LeftOutNotes notes;
+    for (const Claim& claim : *claims)
+        if (const auto told = notes.tell(**session, claim.base); !told) return told;
     const StopAtSignal signal;
     (*session)->stop_when(signal.token());
     const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
     if (!measured) return measured.error();
-    const auto done = print(options, *measured);
-    return done && !measured->stopped.empty() ? Result<void>(fail(Fault::stopped, "{}", measured->stopped)) : done;
+    return print(options, *measured);
 }
 
 }  // namespace
@@ -186,7 +196,7 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
                    "extent of the scenarios as WIDTHxHEIGHT; default 320x180 on a CPU device, else 1920x1080")
         ->excludes(capture);
     app.add_option("--repeats", options->repeats, "timed repeats of each side of a ratio after a warm-up, default 7")
-        ->check(CLI::Range(1, 1000));
+        ->check(from_to(1, 1000));
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
     return [options] { return bench(*options); };

@@ -65,6 +65,7 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     app.add_option("--frame", options->frame, "index of the frame, default 0");
     app.add_option("--sample", options->sample,
                    "index of the sample to write with --deep, in a frame with several samples per pixel")
+        ->check(sample_index())
         ->needs(deep);
     app.add_option("--transmittance", options->transmittance,
                    "how --deep treats colored transmittance: refuse it (default), write its mean, or write channels AR, AG, AB")

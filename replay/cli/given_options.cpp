@@ -109,9 +109,30 @@ void refuse_what_is_no_number(CLI::App& verb) {
     }
 }
 
+CLI::Validator from_to(double low, double high) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            double value = 0;
+            const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool is_within = problem == std::errc() && value >= low && value <= high;
+            return is_within ? std::string() : fmt::format("takes a number from {} to {}, not {}", low, high, text);
+        },
+        fmt::format("{} to {}", low, high));
+}
+
 CLI::Validator not_negative() {
     return CLI::Validator(
         [](std::string& text) { return text.starts_with('-') ? fmt::format("takes a number of 0 or more, not {}", text) : ""; },
+        "");
+}
+
+CLI::Validator positive() {
+    return CLI::Validator(
+        [](std::string& text) {
+            double value = 0;
+            std::from_chars(text.data(), text.data() + text.size(), value);
+            return value > 0 ? std::string() : fmt::format("takes a number above 0, not {}", text);
+        },
         "");
 }
 
@@ -119,6 +140,8 @@ CLI::Validator one_or_four() {
     return CLI::Validator(
         [](std::string& text) { return text == "1" || text == "4" ? "" : fmt::format("takes 1 or 4, not {}", text); }, "{1,4}");
 }
+
+CLI::Validator sample_index() { return from_to(0, 3); }
 
 Result<void> check_values(const CLI::App& verb) {
     for (const CLI::Option* option : verb.get_options()) {

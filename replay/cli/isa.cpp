@@ -9,6 +9,7 @@
 
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
@@ -156,10 +157,12 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
+    const Request asked = *request;
     const auto shader = shader_of_tiles(options, *request);
     if (!shader) return shader.error();
     auto session = open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, asked); !told) return told;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
     const PipelineRequests requests = pipelines_of(planned->plan);
