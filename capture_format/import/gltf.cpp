@@ -12,7 +12,7 @@ namespace {
 Result<void> check(const GltfOptions& options) {
     const double azimuth = options.azimuth.value_or(0), elevation = options.elevation.value_or(0);
     if (!(std::abs(azimuth) <= 360 && std::abs(elevation) < 90)) {
-        return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
+        return fail(Fault::usage, "--azimuth takes -360 to 360 degrees and --elevation less than 90 up or down, not {} and {}",
                     azimuth, elevation);
     }
     if ((options.azimuth || options.elevation) && (options.eye || options.inside))

@@ -16,6 +16,7 @@
 #include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
+#include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
@@ -166,8 +167,10 @@ Result<void> bench(const BenchArguments& options) {
     const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
     if (!session) return session.error();
     LeftOutNotes notes;
-    for (const Claim& claim : *claims)
-        if (const auto told = notes.tell(**session, claim.base); !told) return told;
+    for (const Claim& claim : *claims) {
+        const auto way = variant_of(*claim.technique, claim.ratio->of, claim.base);
+        if (!way || !notes.tell(**session, way->request, base->choices)) continue;  // its row will say why it has no plan
+    }
     const StopAtSignal signal;
     (*session)->stop_when(signal.token());
     const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
@@ -180,8 +183,8 @@ Result<void> bench(const BenchArguments& options) {
 std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
     app.add_option("technique", options->word,
-                   "technique, with or without its stage; or 'device': bytes and operations of the hottest steps against what "
-                   "the device can do")
+                   "technique, with or without its stage; or 'device': bytes and operations of the slowest steps, relative to "
+                   "what the device can do")
         ->required();
     CLI::Option* capture =
         app.add_option("capture", options->open.capture,

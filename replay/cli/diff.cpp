@@ -365,7 +365,7 @@ void add_flip(CLI::App& app, FlipOptions& flip) {
     app.add_option_function<std::string>(
            "--tone-mapper", [&flip, mappers](const std::string& text) { flip.tone_mapper = mappers.at(text); },
            "tone mapper for FLIP of radiance: aces (default), hable or reinhard")
-        ->check(CLI::IsMember(mappers));
+        ->check(one_of({tone_mapper_names.begin(), tone_mapper_names.end()}));
     app.add_option_function<std::string>(
            "--exposures", [](const std::string&) {},
            "exposures for FLIP of radiance in stops, as START,STOP or START,STOP,COUNT; default: from the brightest to "
@@ -403,7 +403,8 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     app.add_option("--junit", options->junit, "write JUnit XML to this file: one suite per frame, one case per pass and image")
         ->type_name(output_file);
     app.add_option("-o,--output", options->folder,
-                   "write pictures of the differences to this folder; outdated ones in it are removed");
+                   "write pictures of the differences to this folder; outdated ones in it are removed")
+        ->type_name(output_folder);
     app.add_flag("--json", options->json, "print JSON instead of text");
     return [options, &app] {
         options->rerun = command_line(app);

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "replay/cli/verb.h"
 
@@ -20,6 +21,9 @@ void refuse_what_is_no_number(CLI::App& verb);
 /// For options whose number has bounds, which are in the help and in the sentence. Every option for a whole number of less than
 /// 64 bits needs some: CLI11 2.1 says "Could not convert" of a number that does not fit.
 CLI::Validator from_to(double low, double high);
+
+/// For options that take one of these words.
+CLI::Validator one_of(std::vector<std::string> words);
 
 /// For options whose number is 0 or more.
 CLI::Validator not_negative();

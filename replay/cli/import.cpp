@@ -227,8 +227,9 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
                    "azimuth of the framing camera in degrees, 0 in front, positive to the right; default 22");
     app.add_option("--elevation", options->gltf.elevation,
                    "elevation of the framing camera in degrees above the horizon, default 16");
+    constexpr double farthest = 1e12;  // meters; directions are still found, whose squares are beyond a double from 1e154 on
     const auto point = [&](const char* name, std::vector<double>& to, const char* help) {
-        app.add_option(name, to, help)->delimiter(',')->expected(3);
+        app.add_option(name, to, help)->delimiter(',')->expected(3)->check(from_to(-farthest, farthest));
     };
     point("--eye", options->eye, "position of the camera as X,Y,Z in meters; replaces the scene's camera");
     point("--target", options->target, "point the --eye camera looks at, as X,Y,Z in meters; default: the center of the scene");

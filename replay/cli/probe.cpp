@@ -89,8 +89,7 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
                    "transparency techniques with their settings, like 'moments kind=power6,wavelet rank=3'; default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")
-        ->check(CLI::IsMember({"log", "linear"}));
+    app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")->check(one_of({"log", "linear"}));
     app.add_option("--depths", options->probe.samples, "number of depths at which transmittance is evaluated, default 512")
         ->check(from_to(2, most_probe_depths));
     app.add_option("--from", options->probe.from, "first depth in meters; default: just in front of the first fragment")

@@ -317,9 +317,10 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
     app.add_option("--time", options->timed, "time every step over this many repeats after a warm-up; print median and deviation")
         ->check(from_to(1, 10000));
     app.add_option(
-        "-o,--output", options->folder,
-        "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
-        "nothing");
+           "-o,--output", options->folder,
+           "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
+           "nothing")
+        ->type_name(output_folder);
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("--tolerance", options->tolerance,
                    "largest allowed relative RMSE to the expected images; exit code 6 if the capture has none")

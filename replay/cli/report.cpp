@@ -266,7 +266,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
-        ->check(CLI::IsMember({"stage", "picture"}));
+        ->check(one_of({"stage", "picture"}));
     app.add_option("--within", options->within,
                    "answer which technique, the baseline aside, is most accurate within this multiple of its time, like 2x");
     app.add_option("--sweep", options->sweeps,

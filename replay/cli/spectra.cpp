@@ -54,10 +54,11 @@ Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const 
         if (!session) return session.error();
         const auto frames = frame_indices(options.frames, (*session)->frame_count());
         if (!frames) return frames.error();
-        Request asked = base;
+        Request request = base;
+        request.choices.use(technique);
         for (const std::size_t frame : *frames) {
-            asked.variant.frame = frame;
-            if (const auto told = notes.tell(**session, asked); !told) return told.error();
+            request.variant.frame = frame;
+            if (const auto told = notes.tell(**session, request, base.choices); !told) return told.error();
         }
         auto made = gather_spectra(**session, technique, base, *frames);
         if (!made) return made.error();
@@ -151,7 +152,7 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
     app.add_option("--gpu-model", options->gpu_model, "GPU model to compile shader variants for (strata isa lists them)");
     app.add_option("--aim", options->aim,
                    "what to minimize: sum (default), the cost of all frames; worst, the most expensive frame")
-        ->check(CLI::IsMember({"sum", "worst"}));
+        ->check(one_of({"sum", "worst"}));
     app.add_option("--dispatch", options->wish.dispatch, "cost of one more mode per frame, in the unit of --cost; default 0")
         ->check(not_negative());
     app.add_option("--repeats", options->repeats, "timed repeats of each shader variant after a warm-up, default 7")

@@ -232,12 +232,13 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
 Result<void> choose_range(Probe& probe, const ProbeOptions& options) {
     const double first = probe.fragments.front().depth, last = probe.fragments.back().depth;
     const double margin = std::max(1.05, std::pow(last / first, .1));
-    probe.from = std::clamp(options.from > 0 ? options.from : first / margin, probe.nearest, probe.farthest);
-    probe.to = std::clamp(options.to > 0 ? options.to : last * margin, probe.nearest, probe.farthest);
+    const double from = options.from > 0 ? options.from : first / margin, to = options.to > 0 ? options.to : last * margin;
+    probe.from = std::clamp(from, probe.nearest, probe.farthest);
+    probe.to = std::clamp(to, probe.nearest, probe.farthest);
     if (probe.from < probe.to) return {};
     return fail(Fault::usage,
-                "there is nothing to probe from {} to {} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
-                options.from, options.to, probe.nearest, probe.farthest);
+                "there is nothing to probe from {:.4g} to {:.4g} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
+                from, to, probe.nearest, probe.farthest);
 }
 
 /// The frame's pixel nearest to `at` that has a fragment.

@@ -102,12 +102,12 @@ TEST(DeviceBench, StoppedGivesTheStepsByTheRunsThatAreComplete) {
         must(Session::open(std::vector{must(find_scenario("one_pane"))->build(0, {.width = 16, .height = 9})}, {}));
     const Request request;
     std::stop_source stop;
-    DeviceBenchWish wish{.request = request, .repeats = 4, .stop = stop.get_token()};
+    DeviceBenchWish wish{.request = request, .repeats = 3, .stop = stop.get_token()};
     wish.progress = [&](std::string_view what, double) {
         if (what.starts_with("timing, 3")) stop.request_stop();
     };
     const DeviceBench made = must(bench_device(*session, shared_device(), wish));
-    EXPECT_EQ(made.stopped, "stopped after 2 of 4 timed runs");
+    EXPECT_EQ(made.stopped, "stopped after 2 of 3 timed runs");
     ASSERT_FALSE(made.steps.empty());
     EXPECT_EQ(made.steps.front().ms.repeats, 2u);
     const auto none = bench_device(*session, shared_device(), wish);

@@ -166,6 +166,9 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
         {"replay sound.strata --expect --until combine", "--until does not apply"},
         {"replay sound.strata --tolerance 1 --until combine", "--until does not apply"},
         {"replay sound.strata --tolerance 1 --no-expect", "--no-expect does not apply"},
+        {"report sound.strata --methods weighted --defaults", "--methods cannot be combined with --defaults"},
+        {"isa sound.strata --gpu-model navi21,navi21", "--gpu-model gives 'navi21' twice"},
+        {"replay sound.strata --samples 1 --samples 4", "--samples is given 2 times; give it once"},
         {"replay sound.strata --tolerance 1 --eye pan=1", "--eye does not apply"},
         {"replay sound.strata --eye pan=1,tilt=0,pan=2", "--eye gives pan twice"},
     };
@@ -208,6 +211,9 @@ TEST(Options, ThatCannotBeFollowedAreASentence) {
         {"replay sound.strata --samples 4294967297", "takes 1 or 4, not 4294967297"},
         {"replay sound.strata --frames 0 --until gbuffer --outputs display", "frame 0 has no 'display': --until gbuffer ends"},
         {"replay sound.strata --frames 0 --until gbuffer --outputs gbuffer0,display -o out", "frame 0 has no 'display'"},
+        {"replay sound.strata --eye foo=1", "--eye takes dolly, truck, "},
+        {"replay sound.strata -o", "--output needs a value"},
+        {"probe sound.strata --at 1,1 --axis lin", "--axis: takes log or linear, not 'lin'"},
         {"accept sound.strata --allow-partial", "accept has no option --allow-partial"},
         {"replay sound.strata -- --json", "arguments after -- are file names"},
         {"record smoke", "did you mean smoke_"},
@@ -253,10 +259,13 @@ TEST(Options, OfTheFramingCameraAreRefusedWhereAnotherOneIsUsed) {
                                 {"own.glb --fov 0", 2, "a field of view has 1 to 170 degrees"},
                                 {"own.glb --inside --elevation 30", 2, "--inside places another"},
                                 {"own.glb --eye 0,1,5 --azimuth 30", 2, "--eye places another"},
+                                {"own.glb --eye 1e308,0,0", 2, "takes a number from -1000000000000 to 1000000000000, not 1e308"},
+                                {"own.glb --azimuth 361", 2, "--azimuth takes -360 to 360 degrees"},
                                 {"own.glb --fps 3", 2, "ask for more with --frames"},
                                 {"own.glb --frames 2 --fps 3", 2, "the glTF has no animation"},
                                 {"own.glb --gpu no_such_device --size 16x9", 2, "no device is called 'no_such_device'"}};
     expect_refusals("import", refusals);
+    EXPECT_NE(strata("replay sound.strata --frames 0 --tolerance=-0").code, 2) << "-0 is 0";
     EXPECT_EQ(strata("import own.glb --eye 0,1,5 --fov 30 --size 16x9").code, 0);
 }
 
