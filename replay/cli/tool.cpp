@@ -191,7 +191,8 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
     if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)
-        if (sub->parsed()) return keep_inputs(*sub).and_then([&] { return check_values(*sub); }).and_then(verb);
+        if (sub->parsed())  // clang 14 captures no structured binding
+            return keep_inputs(*sub).and_then([parsed = sub] { return check_values(*parsed); }).and_then(verb);
     write_stdout(app.help());
     return {};
 }
