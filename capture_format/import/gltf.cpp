@@ -12,7 +12,7 @@ namespace {
 Result<void> check(const GltfOptions& options) {
     const double azimuth = options.azimuth.value_or(0), elevation = options.elevation.value_or(0);
     if (!(std::abs(azimuth) <= 360 && std::abs(elevation) < 90)) {
-        return fail(Fault::usage, "the framing camera stands at -360 to 360 degrees around and less than 90 above, not at {}, {}",
+        return fail(Fault::usage, "--azimuth takes -360 to 360 degrees and --elevation less than 90 up or down, not {} and {}",
                     azimuth, elevation);
     }
     if ((options.azimuth || options.elevation) && (options.eye || options.inside))
@@ -31,7 +31,7 @@ Result<void> check(const GltfOptions& options) {
                     options.samples);
     }
     if (options.fps && !(*options.fps > 0 && *options.fps <= 1e6)) {
-        return fail(Fault::usage, "there are more than 0 and at most 1000000 frames per second, not {}", *options.fps);
+        return fail(Fault::usage, "frames per second must be above 0 and at most 1000000, not {}", *options.fps);
     }
     return {};
 }

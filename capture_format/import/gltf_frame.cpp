@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -320,8 +321,9 @@ void FrameSource::set_light(Making& making) {
     frame.sun.shadow_distance = static_cast<float>(glm::length(making.scene.center() - frame.view.origin) + radius);
     if (!exposure_) {
         const double white = white_radiance(frame, making.scene), film = static_cast<double>(frame.film.white);
-        exposure_ = white > film ? static_cast<float>(film / white) : 1.0f;
-        if (white > film) {
+        const bool is_bright = white > film && std::isfinite(white);  // a light that is not finite is refused as such
+        exposure_ = is_bright ? std::max(static_cast<float>(film / white), std::numeric_limits<float>::min()) : 1.0f;
+        if (is_bright) {
             warn(fmt::format("the lights make a white surface as bright as {:.3g}; the exposure is {:.3g}", white, *exposure_));
         }
     }

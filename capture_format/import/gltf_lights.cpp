@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace strata::gltf {
@@ -46,6 +47,9 @@ void warn_of_light(std::vector<std::string>& warnings, int number, const LightSo
     if (source.type != "directional" && source.type != "point" && source.type != "spot")
         warn(fmt::format("has the unknown type '{:.60}'; a point light is used", source.type));
     if (source.intensity < 0) warn(fmt::format("has the intensity {:g}, which is below 0", source.intensity));
+    constexpr double largest = std::numeric_limits<float>::max();
+    if (std::abs(source.intensity) > largest)
+        warn(fmt::format("has the intensity {:g}; a capture holds at most {:.2g}", source.intensity, largest));
     if (const glm::dvec3 c = source.color; c != glm::clamp(c, 0.0, 1.0))
         warn(fmt::format("has the color ({:g}, {:g}, {:g}); glTF allows 0 to 1", c.x, c.y, c.z));
     if (source.range < 0) warn(fmt::format("has the range {:g}, which is not above 0; it is ignored", source.range));

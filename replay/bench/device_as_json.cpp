@@ -45,6 +45,7 @@ std::string as_json(const DeviceBench& bench) {
                       {"frame_ms", bench.frame_ms},
                       {"steps", ordered_json::array()}};
     for (const StepShare& step : bench.steps) json["steps"].push_back(json_of(bench, step));
+    if (!bench.stopped.empty()) json["stopped"] = bench.stopped;
     return json_text(json);
 }
 

@@ -51,6 +51,7 @@ std::string as_text(const DeviceBench& bench) {
                     "branch is taken and every loop turned once: above 100 % branches are not taken, with loops the number is "
                     "too small. Vertex shaders, loads, "
                     "stores and texture reads are not counted. Nothing is counted where invocations are not.");
+    if (!bench.stopped.empty()) text += fmt::format("\n{}\n", bench.stopped);
     return text;
 }
 

@@ -71,11 +71,12 @@ std::optional<double> DeviceBench::share_of_operations(const StepShare& step) co
     return 1e3 * *operations / step.ms.median / limits.operations.median;
 }
 
-Result<DeviceBench> bench_device(Session& session, const Request& request, Device& for_limits, std::size_t repeats,
-                                 const Progress& progress) {
+Result<DeviceBench> bench_device(Session& session, Device& for_limits, const DeviceBenchWish& wish) {
+    const auto& [request, repeats, progress, stop] = wish;
     DeviceBench bench{.device = session.device(), .frame = request.variant.frame, .repeats = repeats};
+    session.stop_when(stop);
     if (progress) progress("measuring the device", 0);
-    const auto limits = measure_limits(for_limits, repeats);
+    const auto limits = measure_limits(for_limits, repeats, {.stop = stop});
     if (!limits) return limits.error();
     bench.limits = *limits;
     const auto planned = session.plan(request);
@@ -90,6 +91,8 @@ Result<DeviceBench> bench_device(Session& session, const Request& request, Devic
     bench.height = run.height;
     bench.samples = run.samples;
     bench.frame_ms = run.frame_ms->median;
+    if (const std::size_t done = run.frame_ms_by_repeat.size(); done < repeats)
+        bench.stopped = fmt::format("stopped after {} of {} timed runs", done, repeats);
     const Counting counting{plan, *counts, !bench.device.software};
     for (std::size_t i = 0; i < plan.steps.size(); ++i) {
         const PlannedStep& step = plan.steps[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace strata {
 struct LimitWork {
     std::uint64_t copied_bytes = 64 << 20;            ///< of one buffer to another
     std::uint32_t threads = 64 * 1024, turns = 1024;  ///< of the loop of multiply-adds
+    std::stop_token stop = {};                        ///< asked between repeats
 };
 
 /// In units per second.
@@ -52,14 +54,23 @@ struct DeviceBench {
     std::uint32_t width = 0, height = 0, samples = 1;
     double frame_ms = 0;
     std::vector<StepShare> steps;  ///< the hottest, most time first
+    std::string stopped = {};      ///< how many repeats there are where a stop was asked for
 
     /// Shares of the limits; the larger of the two says what the step is bound by, if anything.
     double share_of_bytes(const StepShare&) const;
     std::optional<double> share_of_operations(const StepShare&) const;
 };
 
-/// The hottest steps of a frame. Limits are measured on a device of their own.
-Result<DeviceBench> bench_device(Session&, const Request&, Device& for_limits, std::size_t repeats, const Progress& = {});
+struct DeviceBenchWish {
+    const Request& request;
+    std::size_t repeats = 7;
+    Progress progress = {};
+    std::stop_token stop = {};
+};
+
+/// The hottest steps of a frame. Limits are measured on a device of their own. Stopped, it gives the steps by the repeats that
+/// are complete, or fails (stopped) where there is none.
+Result<DeviceBench> bench_device(Session&, Device& for_limits, const DeviceBenchWish&);
 
 std::string as_text(const DeviceBench&);
 std::string as_json(const DeviceBench&);

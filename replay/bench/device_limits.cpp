@@ -46,6 +46,7 @@ Result<DeviceLimits> measure_limits(Device& device, std::size_t repeats, const L
     std::vector<double> bytes, operations;
     try {
         for (std::size_t turn = 0; turn <= repeats; ++turn) {  // the first warms up
+            if (work.stop.stop_requested()) return fail(Fault::stopped, "stopped before a step was timed");
             const Execution run = executor->run(*plan, {.timestamps = Timestamps::on});
             limits.operations_done = operations_done(run.buffers.at(done.id));
             const double copy_ms = run.step_costs[1].ms, loop_ms = run.step_costs[2].ms;

@@ -12,8 +12,11 @@
 #include "captures/scenarios.h"
 #include "passes/registry.h"
 #include "replay/bench/device_bench.h"
+#include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/progress_line.h"
+#include "replay/report/variants.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
@@ -123,7 +126,9 @@ Result<std::unique_ptr<Session>> open_capture(const BenchArguments& options, std
 template <typename Bench>
 Result<void> print(const BenchArguments& options, const Bench& made) {
     to_stdout("{}", options.json ? as_json(made) : as_text(made));
-    return options.output.empty() ? Result<void>() : write_whole_file(options.output, as_json(made));
+    if (!options.output.empty())
+        if (const auto done = write_whole_file(options.output, as_json(made)); !done) return done;
+    return made.stopped.empty() ? Result<void>() : fail(Fault::stopped, "{}", made.stopped);
 }
 
 Result<void> bench_the_device(const BenchArguments& options) {
@@ -139,9 +144,13 @@ Result<void> bench_the_device(const BenchArguments& options) {
     const bool is_scenario = options.open.capture.empty();
     const auto session = is_scenario ? open_scenarios(options, frames_of) : open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto for_limits = Device::open(options.open.device);
     if (!for_limits) return for_limits.error();
-    auto made = bench_device(**session, *request, **for_limits, options.repeats, progress_line());
+    const StopAtSignal signal;
+    auto made =
+        bench_device(**session, **for_limits,
+                     {.request = *request, .repeats = options.repeats, .progress = progress_line(), .stop = signal.token()});
     if (!made) return made.error();
     made->scene = is_scenario ? std::string(device_scenario) : options.open.capture.filename().string();
     return print(options, *made);
@@ -157,12 +166,16 @@ Result<void> bench(const BenchArguments& options) {
     const auto frames = [&](PixelExtent extent) { return frames_of(*claims, extent); };
     const auto session = options.open.capture.empty() ? open_scenarios(options, frames) : open_capture(options, *claims);
     if (!session) return session.error();
+    LeftOutNotes notes;
+    for (const Claim& claim : *claims) {
+        const auto way = variant_of(*claim.technique, claim.ratio->of, claim.base);
+        if (!way || !notes.tell(**session, way->request, base->choices)) continue;  // its row will say why it has no plan
+    }
     const StopAtSignal signal;
     (*session)->stop_when(signal.token());
     const auto measured = measure_ratios(**session, *claims, options.repeats, progress_line());
     if (!measured) return measured.error();
-    const auto done = print(options, *measured);
-    return done && !measured->stopped.empty() ? Result<void>(fail(Fault::stopped, "{}", measured->stopped)) : done;
+    return print(options, *measured);
 }
 
 }  // namespace
@@ -170,8 +183,8 @@ Result<void> bench(const BenchArguments& options) {
 std::function<Result<void>()> declare_bench(CLI::App& app) {
     const auto options = std::make_shared<BenchArguments>();
     app.add_option("technique", options->word,
-                   "technique, with or without its stage; or 'device': bytes and operations of the hottest steps against what "
-                   "the device can do")
+                   "technique, with or without its stage; or 'device': bytes and operations of the slowest steps, relative to "
+                   "what the device can do")
         ->required();
     CLI::Option* capture =
         app.add_option("capture", options->open.capture,
@@ -186,7 +199,7 @@ std::function<Result<void>()> declare_bench(CLI::App& app) {
                    "extent of the scenarios as WIDTHxHEIGHT; default 320x180 on a CPU device, else 1920x1080")
         ->excludes(capture);
     app.add_option("--repeats", options->repeats, "timed repeats of each side of a ratio after a warm-up, default 7")
-        ->check(CLI::Range(1, 1000));
+        ->check(from_to(1, 1000));
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
     return [options] { return bench(*options); };

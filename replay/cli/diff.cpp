@@ -1,5 +1,6 @@
 // strata diff: two captures, two ways to replay one, two devices, a capture and images, or two images: what differs, where, by
 // how much.
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -196,34 +197,42 @@ Result<void> check_limits(const NamedImages& images, const CLI::App& app) {
         });
 }
 
-/// The images of a file against the capture's own of the same names, made now.
-Result<void> compare_with_images(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
-    if (kind_of(options.b.file) == FileKind::png)
-        return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG",
-                    options.b.file.string());
+/// A capture's side and that of the file whose images it is compared with.
+struct MixedSides {
+    const SideOptions &replayed, &file;
+};
+
+/// The images of a file and the capture's own of the same names, made now. Either may be A, to which errors are relative.
+Result<void> compare_with_images(const DiffArguments& options, const MixedSides& sides, Pictures& pictures,
+                                 Comparison& comparison) {
+    const std::string file = sides.file.file.string();
+    if (kind_of(sides.file.file) == FileKind::png)
+        return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG", file);
     MemoryBudget budget(options.device.memory_budget);
-    const auto images = read_images(options.b.file, budget);
+    const auto images = read_images(sides.file.file, budget);
     if (!images) return images.error();
     if (const auto room = check_room(*images, budget); !room) return room;
     if (const auto fits = check_limits(*images, *options.app); !fits) return fits;
-    auto request = request_of_side(options, options.a);
+    auto request = request_of_side(options, sides.replayed);
     if (!request) return request.error();
-    const auto session = open_side(options, options.a);
+    const auto session = open_side(options, sides.replayed);
     if (!session) return session.error();
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
     if (frames->size() != 1)
-        return fail(Fault::usage, "{} is of one frame and the capture has {}; choose with --frames", options.b.file.string(),
-                    frames->size());
+        return fail(Fault::usage, "{} is of one frame and the capture has {}; choose with --frames", file, frames->size());
     request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
     if (const auto told = LeftOutNotes().tell(**session, *request); !told) return told;
     const auto run = (*session)->run(*request);
     if (!run) return run.error();
-    comparison.a = describe(options.a, **session);
-    comparison.b = {.name = options.b.file.filename().string()};
-    auto made = compare_image_sets(run->images, *images, options.limits, seeing(pictures, request->variant.frame));
+    const bool file_is_a = &sides.file == &options.a;
+    const Side replayed = describe(sides.replayed, **session), of_file{.name = sides.file.file.filename().string()};
+    comparison.a = file_is_a ? of_file : replayed;
+    comparison.b = file_is_a ? replayed : of_file;
+    const NamedImages &a = file_is_a ? *images : run->images, &b = file_is_a ? run->images : *images;
+    auto made = compare_image_sets(a, b, options.limits, seeing(pictures, request->variant.frame));
     if (!made) return made.error();
     made->frame = request->variant.frame;
     comparison.frames.push_back(*std::move(made));
@@ -252,8 +261,8 @@ Result<void> compare(const DiffArguments& options, Pictures& pictures, Compariso
     const bool a_is_capture = kind_of(options.a.file) == FileKind::capture,
                b_is_capture = kind_of(options.b.file) == FileKind::capture;
     if (a_is_capture && b_is_capture) return compare_captures(options, pictures, comparison);
-    if (a_is_capture) return compare_with_images(options, pictures, comparison);
-    if (b_is_capture) return fail(Fault::usage, "name the capture first and the images it is compared with second");
+    if (a_is_capture) return compare_with_images(options, {.replayed = options.a, .file = options.b}, pictures, comparison);
+    if (b_is_capture) return compare_with_images(options, {.replayed = options.b, .file = options.a}, pictures, comparison);
     return compare_files(options, pictures, comparison);
 }
 
@@ -283,12 +292,15 @@ Result<void> check_options(const DiffArguments& options) {
     if (options.b.file.empty() && !has_a_side_b(options))
         return fail(Fault::usage,
                     "nothing to compare A with: name a second file, or what B does differently (--use, --set, --gpu-b)");
-    if (!is_image(options.b.file)) return {};
-    const auto of_b = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed");
-    if (!of_b || !is_image(options.a.file)) return of_b;
-    return check_not_given(app,
-                           {"--use-a", "--set-a", "--gpu-a", "--force", "--samples", "--gpu", "--without", "--validation",
-                            "--allow-partial", "--frames"},
+    const bool a_is_image = is_image(options.a.file), b_is_image = is_image(options.b.file);
+    if (b_is_image)
+        if (const auto fits = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed"); !fits)
+            return fits;
+    if (a_is_image)
+        if (const auto fits = check_not_given(app, {"--use-a", "--set-a", "--gpu-a"}, "A is an image and not replayed"); !fits)
+            return fits;
+    if (!a_is_image || !b_is_image) return {};
+    return check_not_given(app, {"--force", "--samples", "--gpu", "--without", "--validation", "--allow-partial", "--frames"},
                            "two images are compared and nothing is replayed");
 }
 
@@ -306,7 +318,7 @@ Result<void> diff(DiffArguments options) {
 }
 
 void add_sides(CLI::App& app, DiffArguments& options) {
-    app.add_option("A", options.a.file, "reference: a .strata capture, or an .exr or .png image")
+    app.add_option("A", options.a.file, "reference, to which errors are relative: a .strata capture, or an .exr or .png image")
         ->required()
         ->type_name(input_file);
     app.add_option("B", options.b.file, "image or capture to compare; default: A replayed with the --*-b options")
@@ -347,13 +359,13 @@ std::string read_exposures(const std::string& text, std::optional<ExposureRange>
 void add_flip(CLI::App& app, FlipOptions& flip) {
     app.add_option("--ppd", flip.pixels_per_degree,
                    "pixels per degree of visual angle for FLIP; default 67.02, a 4K screen at 0.7 m")
-        ->check(CLI::Range(1., 1000.));
+        ->check(from_to(1, 1000));
     std::map<std::string, ToneMapper> mappers;
     for (std::size_t i = 0; i < tone_mapper_names.size(); ++i) mappers.emplace(tone_mapper_names[i], static_cast<ToneMapper>(i));
     app.add_option_function<std::string>(
            "--tone-mapper", [&flip, mappers](const std::string& text) { flip.tone_mapper = mappers.at(text); },
            "tone mapper for FLIP of radiance: aces (default), hable or reinhard")
-        ->check(CLI::IsMember(mappers));
+        ->check(one_of({tone_mapper_names.begin(), tone_mapper_names.end()}));
     app.add_option_function<std::string>(
            "--exposures", [](const std::string&) {},
            "exposures for FLIP of radiance in stops, as START,STOP or START,STOP,COUNT; default: from the brightest to "
@@ -366,18 +378,19 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
     app.add_option("--limit", limits.limit, "largest difference of a pixel in any channel that still passes, default 0")
         ->check(not_negative());
     app.add_option("--percent", limits.percent, "largest percentage of pixels above --limit that still passes, default 0")
-        ->check(CLI::Range(0., 100.));
+        ->check(from_to(0, 100));
     app.add_option("--hard-limit", limits.hard_limit, "largest difference of any pixel, whatever --percent allows; default: none")
         ->check(not_negative());
     CLI::Option* warn =
         app.add_option("--warn-limit", limits.warn_limit, "like --limit, but only warns; default: none")->check(not_negative());
     app.add_option("--warn-percent", limits.warn_percent, "like --percent, but only warns; default 0")
-        ->check(CLI::Range(0., 100.))
+        ->check(from_to(0, 100))
         ->needs(warn);
-    app.add_option("--ulps", limits.ulps, "largest difference of depth in units in the last place, default 0; ids must be equal");
+    app.add_option("--ulps", limits.ulps, "largest difference of depth in units in the last place, default 0; ids must be equal")
+        ->check(from_to(0, std::numeric_limits<std::uint32_t>::max()));
     app.add_option("--flip-limit", limits.flip_mean,
                    "largest mean FLIP of images of light; without --limit, only FLIP is checked for them")
-        ->check(CLI::Range(0., 1.));
+        ->check(from_to(0, 1));
     add_flip(app, limits.flip);
 }
 
@@ -390,7 +403,8 @@ std::function<Result<void>()> declare_diff(CLI::App& app) {
     app.add_option("--junit", options->junit, "write JUnit XML to this file: one suite per frame, one case per pass and image")
         ->type_name(output_file);
     app.add_option("-o,--output", options->folder,
-                   "write pictures of the differences to this folder; outdated ones in it are removed");
+                   "write pictures of the differences to this folder; outdated ones in it are removed")
+        ->type_name(output_folder);
     app.add_flag("--json", options->json, "print JSON instead of text");
     return [options, &app] {
         options->rerun = command_line(app);

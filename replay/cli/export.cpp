@@ -57,7 +57,7 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
         app.add_flag("--deep", options->deep, "write every transparent fragment, sorted by depth, as a deep OpenEXR image");
     CLI::Option* image =
         app.add_option("--image", options->images,
-                       "write frame images or views (stage/technique:view) as .exr, or a single one as .png, one pixel a texel")
+                       "write frame images or views (stage/technique:view) as .exr, or a single one as .png, one pixel per texel")
             ->delimiter(',');
     app.add_flag("--caption", options->caption, "enlarge a .png and add a title, a scale and what the image shows")->needs(image);
     app.add_flag("--gltf", options->gltf, "write meshes, materials, lights and camera as a .glb");
@@ -65,10 +65,11 @@ std::function<Result<void>()> declare_export(CLI::App& app) {
     app.add_option("--frame", options->frame, "index of the frame, default 0");
     app.add_option("--sample", options->sample,
                    "index of the sample to write with --deep, in a frame with several samples per pixel")
+        ->check(sample_index())
         ->needs(deep);
     app.add_option("--transmittance", options->transmittance,
                    "how --deep treats colored transmittance: refuse it (default), write its mean, or write channels AR, AG, AB")
-        ->check(CLI::IsMember({"refused", "mean", "channels"}))
+        ->check(one_of({"refused", "mean", "channels"}))
         ->needs(deep);
     app.add_option("-o,--output", options->output, "file to write")->required()->type_name(output_file);
     return [options, &app] { return run(*options, app); };

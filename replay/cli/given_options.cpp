@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "capture_format/nearest_name.h"
@@ -72,6 +73,13 @@ std::string problem_of_size(std::string& text) {
     return {};
 }
 
+/// Of a text that is a number: refuse_what_is_no_number() comes first.
+double number_in(const std::string& text) {
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
 std::string problem_of_real(std::string& text) {
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -109,9 +117,40 @@ void refuse_what_is_no_number(CLI::App& verb) {
     }
 }
 
+CLI::Validator from_to(double low, double high) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            const double value = number_in(text);
+            return value >= low && value <= high ? std::string()
+                                                 : fmt::format("takes a number from {} to {}, not {}", low, high, text);
+        },
+        fmt::format("{} to {}", low, high));
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+    const std::string named = fmt::format("{{{}}}", fmt::join(words, ","));
+    return CLI::Validator(
+        [words = std::move(words)](std::string& text) {
+            if (std::ranges::count(words, text) > 0) return std::string();
+            const std::vector<std::string_view> known(words.begin(), words.end());
+            return fmt::format("takes {}, not '{}'{}", fmt::join(words, " or "), text, did_you_mean(text, known));
+        },
+        named);
+}
+
 CLI::Validator not_negative() {
     return CLI::Validator(
-        [](std::string& text) { return text.starts_with('-') ? fmt::format("takes a number of 0 or more, not {}", text) : ""; },
+        [](std::string& text) {
+            return number_in(text) >= 0 ? std::string() : fmt::format("takes a number of 0 or more, not {}", text);
+        },
+        "");
+}
+
+CLI::Validator positive() {
+    return CLI::Validator(
+        [](std::string& text) {
+            return number_in(text) > 0 ? std::string() : fmt::format("takes a number above 0, not {}", text);
+        },
         "");
 }
 
@@ -119,6 +158,8 @@ CLI::Validator one_or_four() {
     return CLI::Validator(
         [](std::string& text) { return text == "1" || text == "4" ? "" : fmt::format("takes 1 or 4, not {}", text); }, "{1,4}");
 }
+
+CLI::Validator sample_index() { return from_to(0, 3); }
 
 Result<void> check_values(const CLI::App& verb) {
     for (const CLI::Option* option : verb.get_options()) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "replay/cli/verb.h"
 
@@ -17,11 +18,22 @@ Result<void> check_names(const CLI::App& program, std::span<const std::string> a
 /// where nothing is below 0), which CLI11 2.1 takes or wraps around. To be called when all options are declared.
 void refuse_what_is_no_number(CLI::App& verb);
 
+/// For options whose number has bounds, which are in the help and in the sentence. Every option for a whole number of less than
+/// 64 bits needs some: CLI11 2.1 says "Could not convert" of a number that does not fit.
+CLI::Validator from_to(double low, double high);
+
+/// For options that take one of these words.
+CLI::Validator one_of(std::vector<std::string> words);
+
 /// For options whose number is 0 or more.
 CLI::Validator not_negative();
 
-/// For samples per pixel.
+/// For options whose number is above 0.
+CLI::Validator positive();
+
+/// For samples per pixel, and for the index of one of them.
 CLI::Validator one_or_four();
+CLI::Validator sample_index();
 
 /// Fails where an option or argument that was given is empty or blank, which would count as not given.
 Result<void> check_values(const CLI::App& verb);

@@ -2,6 +2,7 @@
 #include <array>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -213,6 +214,7 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--window", options->window, "pixels of a deep file to read, as X,Y,WIDTH,HEIGHT; default: its display window")
         ->delimiter(',')
         ->expected(4)
+        ->check(from_to(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()))
         ->needs(deep);
     app.add_option("-o,--output", options->output, "capture to write; default: the scene's name with .strata")
         ->type_name(output_file);
@@ -220,20 +222,21 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--samples", options->gltf.samples, "samples per pixel")->check(one_or_four());
     app.add_option("--camera", options->gltf.camera,
                    "index of the scene's camera; default: the first, or without cameras one that frames the scene")
-        ->check(not_negative());
+        ->check(from_to(0, std::numeric_limits<std::int32_t>::max()));
     app.add_option("--azimuth", options->gltf.azimuth,
                    "azimuth of the framing camera in degrees, 0 in front, positive to the right; default 22");
     app.add_option("--elevation", options->gltf.elevation,
                    "elevation of the framing camera in degrees above the horizon, default 16");
+    constexpr double farthest = 1e12;  // meters; directions are still found, whose squares are beyond a double from 1e154 on
     const auto point = [&](const char* name, std::vector<double>& to, const char* help) {
-        app.add_option(name, to, help)->delimiter(',')->expected(3);
+        app.add_option(name, to, help)->delimiter(',')->expected(3)->check(from_to(-farthest, farthest));
     };
     point("--eye", options->eye, "position of the camera as X,Y,Z in meters; replaces the scene's camera");
     point("--target", options->target, "point the --eye camera looks at, as X,Y,Z in meters; default: the center of the scene");
     app.add_option("--fov", options->gltf.fov, "vertical field of view in degrees, for a camera that is not from the scene");
     app.add_flag("--inside", options->gltf.inside,
                  "place the camera inside the scene, at the point with the longest view (for closed rooms)");
-    app.add_option("--frames", options->frames, "number of frames; the animation loops")->check(CLI::Range(1, 100000));
+    app.add_option("--frames", options->frames, "number of frames; the animation loops")->check(from_to(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second at which the animation is sampled, default 30");
     app.add_option("--animation", options->gltf.animation, "name or index of the animation; default: the first");
     app.add_option(

@@ -153,7 +153,7 @@ std::function<Result<void>()> declare_info(CLI::App& app) {
 
 std::function<Result<void>()> declare_validate(CLI::App& app) {
     const auto options = std::make_shared<InfoArguments>();
-    app.add_option("capture", options->capture, "capture (.strata file)")->required()->type_name(input_file);
+    app.add_option("capture", options->capture, "capture (.strata file)")->required()->type_name(judged_file);
     app.add_flag("--json", options->json, "print JSON instead of text");
     add_memory_budget(app, options->memory_budget);
     return [options] { return validate(*options); };

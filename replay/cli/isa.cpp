@@ -9,6 +9,7 @@
 
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/run_json.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
@@ -36,6 +37,7 @@ Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
         if (!found) return found.error();
         if ((*found)->family.empty())
             return fail(Fault::usage, "RADV does not compile for {}; choose a device with --gpu, without --gpu-model", name);
+        if (std::ranges::count(models, *found) > 0) return fail(Fault::usage, "--gpu-model gives '{}' twice", name);
         models.push_back(*found);
     }
     if (models.empty()) models.push_back(nullptr);
@@ -156,10 +158,12 @@ Result<void> report_frame(const IsaArguments& options, std::span<const GpuModel*
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;
+    const ChoiceChanges asked = request->choices;
     const auto shader = shader_of_tiles(options, *request);
     if (!shader) return shader.error();
     auto session = open(options.open);
     if (!session) return session.error();
+    if (const auto told = LeftOutNotes().tell(**session, *request, asked); !told) return told;
     const auto planned = (*session)->plan(*request);
     if (!planned) return planned.error();
     const PipelineRequests requests = pipelines_of(planned->plan);
@@ -219,7 +223,8 @@ std::function<Result<void>()> declare_isa(CLI::App& app) {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--frame", options->frame, "index of the frame, default 0");
-    app.add_option("--dump", options->dump, "write the disassembly of every shader to this folder; it is created if missing");
+    app.add_option("--dump", options->dump, "write the disassembly of every shader to this folder; it is created if missing")
+        ->type_name(output_folder);
     auto* no_run = app.add_flag("--no-run", options->no_run,
                                 "do not run the frame; invocations of indirect dispatches and draws stay unknown");
     app.add_option(

@@ -47,12 +47,12 @@ std::string options_for(const StageInfo& stage, const Features& features) {
 
 }  // namespace
 
-Result<void> LeftOutNotes::tell(Session& session, const Request& request) {
-    if (use_texts(request.choices).empty() && set_texts(request.choices).empty()) return {};
+Result<void> LeftOutNotes::tell(Session& session, const Request& request, const ChoiceChanges& asked) {
+    if (use_texts(asked).empty() && set_texts(asked).empty()) return {};
     const auto planned = session.plan(request);
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped) {
-        const std::vector<std::string> chosen = chosen_of(request.choices, skipped.stage);
+        const std::vector<std::string> chosen = chosen_of(asked, skipped.stage);
         if (chosen.empty() || !told_.insert(fmt::format("{}", fmt::join(chosen, " "))).second) continue;
         to_stderr("strata: {} {} no effect in frame {}: its stage is left out ({}); {} runs it all the same\n",
                   fmt::join(chosen, " and "), chosen.size() > 1 ? "have" : "has", request.variant.frame, skipped.reason,

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "capture_format/container/whole_file.h"
+#include "replay/cli/given_options.h"
 #include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 
@@ -82,17 +83,18 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
     add_options(app, options->open);
     add_options(app, options->choices);
     app.add_option("--at", options->at, "pixel as x,y from the top left corner")->required();
-    app.add_option("--sample", options->sample, "index of the sample in the pixel, default 0");
+    app.add_option("--sample", options->sample, "index of the sample in the pixel, default 0")->check(sample_index());
     app.add_option("--frame", options->frame, "index of the frame, default 0");
     app.add_option("--methods", options->probe.methods,
                    "transparency techniques with their settings, like 'moments kind=power6,wavelet rank=3'; default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")
-        ->check(CLI::IsMember({"log", "linear"}));
-    app.add_option("--depths", options->probe.samples, "number of depths at which transmittance is evaluated, default 512");
-    app.add_option("--from", options->probe.from, "first depth in meters; default: just in front of the first fragment");
-    app.add_option("--to", options->probe.to, "last depth in meters; default: just behind the last fragment");
+    app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")->check(one_of({"log", "linear"}));
+    app.add_option("--depths", options->probe.samples, "number of depths at which transmittance is evaluated, default 512")
+        ->check(from_to(2, most_probe_depths));
+    app.add_option("--from", options->probe.from, "first depth in meters; default: just in front of the first fragment")
+        ->check(positive());
+    app.add_option("--to", options->probe.to, "last depth in meters; default: just behind the last fragment")->check(positive());
     app.add_option("-o,--output", options->output,
                    "path of the .json, .csv and .svg without extension; default: capture.f0000.x0.y0");
     app.add_flag("--json", options->json, "print JSON instead of text");

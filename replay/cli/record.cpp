@@ -88,7 +88,7 @@ std::function<Result<void>()> declare_record(CLI::App& app) {
     const auto options = std::make_shared<RecordArguments>();  // lives as long as the parsed command line
     app.add_option("scenario", options->scenario, "name of a scenario (strata list --scenarios)")->required();
     app.add_option("-o,--output", options->output, "capture to write; default SCENARIO.strata")->type_name(output_file);
-    app.add_option("--frames", options->frames.frames, "number of frames")->check(CLI::Range(1, 100000));
+    app.add_option("--frames", options->frames.frames, "number of frames")->check(from_to(1, 100000));
     app.add_option("--size", options->size, "extent as WIDTHxHEIGHT; default: the scenario's own");
     app.add_option("--samples", options->frames.samples, "samples per pixel")->check(one_or_four());
     app.add_option("--seed", options->frames.seed, "seed of the random numbers");

@@ -312,14 +312,15 @@ std::function<Result<void>()> declare_replay(CLI::App& app) {
         ->delimiter(',');
     auto* until = app.add_option("--until", options->until, "stop after the last step whose name contains this text");
     app.add_option("--repeat", options->repeat, "replay this many times, 2 or more; exit code 7 if any image of any pass differs")
-        ->check(CLI::Range(2, 100000))
+        ->check(from_to(2, 100000))
         ->excludes(until);
     app.add_option("--time", options->timed, "time every step over this many repeats after a warm-up; print median and deviation")
-        ->check(CLI::Range(1, 10000));
+        ->check(from_to(1, 10000));
     app.add_option(
-        "-o,--output", options->folder,
-        "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
-        "nothing");
+           "-o,--output", options->folder,
+           "write .exr, .png and .json of each frame to this folder, named for the --use and --set choices; default: write "
+           "nothing")
+        ->type_name(output_folder);
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("--tolerance", options->tolerance,
                    "largest allowed relative RMSE to the expected images; exit code 6 if the capture has none")

@@ -266,7 +266,7 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
                    "answer which technique, the baseline aside, is cheapest with at most this error, like 1%");
     app.add_option("--error-at", options->error_at,
                    "measure errors of the stage's output, or of the picture that the later stages make of it")
-        ->check(CLI::IsMember({"stage", "picture"}));
+        ->check(one_of({"stage", "picture"}));
     app.add_option("--within", options->within,
                    "answer which technique, the baseline aside, is most accurate within this multiple of its time, like 2x");
     app.add_option("--sweep", options->sweeps,
@@ -275,9 +275,9 @@ std::function<Result<void>()> declare_report(CLI::App& app) {
     app.add_option("--frame", options->frame, "index of the frame, default 0");
     app.add_option("--repeats", options->repeats,
                    "timed repeats of each row; default: 3, 1 where a row is far behind another, 7 where its rank is uncertain")
-        ->check(CLI::Range(1, 1000));
+        ->check(from_to(1, 1000));
     app.add_option("--minutes", options->minutes, "stop after this many minutes and report what is measured by then")
-        ->check(CLI::Range(1e-3, 1e6));
+        ->check(from_to(1e-3, 1e6));
     app.add_option("--flicker", options->flicker,
                    "measure how errors change while the camera moves ahead and turns, over this many positions (64 if "
                    "no number follows)")

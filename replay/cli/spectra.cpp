@@ -11,6 +11,7 @@
 #include "capture_format/container/whole_file.h"
 #include "capture_format/nearest_name.h"
 #include "replay/cli/given_options.h"
+#include "replay/cli/left_out.h"
 #include "replay/cli/verb_options.h"
 #include "replay/isa/compile_elsewhere.h"
 #include "replay/progress_line.h"
@@ -47,11 +48,18 @@ Result<std::unique_ptr<Session>> open_one(const SpectraArguments& options, const
 Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const Technique& technique, const Request& base) {
     std::vector<FrameSpectra> gathered;
     std::string why = "nothing is lit";
+    LeftOutNotes notes;
     for (const std::filesystem::path& capture : options.captures) {
         auto session = open_one(options, capture);
         if (!session) return session.error();
         const auto frames = frame_indices(options.frames, (*session)->frame_count());
         if (!frames) return frames.error();
+        Request request = base;
+        request.choices.use(technique);
+        for (const std::size_t frame : *frames) {
+            request.variant.frame = frame;
+            if (const auto told = notes.tell(**session, request, base.choices); !told) return told.error();
+        }
         auto made = gather_spectra(**session, technique, base, *frames);
         if (!made) return made.error();
         if (!made->skipped.empty()) why = made->skipped.front().reason;
@@ -139,16 +147,16 @@ std::function<Result<void>()> declare_spectra(CLI::App& app) {
     add_options(app, options->choices);
     app.add_option("--frames", options->frames, "indices of frames of each capture, like 0,4-8; default all");
     app.add_option("--modes", options->wish.modes, "largest number of shader variants (modes), including the full one; default 8")
-        ->check(CLI::Range(std::size_t(1), most_settable_modes));
+        ->check(from_to(1, most_settable_modes));
     app.add_option("--cost", options->cost, help_of_costs());
     app.add_option("--gpu-model", options->gpu_model, "GPU model to compile shader variants for (strata isa lists them)");
     app.add_option("--aim", options->aim,
                    "what to minimize: sum (default), the cost of all frames; worst, the most expensive frame")
-        ->check(CLI::IsMember({"sum", "worst"}));
+        ->check(one_of({"sum", "worst"}));
     app.add_option("--dispatch", options->wish.dispatch, "cost of one more mode per frame, in the unit of --cost; default 0")
         ->check(not_negative());
     app.add_option("--repeats", options->repeats, "timed repeats of each shader variant after a warm-up, default 7")
-        ->check(CLI::Range(1, 1000));
+        ->check(from_to(1, 1000));
     app.add_flag("--json", options->json, "print JSON instead of text");
     app.add_option("-o,--output", options->output, "write the JSON to this file, too")->type_name(output_file);
     return [options, &app] { return check_options(*options, app).and_then([&] { return spectra(*options); }); };

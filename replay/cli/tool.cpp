@@ -91,8 +91,14 @@ std::vector<std::filesystem::path> files_of(const CLI::App& verb, const std::str
     return files;
 }
 
+/// Whether the verb makes the folder of this file.
+bool is_in_one_of(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file) {
+    const auto parent = file.parent_path().lexically_normal();
+    return std::ranges::any_of(folders, [&](const auto& folder) { return (folder / "").lexically_normal() == parent / ""; });
+}
+
 /// From now on no input of the verb is replaced. Inputs that are no files and outputs whose names are known are refused before
-/// any work is done.
+/// any work is done, and so are outputs that cannot be written: a report of hours would be lost.
 Result<void> keep_inputs(const CLI::App& verb) {
     const std::vector<std::filesystem::path> inputs = files_of(verb, input_file);
     const std::vector<std::filesystem::path> outputs = files_of(verb, output_file);
@@ -105,9 +111,29 @@ Result<void> keep_inputs(const CLI::App& verb) {
         for (const std::filesystem::path& input : files)
             if (const auto fine = check_is_file(input); !fine) return fine;
     keep_files(inputs);
-    for (const std::filesystem::path& output : outputs)
+    const std::vector<std::filesystem::path> folders = files_of(verb, output_folder);
+    for (const std::filesystem::path& output : outputs) {
         if (const auto free = check_not_kept(output); !free) return free;
+        if (is_in_one_of(folders, output)) continue;
+        if (const auto tried = WholeFile::begin(output); !tried) return tried.error();
+    }
     return {};
+}
+
+/// CLI11's words (2.1), those that are hard to understand replaced.
+std::string sentence_of(const CLI::ParseError& error) {
+    std::string sentence = error.what();
+    const auto replace = [&](std::string_view what, std::string_view with) {
+        const std::size_t at = sentence.find(what);
+        if (at != sentence.npos) sentence.replace(at, what.size(), with);
+        return at != sentence.npos;
+    };
+    if (error.get_name() == "ExcludesError") replace(" excludes ", " cannot be combined with ");
+    if (error.get_name() != "ArgumentMismatch") return sentence;
+    if (replace(": At Most 1 required but received ", " is given ")) sentence += " times; give it once";
+    for (const char* type : {input_file, output_file, output_folder, "TEXT"})
+        replace(fmt::format(": 1 required {} missing", type), " needs a value");
+    return sentence;
 }
 
 /// Whether a verb is to run: help and versions are printed here.
@@ -128,7 +154,8 @@ Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
                 return fail(Fault::usage,
                             "arguments after -- are file names, and strata {} takes no more of them; put options before --",
                             verb.front()->get_name());
-            return fail(Fault::usage, "{}; see strata help{}", error.what(), verb.empty() ? "" : " " + verb.front()->get_name());
+            return fail(Fault::usage, "{}; see strata help{}", sentence_of(error),
+                        verb.empty() ? "" : " " + verb.front()->get_name());
         }
         return false;
     }
@@ -164,7 +191,8 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
     if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
     for (const auto& [sub, verb] : runs)
-        if (sub->parsed()) return keep_inputs(*sub).and_then([&] { return check_values(*sub); }).and_then(verb);
+        if (sub->parsed())  // clang 14 captures no structured binding
+            return keep_inputs(*sub).and_then([parsed = sub] { return check_values(*parsed); }).and_then(verb);
     write_stdout(app.help());
     return {};
 }

@@ -100,6 +100,7 @@ std::string as_json(const Comparison& comparison) {
                       {"tool", comparison.tool},
                       {"a", json_of(comparison.a)},
                       {"b", json_of(comparison.b)},
+                      {"reference", "a"},
                       {"limits", json_of(comparison.limits)},
                       {"verdict", name(verdict(comparison))},
                       {"rerun", comparison.rerun},

@@ -1,18 +1,21 @@
 // A comparison as JUnit's XML, which every CI system reads.
+#include "capture_format/clean_text.h"
 #include "replay/difference/comparison.h"
 
 namespace strata {
 namespace {
 
-/// Text in an attribute or an element. Control characters have no place in XML 1.0.
+/// Text in an attribute or an element. XML 1.0 has no control characters and, as declared here, nothing but UTF-8; names of files
+/// may have either. In an attribute a line's end would be read as a space.
 std::string escaped(std::string_view text) {
     std::string safe;
-    for (const char c : text) {
+    for (const char c : clean_text(text)) {
         if (c == '&') safe += "&amp;";
         else if (c == '<') safe += "&lt;";
         else if (c == '>') safe += "&gt;";
         else if (c == '"') safe += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') safe += c;
+        else if (c == '\n') safe += "&#10;";
+        else safe += c;
     }
     return safe;
 }

@@ -78,7 +78,7 @@ std::string frame_text(const FrameComparison& frame) {
 }  // namespace
 
 std::string as_text(const Comparison& comparison) {
-    std::string text = side_text("A", comparison.a) + side_text("B", comparison.b);
+    std::string text = side_text("A", comparison.a) + side_text("B", comparison.b) + "relative errors are relative to A\n";
     for (const FrameComparison& frame : comparison.frames) text += frame_text(frame);
     std::size_t over = 0, images = 0;
     for (const FrameComparison& frame : comparison.frames)

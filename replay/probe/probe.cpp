@@ -10,13 +10,13 @@
 #include "passes/registry.h"
 #include "passes/transparency/low_resolution/prepass.h"
 #include "passes/transparency/sample_blend.h"
+#include "replay/plural.h"
 #include "replay/probe/probe_frame.h"
 #include "replay/session/choice_text.h"
 
 namespace strata {
 namespace {
 
-constexpr std::uint32_t most_samples = 8192;
 // A probe stands so much nearer than the fragment whose T it measures: more than floats round, less than methods resolve.
 constexpr double just_in_front = 1 - 1e-6;
 // What the probe itself may change of the total before a note says so.
@@ -232,12 +232,13 @@ Result<void> measure_all(Session& session, Probe& probe, ProbeScene scene, const
 Result<void> choose_range(Probe& probe, const ProbeOptions& options) {
     const double first = probe.fragments.front().depth, last = probe.fragments.back().depth;
     const double margin = std::max(1.05, std::pow(last / first, .1));
-    probe.from = std::clamp(options.from > 0 ? options.from : first / margin, probe.nearest, probe.farthest);
-    probe.to = std::clamp(options.to > 0 ? options.to : last * margin, probe.nearest, probe.farthest);
+    const double from = options.from > 0 ? options.from : first / margin, to = options.to > 0 ? options.to : last * margin;
+    probe.from = std::clamp(from, probe.nearest, probe.farthest);
+    probe.to = std::clamp(to, probe.nearest, probe.farthest);
     if (probe.from < probe.to) return {};
     return fail(Fault::usage,
-                "there is nothing to probe from {} to {} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
-                options.from, options.to, probe.nearest, probe.farthest);
+                "there is nothing to probe from {:.4g} to {:.4g} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
+                from, to, probe.nearest, probe.farthest);
 }
 
 /// The frame's pixel nearest to `at` that has a fragment.
@@ -259,7 +260,8 @@ Result<void> check_pixel(Session& session, const Request& request, const Fragmen
         return fail(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})", lists.width(),
                     lists.height(), at.x, at.y);
     if (at.sample >= lists.samples())
-        return fail(Fault::usage, "a pixel has {} samples, counted from 0; there is no sample {}", lists.samples(), at.sample);
+        return fail(Fault::usage, "a pixel has {}, numbered from 0; there is no sample {}", plural(lists.samples(), "sample"),
+                    at.sample);
     if (!lists.at(at.x, at.y, at.sample).empty()) return {};
     const auto all = session.transparent_fragments(request);
     if (!all) return all.error();
@@ -276,9 +278,10 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
     if (!methods) return methods.error();
     assert(!stack.fragments.empty());
     const std::size_t pixels = options.samples + stack.fragments.size();
-    if (options.samples < 2 || options.samples > most_samples || pixels > session.device().max_image_extent)
-        return fail(Fault::usage, "{} samples beside {} fragments cannot be probed: 2 to {} can, {} with the fragments",
-                    options.samples, stack.fragments.size(), most_samples, session.device().max_image_extent);
+    if (options.samples < 2 || options.samples > most_probe_depths || pixels > session.device().max_image_extent)
+        return fail(Fault::usage, "T(z) is evaluated at 2 to {} depths, and with the pixel's {} at most {}; {} were asked for",
+                    most_probe_depths, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent,
+                    options.samples);
     // A depth offset may bring a particle nearer than the range, where methods stop telling depths apart.
     for (Fragment& fragment : stack.fragments) fragment.depth = std::max(fragment.depth, stack.nearest);
     Probe probe{.axis = options.axis, .nearest = stack.nearest, .farthest = stack.farthest, .device = session.device()};

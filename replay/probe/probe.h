@@ -18,6 +18,8 @@ struct PixelAt {
 
 enum class DepthAxis { logarithmic, linear };
 
+inline constexpr std::uint32_t most_probe_depths = 8192;
+
 struct ProbeOptions {
     /// "transparency/name key=value ..."; what is not set is the technique's default. Empty: every technique of the stage.
     std::vector<std::string> methods;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "capture_format/nearest_name.h"
@@ -97,7 +98,8 @@ Result<EyeMove> eye_move_of(std::string_view text) {
         const std::size_t equals = std::min(part.find('='), part.size());
         const std::string_view name = part.substr(0, equals), number = part.substr(std::min(equals + 1, part.size()));
         const auto axis = std::ranges::find(axes, name, &EyeAxis::name);
-        if (axis == std::end(axes)) return fail(Fault::usage, "the eye has no '{}'{}", name, did_you_mean(name, known));
+        if (axis == std::end(axes))
+            return fail(Fault::usage, "--eye takes {}, not '{}'{}", fmt::join(known, ", "), name, did_you_mean(name, known));
         if (std::exchange(given[static_cast<std::size_t>(axis - axes)], true))
             return fail(Fault::usage, "--eye gives {} twice", name);
         double& value = move.*axis->member;

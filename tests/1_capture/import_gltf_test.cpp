@@ -175,17 +175,26 @@ TEST(ImportGltf, InsideViewsStandWithinTheSceneAndSeeItAllAround) {
         << "it looks away";
 }
 
+/// A triangle and a lamp.
+std::string lit_by(double candela) {
+    return Gltf().with_triangle().text(
+        R"("nodes":[{"mesh":0},{"translation":[0.5,0.5,2],"extensions":{"KHR_lights_punctual":{"light":0}}}],
+           "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)" +
+        fmt::format(R"("extensions":{{"KHR_lights_punctual":{{"lights":[{{"type":"point","name":"lamp","intensity":{}}}]}}}})",
+                    candela));
+}
+
 TEST(ImportGltf, StrongLightsLowerTheExposure) {
-    const auto scene = [](double candela) {
-        return imported(Gltf().with_triangle().text(
-            R"("nodes":[{"mesh":0},{"translation":[0.5,0.5,2],"extensions":{"KHR_lights_punctual":{"light":0}}}],
-               "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)" +
-            fmt::format(R"("extensions":{{"KHR_lights_punctual":{{"lights":[{{"type":"point","intensity":{}}}]}}}})", candela)));
-    };
+    const auto scene = [](double candela) { return imported(lit_by(candela)); };
     EXPECT_EQ(scene(8).frame.view.exposure, 1) << "8 / 2^2 / pi = 0.64";
     const ImportedScene strong = scene(400);
     EXPECT_NEAR(strong.frame.view.exposure, 1.7 / (400 / 4 / 3.14159265), 1e-6);
     EXPECT_THAT(strong.warnings, Contains(HasSubstr("the exposure is 0.0534")));
+    EXPECT_GT(scene(3e38).frame.view.exposure, 0) << "a float holds this light";
+}
+
+TEST(ImportGltf, ALightThatAFloatCannotHoldIsRefusedByItsName) {
+    EXPECT_THAT(refusal(lit_by(1e300)), HasSubstr("light 0 'lamp': its intensity is not finite"));
 }
 
 TEST(ImportGltf, WithoutLightsThereIsASunAndASky) {

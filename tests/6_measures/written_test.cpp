@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "capture_format/clean_text.h"
 #include "replay/difference/comparison.h"
 #include "replay/difference/picture.h"
 
@@ -16,12 +17,13 @@ using testing::HasSubstr;
 /// Why a text is no well-formed XML, or nothing. Knows what JUnit needs: declarations, elements, attributes, five entities.
 std::string not_well_formed(const std::string& xml) {
     std::vector<std::string> open;
+    if (clean_text(xml) != xml) return "a control character or no UTF-8";
     for (std::size_t at = 0; at < xml.size(); ++at) {
         if (xml[at] == '&') {
             const std::string entity = xml.substr(at, xml.find(';', at) + 1 - at);
-            if (entity != "&amp;" && entity != "&lt;" && entity != "&gt;" && entity != "&quot;") return "bad entity " + entity;
+            if (entity != "&amp;" && entity != "&lt;" && entity != "&gt;" && entity != "&quot;" && entity != "&#10;")
+                return "bad entity " + entity;
         }
-        if (static_cast<unsigned char>(xml[at]) < 0x20 && xml[at] != '\n' && xml[at] != '\t') return "a control character";
         if (xml[at] != '<') continue;
         const std::size_t end = xml.find('>', at);
         if (end == xml.npos) return "an open tag";
@@ -56,12 +58,12 @@ Comparison broken() {
                                 .acts = {{"combine <at> film", "x \"1\"", "y & z", {made}}},
                                 .divergence = {"combine <at> film", "color", "step '1' \x01"},
                                 .verdict = Verdict::over};
-    return {.a = {.name = "a&b.strata"}, .b = {.name = "b"}, .frames = {frame}, .rerun = "strata diff 'a&b.strata' <x>"};
+    return {.a = {.name = "a&b\xff\n.strata"}, .b = {.name = "b"}, .frames = {frame}, .rerun = "strata diff 'a&b.strata' <x>"};
 }
 
 TEST(Junit, IsWellFormedWhateverNamesHold) {
     EXPECT_EQ(not_well_formed("<a b=\"&amp;\"><c/></a>"), "");
-    for (const char* bad : {"<a>", "<a></b>", "<a b=\"></a>", "<a>&nbsp;</a>", "<a>\x01</a>"})
+    for (const char* bad : {"<a>", "<a></b>", "<a b=\"></a>", "<a>&nbsp;</a>", "<a>\x01</a>", "<a>\xff</a>"})
         EXPECT_NE(not_well_formed(bad), "") << bad;
     EXPECT_EQ(not_well_formed(as_junit(broken(), {{"f0003.combine_<at>_film.color", "out/<1>.png"}})), "");
 }
@@ -69,6 +71,7 @@ TEST(Junit, IsWellFormedWhateverNamesHold) {
 TEST(Junit, HasACasePerActAndImageWithItsFailureItsFilesAndTheCommand) {
     const std::string xml = as_junit(broken(), {{"f0003.combine_<at>_film.color", "out/1.png"}});
     EXPECT_THAT(xml, HasSubstr("tests=\"1\" failures=\"1\""));
+    EXPECT_THAT(xml, HasSubstr("<testsuite name=\"a&amp;b\xef\xbf\xbd&#10;.strata frame 3\"")) << "a line's end stays one";
     EXPECT_THAT(xml, HasSubstr("<failure type=\"over tolerance\" message=\"percent of pixels over 0"));
     EXPECT_THAT(xml, HasSubstr("out/1.png"));
     EXPECT_THAT(xml, HasSubstr("strata diff 'a&amp;b.strata' &lt;x&gt;"));

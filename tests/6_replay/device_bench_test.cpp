@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "captures/scenarios.h"
 #include "replay/bench/device_bench.h"
 #include "tests/support/session.h"
 #include "tests/support/test_frame.h"
@@ -94,6 +95,25 @@ TEST(DeviceLimits, TwiceTheTurnsAreTwiceTheMultiplyAddsThatTheThreadsCount) {
         EXPECT_TRUE(std::isfinite(spread.median));
         EXPECT_GT(spread.low, 0);
     }
+}
+
+TEST(DeviceBench, StoppedGivesTheStepsByTheRunsThatAreComplete) {
+    const auto session =
+        must(Session::open(std::vector{must(find_scenario("one_pane"))->build(0, {.width = 16, .height = 9})}, {}));
+    const Request request;
+    std::stop_source stop;
+    DeviceBenchWish wish{.request = request, .repeats = 3, .stop = stop.get_token()};
+    wish.progress = [&](std::string_view what, double) {
+        if (what.starts_with("timing, 3")) stop.request_stop();
+    };
+    const DeviceBench made = must(bench_device(*session, shared_device(), wish));
+    EXPECT_EQ(made.stopped, "stopped after 2 of 3 timed runs");
+    ASSERT_FALSE(made.steps.empty());
+    EXPECT_EQ(made.steps.front().ms.repeats, 2u);
+    const auto none = bench_device(*session, shared_device(), wish);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().fault, Fault::stopped);
+    EXPECT_EQ(none.error().sentence, "stopped before a step was timed");
 }
 
 }  // namespace

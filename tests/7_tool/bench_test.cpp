@@ -20,6 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string short_name(const Technique& technique) { return below_stage(technique.name); }
 
@@ -192,6 +193,10 @@ TEST(BenchText, OfADeviceFitsATerminalAndSaysWhatIsCounted) {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
     EXPECT_DOUBLE_EQ(bench.share_of_bytes(bench.steps[0]), .25) << "10 of 40 GB/s";
     EXPECT_DOUBLE_EQ(*bench.share_of_operations(bench.steps[0]), .1) << "3 of 30 billion";
+    EXPECT_THAT(text, Not(HasSubstr("stopped")));
+    bench.stopped = "stopped after 3 of 7 timed runs";
+    EXPECT_THAT(as_text(bench), HasSubstr("\nstopped after 3 of 7 timed runs\n"));
+    EXPECT_EQ(json::parse(as_json(bench))["stopped"], bench.stopped);
     EXPECT_THAT(text, AllOf(HasSubstr("a buffer of 1 MB"), HasSubstr("not counted"), HasSubstr("every loop turned once"),
                             HasSubstr("whole and once")));
 }

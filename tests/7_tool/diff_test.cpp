@@ -118,6 +118,25 @@ TEST_F(Diff, OfACaptureAndItsOwnReplaysImagesIsExitZero) {
     EXPECT_EQ(strata("diff out/panes.f0000.png out/panes.f0000.exr").code, 2);
 }
 
+TEST_F(Diff, IsRelativeToAWhicheverSideIsReplayed) {
+    ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
+    const auto error_of = [](const std::string& command) {
+        const json made = json::parse(strata(command).out);
+        EXPECT_EQ(made["reference"], "a");
+        for (const json& image : made["frames"][0]["acts"][0]["images"])
+            if (image["image"] == "color") return image["error"];
+        return json();
+    };
+    const json replay_first = error_of("diff panes.strata out/panes.f0000.exr --use-a weighted --json"),
+               image_first = error_of("diff out/panes.f0000.exr panes.strata --use weighted --json");
+    EXPECT_EQ(replay_first["rmse"], image_first["rmse"]);
+    EXPECT_NE(replay_first["relative_rmse"], image_first["relative_rmse"]);
+    EXPECT_EQ(replay_first["worst_pixel"]["a"], image_first["worst_pixel"]["b"]);
+    EXPECT_THAT(strata("diff out/panes.f0000.exr panes.strata").out, HasSubstr("relative errors are relative to A"));
+    EXPECT_THAT(strata("diff out/panes.f0000.exr panes.strata --use-a weighted").err,
+                HasSubstr("--use-a does not apply: A is an image and not replayed"));
+}
+
 TEST_F(Diff, OfTwoSizesIsExitTwoWithBothShapes) {
     ASSERT_EQ(strata("record three_panes --size 65x36 -o wider.strata").code, 0);
     const Finished refused = strata("diff panes.strata wider.strata");
@@ -175,7 +194,7 @@ TEST_F(Diff, WhatCannotBeComparedIsASentence) {
     ASSERT_EQ(strata("replay panes.strata -o out").code, 0);
     for (const char* wrong :
          {"panes.strata", "panes.strata two.strata", "panes.strata panes.strata --frames 1", "two.strata out/panes.f0000.exr",
-          "out/panes.f0000.exr panes.strata", "panes.strata out/panes.f0000.png", "panes.strata --use no/such",
+          "out/panes.f0000.png panes.strata", "panes.strata out/panes.f0000.png", "panes.strata --use no/such",
           "panes.strata panes.strata --limit -1"}) {
         const Finished failed = strata(std::string("diff ") + wrong);
         EXPECT_EQ(failed.code, 2) << wrong;

@@ -98,6 +98,17 @@ TEST(Validate, SaysInJsonWhatIsWrong) {
     EXPECT_EQ("strata: " + problem["problem"].get<std::string>() + "\n", refused.err);
 }
 
+TEST(Validate, SaysInJsonThatAFileCannotBeOpened) {
+    for (const char* file : {"nowhere.strata", ".", "'two\nlines'"}) {
+        const Finished refused = strata(fmt::format("validate {} --json", file));
+        EXPECT_EQ(refused.code, 3) << file;
+        const nlohmann::json problem = nlohmann::json::parse(refused.out);
+        EXPECT_EQ(problem["is_sound"], false) << file;
+        EXPECT_THAT(refused.err, testing::HasSubstr("strata: " + problem["problem"].get<std::string>())) << file;
+        EXPECT_EQ(strata(fmt::format("validate {}", file)).out, "") << file;
+    }
+}
+
 TEST(Accept, WritesNothingWhenNothingChanged) {
     record_panes();
     ASSERT_EQ(strata("accept panes.strata").code, 0);

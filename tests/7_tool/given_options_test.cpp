@@ -60,6 +60,28 @@ TEST(Numbers, EveryNumericOptionOfEveryVerbRefusesWhatIsNoNumber) {
     EXPECT_GT(options, 40u);
 }
 
+/// CLI11 says "Could not convert" of a number that its variable cannot hold.
+TEST(Numbers, ThatDoNotFitAreRefusedWithTheRange) {
+    for (const std::string verb : verb_names())
+        for (const NumericOption& option : numeric_options(verb)) {
+            if (option.type == "FLOAT") continue;
+            const bool is_signed = option.type == "INT";
+            for (const std::string value : {"4294967296", is_signed ? "-2147483649" : "18446744073709551616"}) {
+                const Finished refused = strata(fmt::format("{} {}={}", verb, option.name, value));
+                EXPECT_THAT(refused.err, Not(HasSubstr("Could not convert"))) << verb << " " << option.name << "=" << value;
+            }
+        }
+    const Refusal refusals[] = {
+        {"x --at 1,1 --depths 99999999999", 2, "--depths: takes a number from 2 to 8192, not 99999999999"},
+        {"x --at 1,1 --depths 1", 2, "--depths: takes a number from 2 to 8192, not 1"},
+        {"x --at 1,1 --sample 4", 2, "--sample: takes a number from 0 to 3, not 4"},
+        {"x --at 1,1 --to 0", 2, "--to: takes a number above 0, not 0"},
+        {"x --at 1,1 --from -1e-9", 2, "--from: takes a number above 0, not -1e-9"}};
+    expect_refusals("probe", refusals);
+    EXPECT_THAT(strata("diff x x --ppd 0.5").err, HasSubstr("--ppd: takes a number from 1 to 1000, not 0.5"));
+    EXPECT_THAT(strata("help diff").out, HasSubstr("--ppd FLOAT:1 to 1000"));
+}
+
 TEST(Options, ThatSayTwoThingsOrNothingAreRefused) {
     write_file(folder() / "sound.strata", sound_capture());
     const std::pair<const char*, const char*> refusals[] = {
@@ -144,6 +166,9 @@ TEST(Options, ThatWouldBeIgnoredAreRefused) {
         {"replay sound.strata --expect --until combine", "--until does not apply"},
         {"replay sound.strata --tolerance 1 --until combine", "--until does not apply"},
         {"replay sound.strata --tolerance 1 --no-expect", "--no-expect does not apply"},
+        {"report sound.strata --methods weighted --defaults", "--methods cannot be combined with --defaults"},
+        {"isa sound.strata --gpu-model navi21,navi21", "--gpu-model gives 'navi21' twice"},
+        {"replay sound.strata --samples 1 --samples 4", "--samples is given 2 times; give it once"},
         {"replay sound.strata --tolerance 1 --eye pan=1", "--eye does not apply"},
         {"replay sound.strata --eye pan=1,tilt=0,pan=2", "--eye gives pan twice"},
     };
@@ -186,6 +211,9 @@ TEST(Options, ThatCannotBeFollowedAreASentence) {
         {"replay sound.strata --samples 4294967297", "takes 1 or 4, not 4294967297"},
         {"replay sound.strata --frames 0 --until gbuffer --outputs display", "frame 0 has no 'display': --until gbuffer ends"},
         {"replay sound.strata --frames 0 --until gbuffer --outputs gbuffer0,display -o out", "frame 0 has no 'display'"},
+        {"replay sound.strata --eye foo=1", "--eye takes dolly, truck, "},
+        {"replay sound.strata -o", "--output needs a value"},
+        {"probe sound.strata --at 1,1 --axis lin", "--axis: takes log or linear, not 'lin'"},
         {"accept sound.strata --allow-partial", "accept has no option --allow-partial"},
         {"replay sound.strata -- --json", "arguments after -- are file names"},
         {"record smoke", "did you mean smoke_"},
@@ -199,7 +227,7 @@ TEST(Options, ThatCannotBeFollowedAreASentence) {
         {"replay sound.strata --frames 0,0", "--frames lists frame 0 twice in '0,0'"},
         {"replay sound.strata --frames 0,", "--frames takes a list like 0,4-8, not '0,'"},
         {"export sound.strata --image color --caption -o x.exr", "--caption is for a .png"},
-        {"export sound.strata --deep --sample 4294967295 -o x.exr", "there is no sample 4294967295"},
+        {"export sound.strata --deep --sample 4294967295 -o x.exr", "takes a number from 0 to 3, not 4294967295"},
         {"report --flicker sound.strata", "a number of positions from 2 to 10000, not 'sound.strata'; captures stand before it"},
         {"report sound.strata --use weighted", "choose them with --methods weighted"},
         {"report sound.strata --set pool=3", "give it to one row with --methods 'sorted_lists pool=3'"},
@@ -231,10 +259,13 @@ TEST(Options, OfTheFramingCameraAreRefusedWhereAnotherOneIsUsed) {
                                 {"own.glb --fov 0", 2, "a field of view has 1 to 170 degrees"},
                                 {"own.glb --inside --elevation 30", 2, "--inside places another"},
                                 {"own.glb --eye 0,1,5 --azimuth 30", 2, "--eye places another"},
+                                {"own.glb --eye 1e308,0,0", 2, "takes a number from -1000000000000 to 1000000000000, not 1e308"},
+                                {"own.glb --azimuth 361", 2, "--azimuth takes -360 to 360 degrees"},
                                 {"own.glb --fps 3", 2, "ask for more with --frames"},
                                 {"own.glb --frames 2 --fps 3", 2, "the glTF has no animation"},
                                 {"own.glb --gpu no_such_device --size 16x9", 2, "no device is called 'no_such_device'"}};
     expect_refusals("import", refusals);
+    EXPECT_NE(strata("replay sound.strata --frames 0 --tolerance=-0").code, 2) << "-0 is 0";
     EXPECT_EQ(strata("import own.glb --eye 0,1,5 --fov 30 --size 16x9").code, 0);
 }
 
@@ -250,6 +281,9 @@ TEST(Techniques, OfAStageThatIsLeftOutAreNamedOnceWithTheOptionThatRunsThem) {
     EXPECT_THAT(made.err.substr(made.err.find(lens) + lens.size()), Not(HasSubstr("no effect")));
     EXPECT_THAT(strata("graph sound.strata --use all_samples").err, HasSubstr("edges/all_samples has no effect in frame 0"));
     EXPECT_THAT(strata("graph sound.strata --use all_samples").err, HasSubstr("--samples 4 runs it all the same"));
+    for (const char* verb : {"bench voxel sound.strata --only splat --repeats 1", "bench device sound.strata --repeats 1",
+                             "isa sound.strata --no-run", "spectra sound.strata"})
+        EXPECT_THAT(strata(fmt::format("{} --use lens/camera --set bloom=off", verb)).err, HasSubstr(lens)) << verb;
     for (const char* runs : {"--use lens/camera --force bloom", "--use all_samples --samples 4", "--use weighted"})
         EXPECT_EQ(strata(fmt::format("graph sound.strata {}", runs)).err, "") << runs;
 }

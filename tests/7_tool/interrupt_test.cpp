@@ -101,6 +101,20 @@ TEST(ExhaustiveInterrupt, OfABenchPrintsTheRatiosThatAreComplete) {
     FAIL() << "no ratio in a minute";
 }
 
+/// As above; the device's own limits are measured first.
+TEST(ExhaustiveInterrupt, OfADeviceBenchPrintsTheStepsByTheRunsThatAreComplete) {
+    for (double seconds = 2; seconds < 100; seconds *= 1.5) {
+        const pid_t process = start_strata("bench device --repeats 40", "printed.txt");
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        kill(process, SIGINT);
+        ASSERT_EQ(code_of(process), 130) << text_of("printed.txt");
+        if (text_of("printed.txt").find("GB/s") == std::string::npos) continue;
+        EXPECT_THAT(text_of("printed.txt"), testing::ContainsRegex("\nstopped after [0-9]+ of 40 timed runs\n"));
+        return;
+    }
+    FAIL() << "no timed run in 100 seconds";
+}
+
 /// A thousand repeats of every row last longer than any time tried here; the least time in which a row is measured is not known.
 TEST(Interrupt, ByTheMinutesThatAReportMayTakeIsNoFailure) {
     write_file(folder() / "sound.strata", sound_capture());

@@ -95,7 +95,7 @@ TEST(IsaTiles, ThatCannotBeShownAreRefusedWithASentence) {
         {"pane.strata --gpu-model bonaire --tiles t.png", 2, " shades no tile: "},
         {"room.strata --gpu-model bonaire --tiles t.jpg", 2, "written as .exr or .png, not as 't.jpg'"},
         {"room.strata --gpu-model bonaire,navi21 --tiles t.png", 2, "--tiles shows one GPU, not 2"},
-        {"room.strata --gpu-model bonaire --tiles t.png --no-run", 2, "excludes"},
+        {"room.strata --gpu-model bonaire --tiles t.png --no-run", 2, "cannot be combined with"},
         {"room.strata --gpu-model bonaire --tiles t.png --use lighting/brute_force", 2,
          "lighting/brute_force has no shading modes; "},
         {"room.strata --gpu-model bonaire --tiles nowhere/t.png", 2, "nowhere/t.png"},

@@ -62,6 +62,20 @@ TEST(Output, ThatCannotBeWrittenIsAUsageErrorWithTheSystemsWords) {
     EXPECT_EQ(files_made(), 0u);
 }
 
+/// What was measured for hours would be lost. A folder that the verb itself makes may be missing.
+TEST(Output, ThatCannotBeWrittenIsRefusedBeforeAnythingIsMeasured) {
+    write_sound_capture();
+    for (const char* command : {"report sound.strata --methods weighted -o", "bench voxel sound.strata --only splat -o",
+                                "spectra sound.strata -o", "diff sound.strata --use transparency/weighted --junit"}) {
+        const Finished refused = strata(fmt::format("{} nowhere/made", command));
+        EXPECT_EQ(refused.code, 2) << command;
+        EXPECT_EQ(refused.err, "strata: cannot write nowhere/made: No such file or directory\n") << command;
+        EXPECT_EQ(refused.out, "") << command;
+    }
+    EXPECT_EQ(strata("diff sound.strata sound.strata --frames 0 -o new/folder --junit new/folder/junit.xml").code, 0);
+    EXPECT_EQ(files_made(), 1u);
+}
+
 /// A command that reads sound.strata, and a file that it writes.
 constexpr Writing inputs_as_outputs[] = {
     {"report sound.strata --repeats 1 --sweep pool=2 -o link.txt", "link.txt"},
