@@ -53,7 +53,8 @@ std::string line_of(const Measurement& row, std::size_t figures, bool is_timed) 
     line += fmt::format(",{},{}", time(&Spread::median), time(&Spread::mad));
     return line + fmt::format(",{},{},{},{},{},{:d},{:d},{},,{}\n", row.stage_bytes, number(row.bytes_per_pixel),
                               row.invocations ? fmt::format("{}", *row.invocations) : std::string(), number(row.flicker),
-                              number(row.coverage_flicker), row.on_front, row.on_memory_front, csv_field(counters_field(row)), truth);
+                              number(row.coverage_flicker), row.on_front, row.on_memory_front, csv_field(counters_field(row)),
+                              truth);
 }
 
 std::string table(std::span<const Report> reports) {
