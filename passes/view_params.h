@@ -8,9 +8,6 @@
 
 namespace strata {
 
-/// Whether the text has the word, between characters that are no part of one.
-bool has_word(std::string_view text, std::string_view word);
-
 /// Whether the view's help names the parameter, as in "texels of pyramid level `level`". Words that are a parameter's name by
 /// coincidence ("before distortion") are none.
 bool names_param(const DebugView&, std::string_view param);

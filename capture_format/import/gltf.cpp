@@ -12,8 +12,9 @@ namespace {
 Result<void> check(const GltfOptions& options) {
     const double azimuth = options.azimuth.value_or(0), elevation = options.elevation.value_or(0);
     if (!(std::abs(azimuth) <= 360 && std::abs(elevation) < 90)) {
-        return fail(Fault::usage, "--azimuth takes -360 to 360 degrees and --elevation less than 90 up or down, not {} and {}",
-                    azimuth, elevation);
+        return fail(Fault::usage,
+                    "--azimuth takes -360 to 360 degrees and --elevation more than -90 and less than 90, not {} and {}", azimuth,
+                    elevation);
     }
     if ((options.azimuth || options.elevation) && (options.eye || options.inside))
         return fail(Fault::usage, "--azimuth and --elevation place a camera outside of the scene; {} places another: choose one",

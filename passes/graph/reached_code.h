@@ -21,9 +21,9 @@ struct ConstantBits {
 std::vector<ConstantBits> fixed_constants(const Shader&, const Step&);
 
 /// SPIR-V without the functions that are only called where a branch on constants never leads; running_blocks.h says how far
-/// constants are followed. A constant that is not given has
-/// the shader's default. Every other instruction stays, the constants and the branches too: what runs is the same, step by step.
-/// An output gl_SampleMask that is written by functions left out alone goes, too: it would be undefined.
+/// constants are followed. A constant that is not given has the shader's default. Every other instruction stays, the constants
+/// and the branches too: what runs is the same, step by step. An output gl_SampleMask that is written by functions left out alone
+/// goes, too: it would be undefined.
 std::vector<std::uint32_t> reached_code(std::span<const std::uint32_t> code, std::span<const ConstantBits> constants);
 
 /// What one invocation computes if it takes every branch that the constants leave open and turns every loop once.

@@ -90,8 +90,7 @@ private:
         std::size_t block = 0;
         Values values = {}, held = {};
         std::set<std::pair<std::uint32_t, std::uint32_t>> edges = {};  ///< from a block to a block
-        std::set<std::uint32_t> results = {};
-        bool has_unknown_result = false;
+        std::set<Value> results = {};
         unsigned depth = 0;
         Outcome outcome = {};
     };
@@ -222,8 +221,7 @@ void Analysis::run_block(Walk& walk) const {
         if (i.op == spv::OpStore && walk.pointers.contains(i.words[1])) {
             if (const Value value = find(walk, i.words[2])) walk.held[i.words[1]] = *value;
         } else if (i.op == spv::OpReturnValue) {
-            const Value value = find(walk, i.words[1]);
-            value ? walk.results.insert(*value), void() : void(walk.has_unknown_result = true);
+            walk.results.insert(find(walk, i.words[1]));
         } else if (const Value value = value_of(walk, i)) {
             walk.values[*i.result()] = *value;
         }
@@ -252,7 +250,7 @@ Analysis::Outcome Analysis::run(Walk walk) const {
             if (reached.insert(to).second && body.places.at(to) <= walk.block) return all_of(body);
         }
     }
-    if (walk.results.size() == 1 && !walk.has_unknown_result) walk.outcome.result = *walk.results.begin();
+    if (walk.results.size() == 1) walk.outcome.result = *walk.results.begin();
     return walk.outcome;
 }
 
@@ -276,12 +274,10 @@ Analysis::Outcome Analysis::run(const Body& body, const std::vector<Value>& argu
 
 /// What is known of the arguments of all calls of a function.
 struct Arguments {
-    bool are_given = false;
-    std::vector<Value> values;
+    std::vector<Value> values;  ///< none before the first call
 
     void add(const std::vector<Value>& more) {
-        if (!are_given) values = more;
-        are_given = true;
+        if (values.empty()) values = more;
         for (std::size_t i = 0; i < values.size(); ++i)
             if (values[i] != more[i]) values[i].reset();
     }

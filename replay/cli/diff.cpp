@@ -207,7 +207,8 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
                                  Comparison& comparison) {
     const std::string file = sides.file.file.string();
     if (kind_of(sides.file.file) == FileKind::png)
-        return fail(Fault::usage, "a capture is compared with the EXR of a replay, whose parts have names; {} is a PNG", file);
+        return fail(Fault::usage, "{} is a PNG; a capture can only be compared with the EXR of a replay, whose images have names",
+                    file);
     MemoryBudget budget(options.device.memory_budget);
     const auto images = read_images(sides.file.file, budget);
     if (!images) return images.error();
@@ -220,7 +221,8 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
     if (frames->size() != 1)
-        return fail(Fault::usage, "{} is of one frame and the capture has {}; choose with --frames", file, frames->size());
+        return fail(Fault::usage, "{} has the images of one frame and the capture has {} frames; choose one with --frames", file,
+                    frames->size());
     request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
@@ -386,7 +388,9 @@ void add_limits(CLI::App& app, ErrorLimits& limits) {
     app.add_option("--warn-percent", limits.warn_percent, "like --percent, but only warns; default 0")
         ->check(from_to(0, 100))
         ->needs(warn);
-    app.add_option("--ulps", limits.ulps, "largest difference of depth in units in the last place, default 0; ids must be equal")
+    app.add_option("--ulps", limits.ulps,
+                   "largest difference of depth images that still passes, in units in the last place (ULPs), default 0; integer "
+                   "images must be equal")
         ->check(from_to(0, std::numeric_limits<std::uint32_t>::max()));
     app.add_option("--flip-limit", limits.flip_mean,
                    "largest mean FLIP of images of light; without --limit, only FLIP is checked for them")

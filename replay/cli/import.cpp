@@ -236,7 +236,8 @@ std::function<Result<void>()> declare_import(CLI::App& app) {
     app.add_option("--fov", options->gltf.fov, "vertical field of view in degrees, for a camera that is not from the scene");
     app.add_flag("--inside", options->gltf.inside,
                  "place the camera inside the scene, at the point with the longest view (for closed rooms)");
-    app.add_option("--frames", options->frames, "number of frames; the animation loops")->check(from_to(1, 100000));
+    app.add_option("--frames", options->frames, "number of frames to import, default 1; the animation loops")
+        ->check(from_to(1, 100000));
     app.add_option("--fps", options->gltf.fps, "frames per second at which the animation is sampled, default 30");
     app.add_option("--animation", options->gltf.animation, "name or index of the animation; default: the first");
     app.add_option(

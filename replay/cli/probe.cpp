@@ -92,9 +92,12 @@ std::function<Result<void>()> declare_probe(CLI::App& app) {
     app.add_option("--axis", options->axis, "scale of the depth axis: log (default) or linear")->check(one_of({"log", "linear"}));
     app.add_option("--depths", options->probe.samples, "number of depths at which transmittance is evaluated, default 512")
         ->check(from_to(2, most_probe_depths));
-    app.add_option("--from", options->probe.from, "first depth in meters; default: just in front of the first fragment")
+    app.add_option("--from", options->probe.from,
+                   "nearest depth at which transmittance is evaluated, in meters; default: just in front of the first fragment")
         ->check(positive());
-    app.add_option("--to", options->probe.to, "last depth in meters; default: just behind the last fragment")->check(positive());
+    app.add_option("--to", options->probe.to,
+                   "farthest depth at which transmittance is evaluated, in meters; default: just behind the last fragment")
+        ->check(positive());
     app.add_option("-o,--output", options->output,
                    "path of the .json, .csv and .svg without extension; default: capture.f0000.x0.y0");
     app.add_flag("--json", options->json, "print JSON instead of text");

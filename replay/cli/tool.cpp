@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <regex>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -122,17 +123,19 @@ Result<void> keep_inputs(const CLI::App& verb) {
 
 /// CLI11's words (2.1), those that are hard to understand replaced.
 std::string sentence_of(const CLI::ParseError& error) {
-    std::string sentence = error.what();
-    const auto replace = [&](std::string_view what, std::string_view with) {
-        const std::size_t at = sentence.find(what);
-        if (at != sentence.npos) sentence.replace(at, what.size(), with);
-        return at != sentence.npos;
+    struct Words {
+        std::string_view error;
+        const char *theirs, *ours;
     };
-    if (error.get_name() == "ExcludesError") replace(" excludes ", " cannot be combined with ");
-    if (error.get_name() != "ArgumentMismatch") return sentence;
-    if (replace(": At Most 1 required but received ", " is given ")) sentence += " times; give it once";
-    for (const char* type : {input_file, output_file, output_folder, "TEXT"})
-        replace(fmt::format(": 1 required {} missing", type), " needs a value");
+    constexpr Words all[] = {
+        {"ExcludesError", "(.*) excludes (.*)", "$1 cannot be combined with $2"},
+        {"ArgumentMismatch", "(.*): At Most 1 required but received (.*)", "$1 is given $2 times; give it once"},
+        {"ArgumentMismatch", "(.*): At least (.*) required but received (.*)", "$1 takes $2 values, not $3"},
+        {"ArgumentMismatch", "(.*): 1 required .* missing", "$1 needs a value"}};
+    const std::string sentence = error.what();
+    for (const auto& [name, theirs, ours] : all)
+        if (const std::regex form(theirs); error.get_name() == name && std::regex_match(sentence, form))
+            return std::regex_replace(sentence, form, ours);
     return sentence;
 }
 

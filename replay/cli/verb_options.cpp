@@ -144,8 +144,8 @@ std::string command_line(const CLI::App& verb) {
         if (option->count() == 0) continue;
         const bool flag = option->get_items_expected_max() == 0;
         for (const std::string& value : option->results()) {
-            if (!option->get_positional()) line += " " + option->get_name();
-            if (!flag) line += " " + as_shell_word(value);
+            if (!option->get_positional()) line.append(" ").append(option->get_name());
+            if (!flag) line.append(" ").append(as_shell_word(value));
         }
     }
     return line;

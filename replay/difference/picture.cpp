@@ -121,8 +121,8 @@ Range range_of(const Texels& a, Format format) {
     const double high = a.content == Content::radiance ? quantile(a.values, .99) : a.most,
                  low = a.content == Content::radiance ? 0 : a.least;
     const Content shown = a.content == Content::radiance ? Content::radiance : Content::numbers;
-    if (high > low) return {low, high, shown};
-    return {std::min(low, 0.), low > 0 ? low : std::min(low, 0.) + 1, shown};  // one value everywhere: white above 0, not black
+    const auto [begin, end] = scale_ends(low, high);
+    return {begin, end, shown};
 }
 
 /// A power of two that brings the difference that 99.5 % of the pixels that differ are below to about white.
@@ -312,6 +312,11 @@ std::vector<Line> lines_below(const Texels& shown, const ImageLegend& legend, co
 }
 
 }  // namespace
+
+std::pair<double, double> scale_ends(double low, double high) {
+    if (high > low) return {low, high};
+    return {std::min(low, 0.), low > 0 ? low : low + 1};
+}
 
 Result<void> write_png(const std::filesystem::path& path, const Canvas& canvas) {
     const Extent extent{static_cast<std::uint32_t>(canvas.width()), static_cast<std::uint32_t>(canvas.height()), 1};

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "replay/difference/canvas.h"
 #include "replay/difference/compare_images.h"
@@ -17,6 +18,9 @@ struct PictureTitles {
 };
 
 Result<void> write_png(const std::filesystem::path&, const Canvas&);
+
+/// Where a scale of values begins and ends: where one value is everywhere so that it is white above 0, not black.
+std::pair<double, double> scale_ends(double low, double high);
 
 /// A color and what it stands for.
 struct Swatch {

@@ -277,11 +277,11 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
     const auto methods = parse_methods(options.methods);
     if (!methods) return methods.error();
     assert(!stack.fragments.empty());
-    const std::size_t pixels = options.samples + stack.fragments.size();
-    if (options.samples < 2 || options.samples > most_probe_depths || pixels > session.device().max_image_extent)
-        return fail(Fault::usage, "T(z) is evaluated at 2 to {} depths, and with the pixel's {} at most {}; {} were asked for",
-                    most_probe_depths, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent,
-                    options.samples);
+    if (options.samples < 2 || options.samples > most_probe_depths)
+        return fail(Fault::usage, "transmittance is evaluated at 2 to {} depths, not {}", most_probe_depths, options.samples);
+    if (options.samples + stack.fragments.size() > session.device().max_image_extent)
+        return fail(Fault::usage, "{} depths and the pixel's {} are more than the {} that the device evaluates at once",
+                    options.samples, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent);
     // A depth offset may bring a particle nearer than the range, where methods stop telling depths apart.
     for (Fragment& fragment : stack.fragments) fragment.depth = std::max(fragment.depth, stack.nearest);
     Probe probe{.axis = options.axis, .nearest = stack.nearest, .farthest = stack.farthest, .device = session.device()};

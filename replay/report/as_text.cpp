@@ -12,7 +12,6 @@ namespace strata {
 namespace {
 
 constexpr std::string_view legend = "* nothing is both more accurate and faster, + nothing is both more accurate and smaller\n";
-constexpr std::string_view other_truth_legend = "t measured against another truth, so it is not ranked\n";
 constexpr std::string_view tie_legend = "= faster than a more accurate row, but by less than the spread of their times\n";
 
 /// The stage is named once, above the table.
@@ -30,7 +29,8 @@ std::string marks(const Row& row, bool tied = false) {
 /// What the marks of a table stand for.
 template <typename Row>
 std::string legends(const std::vector<Row>& rows) {
-    return std::string(legend) + std::string(std::ranges::any_of(rows, &Row::has_other_truth) ? other_truth_legend : "");
+    const bool has_other_truth = std::ranges::any_of(rows, &Row::has_other_truth);
+    return std::string(legend) + (has_other_truth ? fmt::format("t {}\n", other_truth_note) : "");
 }
 
 std::string time_head(std::string_view unit) { return unit.empty() ? "" : fmt::format("time, x {}", below_stage(unit)); }

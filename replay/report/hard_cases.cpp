@@ -10,10 +10,6 @@
 namespace strata {
 namespace {
 
-/// Rows come again on every frame, so that a session's usual number would be made anew for each: ten times the time of them all.
-/// 350 MB on a CPU driver for the defaults of all techniques, 1 GB for all their settings.
-constexpr std::size_t kept_pipelines = 256;
-
 /// A case's frames in the session.
 struct Placed {
     const HardCase* hard_case = nullptr;
@@ -167,7 +163,7 @@ Result<HardCaseReport> measure_hard_cases(const DeviceChoice& choice, std::span<
     const CaseFrames frames = frames_of_all_cases();
     const auto device = Device::open(choice);
     if (!device) return device.error();
-    keep_pipelines(**device, kept_pipelines);
+    keep_pipelines(**device, many_pipelines);  // rows come again on every frame
     const auto session = open_session_on(**device, frames.all);
     session->stop_when(std::move(stop));
     HardCaseReport report{.device = session->device(), .rows = {}};

@@ -30,6 +30,9 @@ struct Walk {
 
 struct Measurement;
 
+/// Of rows with Measurement::has_other_truth.
+inline constexpr std::string_view other_truth_note = "measured against another truth, so it is not ranked";
+
 /// What errors are of: the stage's first output, or the picture that later stages make of it.
 enum class ErrorAt { stage, picture };
 

@@ -87,15 +87,22 @@ TEST(Interrupt, OfAReportPrintsWhatWasMeasured) {
     }
 }
 
+/// What the command prints that is interrupted after this time.
+std::string printed_until(double seconds, const std::string& arguments) {
+    const pid_t process = start_strata(arguments, "printed.txt");
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    kill(process, SIGINT);
+    EXPECT_EQ(code_of(process), 130) << text_of("printed.txt");
+    return text_of("printed.txt");
+}
+
 /// The least time in which one ratio is measured is not known.
 TEST(ExhaustiveInterrupt, OfABenchPrintsTheRatiosThatAreComplete) {
     for (double seconds = 2; seconds < 60; seconds *= 2) {
-        const pid_t process = start_strata("bench voxel --size 32x18 --repeats 100", "printed.txt");
-        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-        kill(process, SIGINT);
-        ASSERT_EQ(code_of(process), 130) << text_of("printed.txt");
-        if (text_of("printed.txt").find("measured") == std::string::npos) continue;
-        EXPECT_THAT(text_of("printed.txt"), testing::ContainsRegex("\nstopped after [0-9]+ of [0-9]+ ratios\n"));
+        const std::string printed = printed_until(seconds, "bench voxel --size 32x18 --repeats 100");
+        if (HasFailure()) return;
+        if (printed.find("measured") == std::string::npos) continue;
+        EXPECT_THAT(printed, testing::ContainsRegex("\nstopped after [0-9]+ of [0-9]+ ratios\n"));
         return;
     }
     FAIL() << "no ratio in a minute";
@@ -104,12 +111,10 @@ TEST(ExhaustiveInterrupt, OfABenchPrintsTheRatiosThatAreComplete) {
 /// As above; the device's own limits are measured first.
 TEST(ExhaustiveInterrupt, OfADeviceBenchPrintsTheStepsByTheRunsThatAreComplete) {
     for (double seconds = 2; seconds < 100; seconds *= 1.5) {
-        const pid_t process = start_strata("bench device --repeats 40", "printed.txt");
-        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-        kill(process, SIGINT);
-        ASSERT_EQ(code_of(process), 130) << text_of("printed.txt");
-        if (text_of("printed.txt").find("GB/s") == std::string::npos) continue;
-        EXPECT_THAT(text_of("printed.txt"), testing::ContainsRegex("\nstopped after [0-9]+ of 40 timed runs\n"));
+        const std::string printed = printed_until(seconds, "bench device --repeats 40");
+        if (HasFailure()) return;
+        if (printed.find("GB/s") == std::string::npos) continue;
+        EXPECT_THAT(printed, testing::ContainsRegex("\nstopped after [0-9]+ of 40 timed runs\n"));
         return;
     }
     FAIL() << "no timed run in 100 seconds";

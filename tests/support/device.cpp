@@ -20,14 +20,11 @@ private:
     Device* device_;
 };
 
-// Tests of one kind follow each other and make the same ones. 600 MB on a CPU driver.
-constexpr std::size_t kept_pipelines = 256;
-
 struct Opened {
     std::unique_ptr<Device> device = must(Device::open({.validation = true}));
     std::unique_ptr<Executor> executor = Executor::create(*device);
     Opened() {
-        keep_pipelines(*device, kept_pipelines);
+        keep_pipelines(*device, many_pipelines);  // tests of one kind follow each other
         testing::UnitTest::GetInstance()->listeners().Append(new MessagesFailTests(*device));  // the framework owns it
     }
 };

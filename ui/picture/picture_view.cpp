@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/frame_images.h"
+#include "replay/difference/picture.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
@@ -193,10 +194,9 @@ Look default_look(const std::string& name, const PictureInfo& picture) {
         look.white = static_cast<float>(view->high);
         return look;
     }
-    const auto [low, high] = picture.bulk;
-    const double black = high > low ? low : std::min(low, 0.);  // one value everywhere: white above 0, not black
+    const auto [black, white] = scale_ends(picture.bulk.low, picture.bulk.high);
     look.black = static_cast<float>(black);
-    look.white = static_cast<float>(high > black ? high : black + 1);
+    look.white = static_cast<float>(white);
     return look;
 }
 

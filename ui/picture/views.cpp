@@ -1,16 +1,26 @@
 #include "ui/picture/views.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 
-#include "passes/view_params.h"
 #include "ui/window/theme.h"
 
 namespace strata::ui {
 namespace {
 
 constexpr std::uint32_t thumbnail_width = 160;
+
+/// Whether the text has the word, between characters that are no part of one.
+bool has_word(std::string_view text, std::string_view word) {
+    const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+        const std::size_t end = at + word.size();
+        if ((at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end]))) return true;
+    }
+    return false;
+}
 
 bool has_column(const Technique& technique, std::string_view name) {
     return std::ranges::any_of(technique.tables, [&](const DebugTable& table) {

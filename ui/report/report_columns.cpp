@@ -83,7 +83,7 @@ std::string note_of(const Report& report, const ReportAxes& axes, std::size_t ro
     std::string note = settings.empty() ? "default settings" : settings;
     if (!axes.cost.spreads.empty())
         note += fmt::format("\n\xc2\xb1 {} over {}", short_number(axes.cost.spreads[row]), plural(report.repeats, "repeat"));
-    if (report.rows[row].has_other_truth) note += "\nmeasured against another truth, so it is not ranked";
+    if (report.rows[row].has_other_truth) note += fmt::format("\n{}", other_truth_note);
     if (on_front) note += "\nnothing is both more accurate and cheaper";
     return note + "\nclick applies it";
 }

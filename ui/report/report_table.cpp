@@ -80,7 +80,7 @@ bool ReportTable::draw_row(Widgets& widgets, const Study& study, std::size_t row
     const auto scope = widgets.in(name);
     ImGui::TableNextColumn();
     widgets.text("front", look.on_front ? star : measured.has_other_truth ? "t" : " ", &palette().warning);
-    if (measured.has_other_truth) widgets.help("t: measured against another truth, so it is not ranked");
+    if (measured.has_other_truth) widgets.help(fmt::format("t: {}", other_truth_note));
     ImGui::TableNextColumn();
     ImGui::TextColored(color_of_method(measured.technique), "%s", dot);
     ImGui::SameLine();

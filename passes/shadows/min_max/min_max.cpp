@@ -129,9 +129,8 @@ std::vector<Counter> counters() {
 std::vector<DebugView> views() {
     std::vector<DebugView> rows = shadow_map_views();
     rows.push_back({.name = "class",
-                    .help = "what answers the shadow lookups of light `class_light`, counted from 0: the sun, then lights with a "
-                            "map as recorded; of two "
-                            "blended cascades the costlier answer",
+                    .help = "how the shadow lookups of light `class_light` are answered: 0 is the sun, then the lights with a "
+                            "shadow map as recorded; of two blended cascades the more expensive answer",
                     .unit = "",
                     .declare = class_view,
                     .colors = {{{1, 0.9f, 0.4f}, "lit: answered by bounds"},
