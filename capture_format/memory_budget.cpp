@@ -38,7 +38,7 @@ std::uint64_t default_memory_budget() {
 
 Result<void> MemoryBudget::has_room(std::uint64_t count, std::uint64_t size, std::string_view what) const {
     if (size == 0 || count <= left_ / size) return {};
-    return fail(
+    return fail_unnamed(
         Fault::device_lacks,
         "{} would take {} ({} x {} bytes); the memory budget is {}, of which {} are left: allow more with --memory-budget", what,
         readable(static_cast<double>(count) * static_cast<double>(size)), count, size, readable(static_cast<double>(total_)),

@@ -60,7 +60,7 @@ std::string identify(std::span<const Section> sections) {
 }
 
 Error at(const Container& container, std::size_t section, const Error& error) {
-    return fail(error.fault, "{}: {}", container.whereabouts(section), error.sentence);
+    return fail_unnamed(error.fault, "{}: {}", container.whereabouts(section), error.sentence);
 }
 
 }  // namespace
@@ -69,7 +69,8 @@ Result<std::string> Capture::Contents::text(std::size_t number, std::size_t long
     const auto stored = container.stored(number);
     if (!stored) return stored.error();
     if (stored->size() > longest) {
-        return fail(Fault::bad_input, "{} has {} bytes; {} are the most", container.whereabouts(number), stored->size(), longest);
+        return fail_unnamed(Fault::bad_input, "{} has {} bytes; {} are the most", container.whereabouts(number), stored->size(),
+                            longest);
     }
     return std::string(reinterpret_cast<const char*>(stored->data()), stored->size());
 }
@@ -129,13 +130,13 @@ Result<void> Capture::Contents::unpack(std::size_t frame) {
     const Section& section = container.sections()[number];
     unpacked.reset();
     if (section.raw_bytes > largest_frame_section)
-        return fail(Fault::bad_input, "{} claims {} bytes; frames have up to {}", container.whereabouts(number),
-                    section.raw_bytes, largest_frame_section);
+        return fail_unnamed(Fault::bad_input, "{} claims {} bytes; frames have up to {}", container.whereabouts(number),
+                            section.raw_bytes, largest_frame_section);
     const std::uint64_t needed = section.raw_bytes * chain_bytes_per_byte;
     if (const auto room = budget.has_room(needed + section.stored_bytes, 1, container.whereabouts(number)); !room) return room;
     const auto stored = container.stored(number);
     if (!stored) return stored.error();
-    if (section.version == 1) return fail(Fault::bad_input, "{} cannot be built on", container.whereabouts(number));
+    if (section.version == 1) return fail_unnamed(Fault::bad_input, "{} cannot be built on", container.whereabouts(number));
     budget.give_back(std::exchange(chain_bytes, needed));
     if (const auto taken = budget.take(needed, 1, container.whereabouts(number)); !taken) return taken;
     const auto raw = chain.unpack(*stored, section.raw_bytes);
@@ -156,14 +157,15 @@ Result<std::span<const std::byte>> Capture::Contents::flatbuffer(std::size_t fra
     const Result<std::uint32_t> reach = FrameChain::reach(*stored);
     if (!reach) return at(container, number, reach.error());
     if (*reach > frame) {
-        return fail(Fault::bad_input, "{}: it builds on {} frames before it; the file has {}", container.whereabouts(number),
-                    *reach, frame);
+        return fail_unnamed(Fault::bad_input, "{}: it builds on {} frames before it; the file has {}",
+                            container.whereabouts(number), *reach, frame);
     }
     std::size_t next = frame - *reach;
     if (unpacked && *unpacked >= next && *unpacked <= frame) next = *unpacked + 1;
     for (; next <= frame; ++next) {
         const Result<void> done = unpack(next);
-        if (!done && next < frame) return fail(done.error().fault, "{}; frame {} builds on it", done.error().sentence, frame);
+        if (!done && next < frame)
+            return fail_unnamed(done.error().fault, "{}; frame {} builds on it", done.error().sentence, frame);
         if (!done) return done.error();
     }
     return chain.newest();
@@ -215,8 +217,9 @@ Result<Capture> Capture::open(std::span<const std::byte> bytes, std::string name
 Result<Capture> Capture::read(Result<Container> container, Partial partial, std::uint64_t memory_budget) {
     if (!container) return container.error();
     if (container->damage() && partial == Partial::refused) {
-        return fail(Fault::bad_input, "{}; pass --allow-partial to replay, info or export to read the complete frames before it",
-                    container->damage()->sentence);
+        return fail_unnamed(Fault::bad_input,
+                            "{}; pass --allow-partial to replay, info or export to read the complete frames before it",
+                            container->damage()->sentence);
     }
     auto contents = std::make_unique<Contents>(*std::move(container), memory_budget);
     if (const Result<void> read = contents->read(partial); !read) return read.error();
@@ -237,7 +240,7 @@ const std::vector<std::string>& Capture::expectations() const { return contents_
 Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, std::uint64_t bytes) const {
     Contents& contents = *contents_;
     const auto hash = parse_blob_hash(name);
-    if (!hash) return fail(Fault::bad_input, "an expectation names the image '{}', which is no hash", name);
+    if (!hash) return fail_unnamed(Fault::bad_input, "an expectation names the image '{}', which is no hash", name);
     const std::lock_guard lock(contents.decoding);
     if (!contents.images) {
         Result<BlobStore> opened = BlobStore::open(contents.container, contents.budget, SectionType::expect);
@@ -253,7 +256,8 @@ Result<std::vector<std::byte>> Capture::expected_image(std::string_view name, st
 Result<Frame> Capture::frame(std::size_t index) const {
     Contents& contents = *contents_;
     if (index >= contents.frames.size()) {
-        return fail(Fault::usage, "there is no frame {}: the capture has {}, counted from 0", index, contents.frames.size());
+        return fail_unnamed(Fault::usage, "there is no frame {}: the capture has {}, counted from 0", index,
+                            contents.frames.size());
     }
     const std::size_t number = contents.frames[index];
     const std::lock_guard lock(contents.decoding);

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cassert>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -26,14 +29,106 @@ enum class Fault {
     stopped = 130,            ///< whoever asked for it asked to stop
 };
 
+/// "usage", "bad_input": the enumerator's name.
+std::string_view name(Fault);
+
+/// What an error is called in scripts and tests, however its sentence is worded: words of a-z, 0-9 and _ joined by dots, from the
+/// area to the case: "import.gltf.accessor_range".
+class ErrorId {
+public:
+    consteval ErrorId(const char* text) : text_(text) {
+        if (!is_name(text_)) throw "an error's id is words of a-z, 0-9 and _, two or more, joined by dots";
+    }
+    constexpr std::string_view text() const { return text_; }
+    friend constexpr bool operator==(ErrorId a, std::string_view b) { return a.text_ == b; }
+
+private:
+    static constexpr bool is_name(std::string_view text) {
+        bool has_dot = false, in_word = false;
+        for (const char c : text) {
+            if (c == '.' && !in_word) return false;
+            has_dot = has_dot || c == '.';
+            in_word = c != '.';
+            if (in_word && c != '_' && !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9')) return false;
+        }
+        return has_dot && in_word;
+    }
+    std::string_view text_;
+};
+
+/// A number or a word of an error's sentence, by the name of its placeholder.
+struct ErrorField {
+    std::string_view name;
+    std::variant<std::int64_t, std::uint64_t, double, std::string> value;
+};
+
 struct [[nodiscard]] Error {
     Fault fault = Fault::bad_input;
     std::string sentence;
+    ErrorId id = "strata.unnamed";
+    std::vector<ErrorField> fields = {};  ///< in the order of the sentence; where another error is wrapped, the inner ones first
+
+    /// The first field of that name, or null.
+    const ErrorField* field(std::string_view name) const;
 };
 
-/// An Error of the given kind; the format string is checked at compile time.
+namespace detail {
+
+/// A format string whose placeholders have names, as fmt checks and formats it: "{frame:>3}" is "{:>3}", in the order of
+/// arguments.
+template <std::size_t n>
+struct WithoutNames {
+    constexpr WithoutNames(const char (&named)[n]) {
+        for (std::size_t i = 0; i + 1 < n;) {
+            const bool is_field = named[i] == '{' && named[i + 1] != '{';
+            if (named[i] == '{' && !is_field) text[size++] = named[i++];
+            text[size++] = named[i++];
+            if (!is_field) continue;
+            const std::size_t start = i;
+            while (named[i] != '}' && named[i] != ':') ++i;
+            if (i == start) throw "a placeholder of an error's sentence has a name: {frame}";
+        }
+    }
+    char text[n] = {};
+    std::size_t size = 0;
+};
+
+/// The sentence of an error, checked at compile time against what is formatted into it.
 template <typename... Args>
-Error fail(Fault fault, fmt::format_string<Args...> format, Args&&... args) {
+class Sentence {
+public:
+    template <std::size_t n>
+    consteval Sentence(const char (&named)[n]) : named_(named, n - 1) {
+        const WithoutNames<n> plain(named);
+        static_cast<void>(fmt::format_string<Args...>(fmt::string_view(plain.text, plain.size)));
+    }
+    std::string_view named() const { return named_; }
+
+private:
+    std::string_view named_;
+};
+
+Error error_of(Fault, ErrorId, std::string_view sentence, fmt::format_args);
+Error wrapped(Error, std::string_view where, fmt::format_args);
+
+}  // namespace detail
+
+/// An Error of the given kind. Placeholders of the sentence have names, which become the error's fields, and follow the order of
+/// the arguments: fail(Fault::usage, "replay.no_frame", "there is no frame {frame}: the capture has {frames}", 7, 3).
+template <typename... Args>
+Error fail(Fault fault, ErrorId id, std::type_identity_t<detail::Sentence<Args...>> sentence, Args&&... args) {
+    return detail::error_of(fault, id, sentence.named(), fmt::make_format_args(args...));
+}
+
+/// The same error with where it happened before its sentence, "frame 3: ...". Keeps its kind, its id and its fields.
+template <typename... Args>
+Error within(Error error, std::type_identity_t<detail::Sentence<Args...>> where, Args&&... args) {
+    return detail::wrapped(std::move(error), where.named(), fmt::make_format_args(args...));
+}
+
+/// An Error that has no id yet.
+template <typename... Args>
+Error fail_unnamed(Fault fault, fmt::format_string<Args...> format, Args&&... args) {
     return {fault, fmt::format(format, std::forward<Args>(args)...)};
 }
 

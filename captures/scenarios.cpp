@@ -117,7 +117,7 @@ Result<const Scenario*> find_scenario(std::string_view name) {
         if (scenario.name == name) return &scenario;
         names.push_back(scenario.name);
     }
-    return fail(Fault::usage, "no scenario {}{}", name, did_you_mean(name, names));
+    return fail_unnamed(Fault::usage, "no scenario {}{}", name, did_you_mean(name, names));
 }
 
 }  // namespace strata

@@ -17,7 +17,7 @@ Result<const Technique*> find_technique(std::string_view name) {
         if (technique.name == name) return &technique;
         known.push_back(technique.name);
     }
-    return fail(Fault::usage, "no technique {}{}", name, did_you_mean(name, known));
+    return fail_unnamed(Fault::usage, "no technique {}{}", name, did_you_mean(name, known));
 }
 
 std::vector<const Technique*> techniques_of(Stage stage) {

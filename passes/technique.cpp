@@ -36,9 +36,10 @@ Result<double> checked(const Param& param, double value) {
     const Range range = range_of(param);
     const bool whole = param.scalar == Scalar::real || value == std::floor(value);
     if (value >= range.low && value <= range.high && whole) return value;
-    if (!param.choices.empty()) return fail(Fault::usage, "{} is one of {}, not {}", param.name, choices_text(param), value);
+    if (!param.choices.empty())
+        return fail_unnamed(Fault::usage, "{} is one of {}, not {}", param.name, choices_text(param), value);
     const std::string_view kind = param.scalar == Scalar::integer ? "a whole number " : "";
-    return fail(Fault::usage, "{} is {}from {} to {}, not {}", param.name, kind, range.low, range.high, value);
+    return fail_unnamed(Fault::usage, "{} is {}from {} to {}, not {}", param.name, kind, range.low, range.high, value);
 }
 
 Result<double> parsed(const Param& param, std::string_view text) {
@@ -46,9 +47,9 @@ Result<double> parsed(const Param& param, std::string_view text) {
         if (param.choices[i] == text) return static_cast<double>(i);
     if (const auto number = number_in(text)) return checked(param, *number);
     if (!param.choices.empty())
-        return fail(Fault::usage, "{} is one of {}, not {}{}", param.name, choices_text(param), text,
-                    did_you_mean(text, param.choices));
-    return fail(Fault::usage, "{} is a number from {} to {}, not '{}'", param.name, param.low, param.high, text);
+        return fail_unnamed(Fault::usage, "{} is one of {}, not {}{}", param.name, choices_text(param), text,
+                            did_you_mean(text, param.choices));
+    return fail_unnamed(Fault::usage, "{} is a number from {} to {}, not '{}'", param.name, param.low, param.high, text);
 }
 
 Result<std::size_t> find_param(std::span<const Param> params, std::string_view name) {
@@ -57,7 +58,7 @@ Result<std::size_t> find_param(std::span<const Param> params, std::string_view n
         if (params[i].name == name) return i;
         known.push_back(params[i].name);
     }
-    return fail(Fault::usage, "no parameter {}{}", name, did_you_mean(name, known));
+    return fail_unnamed(Fault::usage, "no parameter {}{}", name, did_you_mean(name, known));
 }
 
 template <typename T>

@@ -17,6 +17,8 @@ namespace {
 // Why standard output lost something, or 0. stdio remembers that it did and not why; the stream itself is as global.
 constinit std::atomic<int> stdout_problem = 0;
 
+constinit std::atomic<bool> has_written_stdout = false;
+
 void note_problem(bool written) {
     if (!written && stdout_problem == 0) stdout_problem = errno;
 }
@@ -43,8 +45,11 @@ void open_standard_streams() {
 
 void write_stdout(std::string_view text) {
     clear_line();
+    has_written_stdout = true;
     note_problem(put(stdout, clean_text(text)));
 }
+
+bool wrote_stdout() { return has_written_stdout; }
 
 void write_stderr(std::string_view text) {
     // At once: another thread may be writing, too.
@@ -65,7 +70,7 @@ Result<void> finish_stdout() {
         std::signal(SIGPIPE, SIG_DFL);
         std::raise(SIGPIPE);
     }
-    return fail(Fault::usage, "cannot write to standard output: {}", std::generic_category().message(stdout_problem));
+    return fail_unnamed(Fault::usage, "cannot write to standard output: {}", std::generic_category().message(stdout_problem));
 }
 
 }  // namespace strata

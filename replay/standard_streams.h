@@ -16,6 +16,8 @@ void open_standard_streams();
 
 /// Results. What cannot be written is remembered for finish_stdout().
 void write_stdout(std::string_view text);
+/// Whether anything was written by then.
+bool wrote_stdout();
 /// Messages. Those that cannot be written are dropped: they must not end what they tell of.
 void write_stderr(std::string_view text);
 

@@ -21,7 +21,7 @@ Result<void> check_capture(const std::filesystem::path& path, std::uint64_t memo
     if (!capture) return capture.error();
     for (std::size_t i = 0; i < capture->frame_count(); ++i)
         if (const auto frame = capture->frame(i); !frame)
-            return fail(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
+            return fail_unnamed(frame.error().fault, "frame {}: {}", i, frame.error().sentence);
     return {};
 }
 

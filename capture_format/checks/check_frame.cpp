@@ -88,11 +88,11 @@ void inspect_choices(Inspection& inspection, const Frame& frame) {
 }  // namespace
 
 Error Inspection::located(std::string_view sentence) const {
-    if (subject_.kind.empty()) return fail(Fault::bad_input, "{}", sentence);
-    if (subject_.index == Subject::only_one) return fail(Fault::bad_input, "{}: {}", subject_.kind, sentence);
-    if (subject_.name.empty()) return fail(Fault::bad_input, "{} {}: {}", subject_.kind, subject_.index, sentence);
+    if (subject_.kind.empty()) return fail_unnamed(Fault::bad_input, "{}", sentence);
+    if (subject_.index == Subject::only_one) return fail_unnamed(Fault::bad_input, "{}: {}", subject_.kind, sentence);
+    if (subject_.name.empty()) return fail_unnamed(Fault::bad_input, "{} {}: {}", subject_.kind, subject_.index, sentence);
     // A name may be far too long to print; that it is too long is said by the sentence.
-    return fail(Fault::bad_input, "{} {} '{}': {}", subject_.kind, subject_.index, subject_.name.substr(0, 60), sentence);
+    return fail_unnamed(Fault::bad_input, "{} {} '{}': {}", subject_.kind, subject_.index, subject_.name.substr(0, 60), sentence);
 }
 
 Result<void> check_submissions(const Frame& frame, const ResourceShapes& resources) {

@@ -21,8 +21,9 @@ std::span<const UpgradeStep> upgrade_steps() { return steps; }
 
 Result<void> check_format_version(std::uint32_t version, std::string_view path) {
     if (version >= 1 && version <= format_version) return {};
-    return fail(Fault::bad_input, "{} has frames of format version {}; this program reads 1 to {}: {}", path, version,
-                format_version, version > format_version ? "open it with a newer strata" : "it was not written by strata");
+    return fail_unnamed(Fault::bad_input, "{} has frames of format version {}; this program reads 1 to {}: {}", path, version,
+                        format_version,
+                        version > format_version ? "open it with a newer strata" : "it was not written by strata");
 }
 
 Frame upgrade(Frame frame, std::uint32_t version, std::span<const UpgradeStep> table) {

@@ -145,10 +145,11 @@ Result<T> Container::value(std::uint64_t offset) const {
 Result<void> Container::read_header() {
     const Result<Header> header = file_bytes_ < sizeof(Header) ? Result<Header>(Header{}) : value<Header>(0);
     if (!header) return header.error();
-    if (header->magic != magic) return fail(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
+    if (header->magic != magic) return fail_unnamed(Fault::bad_input, "{} is not a capture: it does not begin like one", name_);
     if (header->version != container_version || header->flags != 0) {
-        return fail(Fault::bad_input, "{} has container version {} and flags {:#x}; this program reads version {} without flags",
-                    name_, header->version, header->flags, container_version);
+        return fail_unnamed(Fault::bad_input,
+                            "{} has container version {} and flags {:#x}; this program reads version {} without flags", name_,
+                            header->version, header->flags, container_version);
     }
     version_ = header->version;
     return {};
@@ -191,8 +192,9 @@ Result<bool> Container::read_directory() {
 Result<void> Container::scan() {
     std::uint64_t at = sizeof(Header);
     const auto stop = [&](std::string_view why) -> Result<void> {
-        damage_ = fail(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
-                       name_, sections_.size(), at, why, file_bytes_);
+        damage_ =
+            fail_unnamed(Fault::bad_input, "{} is cut short or overwritten: section {} at offset {} {}; {} bytes are in the file",
+                         name_, sections_.size(), at, why, file_bytes_);
         return {};
     };
     while (at != file_bytes_) {
@@ -212,8 +214,9 @@ Result<void> Container::scan() {
         sections_.push_back(section);
         at = end_of(section);
     }
-    damage_ = fail(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
-                   name_, sections_.size(), at);
+    damage_ =
+        fail_unnamed(Fault::bad_input, "{} has no directory: its writer was stopped after section {}, or it was cut at offset {}",
+                     name_, sections_.size(), at);
     return {};
 }
 
@@ -221,7 +224,7 @@ Result<std::vector<std::byte>> Container::stored(std::size_t index) const {
     const Section& section = sections_[index];
     auto payload = bytes(section.offset + sizeof(Prefix), section.stored_bytes);
     if (payload && xxh3(*payload) != section.checksum)
-        return fail(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
+        return fail_unnamed(Fault::bad_input, "{} is damaged: its checksum is wrong", whereabouts(index));
     return payload;
 }
 
@@ -232,13 +235,13 @@ Result<void> Container::check_bytes() const {
         if (!header) return header.error();
         const Prefix expected = prefix_of(section);
         if (!std::ranges::equal(*header, bytes_of(expected)))
-            return fail(Fault::bad_input, "{} is damaged: its header is not the one in the directory", whereabouts(i));
+            return fail_unnamed(Fault::bad_input, "{} is damaged: its header is not the one in the directory", whereabouts(i));
         if (const auto payload = stored(i); !payload) return payload.error();
         const std::uint64_t end = section.offset + sizeof(Prefix) + section.stored_bytes;
         const auto padding = bytes(end, end_of(section) - end);
         if (!padding) return padding.error();
         if (std::ranges::any_of(*padding, [](std::byte byte) { return byte != std::byte{0}; }))
-            return fail(Fault::bad_input, "{} is damaged: the padding behind it is not zero", whereabouts(i));
+            return fail_unnamed(Fault::bad_input, "{} is damaged: the padding behind it is not zero", whereabouts(i));
     }
     return {};
 }

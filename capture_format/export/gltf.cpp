@@ -170,7 +170,7 @@ private:
 Result<ExportedScene> to_gltf(const Frame& frame) {
     ExportedScene scene = SceneExport(frame).run();
     if (scene.glb.size() > 0xffffffffu) {
-        return fail(Fault::usage, "the frame takes {} bytes as glTF, and a .glb holds 4 GiB", scene.glb.size());
+        return fail_unnamed(Fault::usage, "the frame takes {} bytes as glTF, and a .glb holds 4 GiB", scene.glb.size());
     }
     return scene;
 }

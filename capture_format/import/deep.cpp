@@ -66,8 +66,8 @@ public:
 
     Result<ImportedDeep> run() {
         if (window_.width < 1 || window_.height < 1 || window_.width > largest_extent || window_.height > largest_extent)
-            return fail(Fault::usage, "a window has 1 to {} pixels each way, not {} x {}", largest_extent, window_.width,
-                        window_.height);
+            return fail_unnamed(Fault::usage, "a window has 1 to {} pixels each way, not {} x {}", largest_extent, window_.width,
+                                window_.height);
         const auto count = file_.count_samples(read_, options_.most_samples);
         if (!count) return count.error();
         MemoryBudget budget(options_.memory_budget);
@@ -252,7 +252,7 @@ Result<ImportedDeep> import_deep(std::span<const std::byte> bytes, std::string_v
     const auto file = DeepFile::open(bytes, name, options.part);
     if (!file) return file.error();
     auto imported = DeepImport(*file, options).run();
-    if (!imported) return fail(imported.error().fault, "{}: {}", name, imported.error().sentence);
+    if (!imported) return fail_unnamed(imported.error().fault, "{}: {}", name, imported.error().sentence);
     return imported;
 }
 

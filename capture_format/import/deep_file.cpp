@@ -33,12 +33,12 @@ float read_value(exr_pixel_type_t type, const std::byte* from) {
 void DeepBlock::Storage::Free::operator()(libdeflate_decompressor* freed) const { libdeflate_free_decompressor(freed); }
 
 Error DeepFile::damaged(const BlockLocation& place, std::string_view what) {
-    return fail(Fault::bad_input, "the block of pixels at ({}, {}) {}", place.window.x, place.window.y, what);
+    return fail_unnamed(Fault::bad_input, "the block of pixels at ({}, {}) {}", place.window.x, place.window.y, what);
 }
 
 Result<void> DeepFile::unpack(std::span<const std::byte> packed, std::vector<std::byte>& unpacked,
                               DeepBlock::Storage& storage) const {
-    const Error wrong = fail(Fault::bad_input, "does not unpack to the {} bytes it claims", unpacked.size());
+    const Error wrong = fail_unnamed(Fault::bad_input, "does not unpack to the {} bytes it claims", unpacked.size());
     if (packed.size() == unpacked.size()) {
         std::ranges::copy(packed, unpacked.begin());
         return {};
@@ -94,7 +94,7 @@ Result<std::uint64_t> DeepFile::count_samples(const DeepWindow& window, std::uin
         if (const auto done = unpack_counts(place, block); !done) return done.error();
         sum += block.begin.back();
     }
-    if (sum > most) return fail(Fault::bad_input, "there are {} samples; {} are the most", sum, most);
+    if (sum > most) return fail_unnamed(Fault::bad_input, "there are {} samples; {} are the most", sum, most);
     return sum;
 }
 

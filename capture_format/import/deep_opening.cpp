@@ -48,8 +48,8 @@ struct Context {
 Result<DeepWindow> window_of(const exr_attr_box2i_t& box, std::string_view what) {
     const std::int64_t width = std::int64_t{box.max.x} - box.min.x + 1, height = std::int64_t{box.max.y} - box.min.y + 1;
     if (width < 1 || height < 1 || width > largest_extent || height > largest_extent)
-        return fail(Fault::bad_input, "its {} window has {} x {} pixels; 1 to {} each way can be read", what, width, height,
-                    largest_extent);
+        return fail_unnamed(Fault::bad_input, "its {} window has {} x {} pixels; 1 to {} each way can be read", what, width,
+                            height, largest_extent);
     return DeepWindow{box.min.x, box.min.y, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
@@ -81,8 +81,8 @@ struct DeepFile::Opening {
     }
 
     Error said(exr_result_t code, std::string_view what) const {
-        return fail(Fault::bad_input, "{}: {}", what,
-                    stream.problem.empty() ? exr_get_default_error_message(code) : stream.problem.c_str());
+        return fail_unnamed(Fault::bad_input, "{}: {}", what,
+                            stream.problem.empty() ? exr_get_default_error_message(code) : stream.problem.c_str());
     }
 
     bool is_deep(int index) const {
@@ -114,8 +114,8 @@ struct DeepFile::Opening {
             known += fmt::format("{}{} '{:.60}'", known.empty() ? "" : ", ", number, name_of(i));
             if (found < 0 && (wanted.empty() || wanted == number || wanted == name_of(i))) found = i;
         }
-        if (file.deep_parts_ == 0) return fail(Fault::bad_input, "none of its parts is deep");
-        if (found < 0) return fail(Fault::usage, "there is no deep part '{}'; its deep parts are {}", wanted, known);
+        if (file.deep_parts_ == 0) return fail_unnamed(Fault::bad_input, "none of its parts is deep");
+        if (found < 0) return fail_unnamed(Fault::usage, "there is no deep part '{}'; its deep parts are {}", wanted, known);
         part = found;
         return {};
     }
@@ -133,8 +133,8 @@ struct DeepFile::Opening {
         file.display_ = *display_window;
         if (compression != EXR_COMPRESSION_NONE && compression != EXR_COMPRESSION_RLE && compression != EXR_COMPRESSION_ZIPS &&
             compression != EXR_COMPRESSION_ZIP)
-            return fail(Fault::bad_input, "deep images are packed by NONE, RLE or ZIPS, not by compression {}",
-                        static_cast<int>(compression));
+            return fail_unnamed(Fault::bad_input, "deep images are packed by NONE, RLE or ZIPS, not by compression {}",
+                                static_cast<int>(compression));
         file.compression_ = compression;
         return {};
     }
@@ -142,14 +142,14 @@ struct DeepFile::Opening {
     Result<void> read_channels() {
         const exr_attr_chlist_t* list = nullptr;
         if (exr_get_channels(context.handle, part, &list) != EXR_ERR_SUCCESS || list == nullptr)
-            return fail(Fault::bad_input, "it has no list of channels");
+            return fail_unnamed(Fault::bad_input, "it has no list of channels");
         file.source_.fill(-1);
         std::string names;
         for (int i = 0; i < list->num_channels; ++i) {
             const exr_attr_chlist_entry_t& channel = list->entries[i];
             const std::string_view name(channel.name.str, static_cast<std::size_t>(channel.name.length));
             if (channel.x_sampling != 1 || channel.y_sampling != 1)
-                return fail(Fault::bad_input, "channel '{:.60}' does not have a value for every sample", name);
+                return fail_unnamed(Fault::bad_input, "channel '{:.60}' does not have a value for every sample", name);
             const auto known = std::ranges::find(channel_names, name);
             if (known == std::end(channel_names)) file.ignored_.push_back(fmt::format("{:.60}", name));
             else file.source_[static_cast<std::size_t>(known - channel_names)] = i;
@@ -157,7 +157,8 @@ struct DeepFile::Opening {
             file.sample_bytes_ += channel.pixel_type == EXR_PIXEL_HALF ? 2 : 4;
             names += fmt::format("{}{:.60}", names.empty() ? "" : " ", name);
         }
-        if (!file.has(DeepChannel::depth)) return fail(Fault::bad_input, "it has no channel Z; its channels are {:.200}", names);
+        if (!file.has(DeepChannel::depth))
+            return fail_unnamed(Fault::bad_input, "it has no channel Z; its channels are {:.200}", names);
         return {};
     }
 
@@ -203,7 +204,8 @@ struct DeepFile::Opening {
         const auto counts = part_of_file(chunk.sample_count_data_offset, chunk.sample_count_table_size);
         const auto samples = part_of_file(chunk.data_offset, chunk.packed_size);
         if (!counts || !samples)
-            return fail(Fault::bad_input, "the block of pixels at ({}, {}) lies beyond the end of the file", window.x, window.y);
+            return fail_unnamed(Fault::bad_input, "the block of pixels at ({}, {}) lies beyond the end of the file", window.x,
+                                window.y);
         file.blocks_.push_back({window, table_pixels, *counts, *samples, chunk.unpacked_size});
         return {};
     }
@@ -212,7 +214,8 @@ struct DeepFile::Opening {
 Result<DeepFile> DeepFile::open(std::span<const std::byte> bytes, std::string_view name, std::string_view part) {
     DeepFile file;
     Opening opening{file, std::string(name), {bytes, {}}, {}};
-    if (const auto done = opening.run(part); !done) return fail(done.error().fault, "{}: {}", name, done.error().sentence);
+    if (const auto done = opening.run(part); !done)
+        return fail_unnamed(done.error().fault, "{}: {}", name, done.error().sentence);
     return file;
 }
 

@@ -21,10 +21,10 @@ struct Layout {
 
 Result<Elements> locate(const Document& document, const Layout& layout) {
     if (layout.view < 0 || static_cast<std::size_t>(layout.view) >= document.views.size()) {
-        return fail(Fault::bad_input, "buffer view {} does not exist (there are {})", layout.view, document.views.size());
+        return fail_unnamed(Fault::bad_input, "buffer view {} does not exist (there are {})", layout.view, document.views.size());
     }
     const BufferView& view = document.views[static_cast<std::size_t>(layout.view)];
-    if (!view.content.fault.empty()) return fail(Fault::bad_input, "{}", view.content.fault);
+    if (!view.content.fault.empty()) return fail_unnamed(Fault::bad_input, "{}", view.content.fault);
     const std::size_t stride = view.stride == 0 ? layout.element_bytes : view.stride;
     if (layout.count == 0) return Elements{{}, stride, 0};
     const std::size_t length = view.content.bytes.size();
@@ -32,8 +32,8 @@ Result<Elements> locate(const Document& document, const Layout& layout) {
                         length - layout.offset >= layout.element_bytes &&
                         layout.count - 1 <= (length - layout.offset - layout.element_bytes) / stride;
     if (!inside) {
-        return fail(Fault::bad_input, "{} elements of {} bytes, {} apart from byte {}, leave buffer view {} of {} bytes",
-                    layout.count, layout.element_bytes, stride, layout.offset, layout.view, length);
+        return fail_unnamed(Fault::bad_input, "{} elements of {} bytes, {} apart from byte {}, leave buffer view {} of {} bytes",
+                            layout.count, layout.element_bytes, stride, layout.offset, layout.view, length);
     }
     return Elements{view.content.bytes.subspan(layout.offset), stride, layout.count};
 }
@@ -109,15 +109,15 @@ std::uint32_t components_of(std::string_view type) {
 
 Result<const Accessor*> find_accessor(const Document& document, int index, std::uint32_t components) {
     if (index < 0 || static_cast<std::size_t>(index) >= document.accessors.size()) {
-        return fail(Fault::bad_input, "accessor {} does not exist (there are {})", index, document.accessors.size());
+        return fail_unnamed(Fault::bad_input, "accessor {} does not exist (there are {})", index, document.accessors.size());
     }
     const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
     if (components_of(accessor.type) != components) {
-        return fail(Fault::bad_input, "accessor {} is a '{:.20}', which has not the {} components expected", index, accessor.type,
-                    components);
+        return fail_unnamed(Fault::bad_input, "accessor {} is a '{:.20}', which has not the {} components expected", index,
+                            accessor.type, components);
     }
     if (component_bytes(accessor.component_type) == 0) {
-        return fail(Fault::bad_input, "accessor {} has unknown component type {}", index, accessor.component_type);
+        return fail_unnamed(Fault::bad_input, "accessor {} has unknown component type {}", index, accessor.component_type);
     }
     return &accessor;
 }
@@ -132,10 +132,10 @@ Result<Replacements> read_replacements(const Document& document, const Accessor&
                                        MemoryBudget& budget) {
     const Sparse& sparse = *accessor.sparse;
     if (!is_index_type(sparse.indices_type)) {
-        return fail(Fault::bad_input, "its sparse indices have component type {}", sparse.indices_type);
+        return fail_unnamed(Fault::bad_input, "its sparse indices have component type {}", sparse.indices_type);
     }
     if (sparse.count > accessor.count) {
-        return fail(Fault::bad_input, "it replaces {} of its {} elements", sparse.count, accessor.count);
+        return fail_unnamed(Fault::bad_input, "it replaces {} of its {} elements", sparse.count, accessor.count);
     }
     const auto where =
         locate(document, {sparse.indices_view, sparse.indices_offset, sparse.count, component_bytes(sparse.indices_type)});
@@ -148,8 +148,8 @@ Result<Replacements> read_replacements(const Document& document, const Accessor&
     for (std::size_t i = 0; i < where->count; ++i) {
         replacements.places.push_back(index_value(where->bytes.data() + i * where->stride, sparse.indices_type));
         if (replacements.places.back() >= accessor.count) {
-            return fail(Fault::bad_input, "a sparse accessor replaces element {} of {}", replacements.places.back(),
-                        accessor.count);
+            return fail_unnamed(Fault::bad_input, "a sparse accessor replaces element {} of {}", replacements.places.back(),
+                                accessor.count);
         }
     }
     return replacements;
@@ -195,7 +195,7 @@ Result<std::vector<float>> read_floats(const Document& document, int index, std:
     if (!found) return found.error();
     const Accessor& accessor = **found;
     if (const auto good = check_claim(document, accessor, sizeof(float) * components, budget); !good) {
-        return fail(good.error().fault, "accessor {}: {}", index, good.error().sentence);
+        return fail_unnamed(good.error().fault, "accessor {}: {}", index, good.error().sentence);
     }
     const std::size_t size = component_bytes(accessor.component_type);
     std::vector<float> values(accessor.count * components, 0.0f);
@@ -204,7 +204,7 @@ Result<std::vector<float>> read_floats(const Document& document, int index, std:
             values[place * components + c] = component(bytes + c * size, accessor.component_type, accessor.normalized);
         }
     });
-    if (!read) return fail(read.error().fault, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return fail_unnamed(read.error().fault, "accessor {}: {}", index, read.error().sentence);
     return values;
 }
 
@@ -212,15 +212,16 @@ Result<std::vector<std::uint32_t>> read_indices(const Document& document, int in
     const auto found = find_accessor(document, index, 1);
     if (!found) return found.error();
     const Accessor& accessor = **found;
-    if (!is_index_type(accessor.component_type)) return fail(Fault::bad_input, "accessor {} holds no unsigned integers", index);
+    if (!is_index_type(accessor.component_type))
+        return fail_unnamed(Fault::bad_input, "accessor {} holds no unsigned integers", index);
     if (const auto good = check_claim(document, accessor, sizeof(std::uint32_t), budget); !good) {
-        return fail(good.error().fault, "accessor {}: {}", index, good.error().sentence);
+        return fail_unnamed(good.error().fault, "accessor {}: {}", index, good.error().sentence);
     }
     std::vector<std::uint32_t> indices(accessor.count, 0);
     const auto read = for_each_element(document, accessor, budget, [&](std::size_t place, const std::byte* bytes) {
         indices[place] = index_value(bytes, accessor.component_type);
     });
-    if (!read) return fail(read.error().fault, "accessor {}: {}", index, read.error().sentence);
+    if (!read) return fail_unnamed(read.error().fault, "accessor {}: {}", index, read.error().sentence);
     return indices;
 }
 

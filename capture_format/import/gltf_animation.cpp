@@ -31,15 +31,15 @@ Result<void> check_type(const Document& document, int index, const char* what, b
     const Accessor& accessor = document.accessors[static_cast<std::size_t>(index)];
     const bool is_normalized = accessor.normalized && accessor.component_type != uint32;
     if (accessor.component_type == float32 || (may_be_normalized && is_normalized)) return {};
-    return fail(Fault::bad_input, "its {} are accessor {} of component type {}; they must be floats ({}){}", what, index,
-                accessor.component_type, static_cast<std::uint64_t>(float32), may_be_normalized ? " or normalized" : "");
+    return fail_unnamed(Fault::bad_input, "its {} are accessor {} of component type {}; they must be floats ({}){}", what, index,
+                        accessor.component_type, static_cast<std::uint64_t>(float32), may_be_normalized ? " or normalized" : "");
 }
 
 Result<std::vector<double>> read_numbers(const Document& document, int accessor, std::uint32_t components, MemoryBudget& budget) {
     const auto values = read_floats(document, accessor, components, budget);
     if (!values) return values.error();
     if (!std::all_of(values->begin(), values->end(), [](float value) { return std::isfinite(value); })) {
-        return fail(Fault::bad_input, "accessor {} holds numbers that are not finite", accessor);
+        return fail_unnamed(Fault::bad_input, "accessor {} holds numbers that are not finite", accessor);
     }
     return std::vector<double>(values->begin(), values->end());
 }
@@ -47,7 +47,7 @@ Result<std::vector<double>> read_numbers(const Document& document, int accessor,
 /// The keys of one sampler for one path.
 Result<Track> read_track(const Document& document, const AnimationSampler& sampler, Track track, MemoryBudget& budget) {
     const auto interpolation = interpolation_of(sampler.interpolation);
-    if (!interpolation) return fail(Fault::bad_input, "there is no interpolation '{:.40}'", sampler.interpolation);
+    if (!interpolation) return fail_unnamed(Fault::bad_input, "there is no interpolation '{:.40}'", sampler.interpolation);
     track.interpolation = *interpolation;
     const bool may_be_normalized = track.path == Path::rotation || track.path == Path::weights;
     if (const auto good = check_type(document, sampler.input, "keyframe times", false); !good) return good.error();
@@ -55,8 +55,9 @@ Result<Track> read_track(const Document& document, const AnimationSampler& sampl
     auto times = read_numbers(document, sampler.input, 1, budget);
     if (!times) return times.error();
     track.times = *std::move(times);
-    if (track.times.empty()) return fail(Fault::bad_input, "a sampler has no keys");
-    if (!std::is_sorted(track.times.begin(), track.times.end())) return fail(Fault::bad_input, "the times of its keys fall");
+    if (track.times.empty()) return fail_unnamed(Fault::bad_input, "a sampler has no keys");
+    if (!std::is_sorted(track.times.begin(), track.times.end()))
+        return fail_unnamed(Fault::bad_input, "the times of its keys fall");
     const std::uint32_t components = track.path == Path::weights ? 1 : track.path == Path::rotation ? 4 : 3;
     auto values = read_numbers(document, sampler.output, components, budget);
     if (!values) return values.error();
@@ -64,7 +65,7 @@ Result<Track> read_track(const Document& document, const AnimationSampler& sampl
     const std::size_t parts = track.times.size() * (track.interpolation == Interpolation::cubic ? 3 : 1);
     track.width = track.path == Path::weights ? track.values.size() / parts : components;
     if (track.width == 0 || track.values.size() != parts * track.width) {
-        return fail(Fault::bad_input, "{} keys have {} numbers", track.times.size(), track.values.size());
+        return fail_unnamed(Fault::bad_input, "{} keys have {} numbers", track.times.size(), track.values.size());
     }
     return track;
 }
@@ -146,8 +147,8 @@ Result<int> find_animation(const Document& document, const std::string& wanted) 
         return static_cast<int>(index);
     std::string names;
     for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 16); ++i) names += fmt::format(" {} '{:.60}'", i, all[i].name);
-    return fail(Fault::usage, "there is no animation '{:.60}'; the glTF has {}{}{}", wanted, all.size(), all.empty() ? "" : ":",
-                names);
+    return fail_unnamed(Fault::usage, "there is no animation '{:.60}'; the glTF has {}{}{}", wanted, all.size(),
+                        all.empty() ? "" : ":", names);
 }
 
 Result<Clip> Clip::read(const Document& document, const Animation& animation, MemoryBudget& budget) {
@@ -157,8 +158,8 @@ Result<Clip> Clip::read(const Document& document, const Animation& animation, Me
         const auto node = static_cast<std::size_t>(channel.node), sampler = static_cast<std::size_t>(channel.sampler);
         const auto path = path_of(channel.path);
         if (node >= document.nodes.size() || channel.sampler < 0 || sampler >= animation.samplers.size()) {
-            return fail(Fault::bad_input, "animation '{:.60}' moves node {} by sampler {}, and there are {} and {}",
-                        animation.name, node, channel.sampler, document.nodes.size(), animation.samplers.size());
+            return fail_unnamed(Fault::bad_input, "animation '{:.60}' moves node {} by sampler {}, and there are {} and {}",
+                                animation.name, node, channel.sampler, document.nodes.size(), animation.samplers.size());
         }
         if (!path || (*path != Path::weights && document.nodes[node].matrix)) {
             clip.warnings_.push_back(fmt::format("animation '{:.60}': '{:.40}' of node {} stays as it is{}", animation.name,
@@ -166,7 +167,7 @@ Result<Clip> Clip::read(const Document& document, const Animation& animation, Me
             continue;
         }
         auto track = read_track(document, animation.samplers[sampler], {.node = channel.node, .path = *path}, budget);
-        if (!track) return fail(track.error().fault, "animation '{:.60}': {}", animation.name, track.error().sentence);
+        if (!track) return fail_unnamed(track.error().fault, "animation '{:.60}': {}", animation.name, track.error().sentence);
         clip.duration_ = std::max(clip.duration_, track->times.back());
         clip.tracks_.push_back(*std::move(track));
     }

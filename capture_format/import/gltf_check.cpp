@@ -52,7 +52,7 @@ private:
 
     void expect(const std::string& where, const char* kind, int index, std::size_t count) {
         if (index < 0 || static_cast<std::size_t>(index) < count) return;
-        refuse(fail(Fault::bad_input, "{} uses {} {}, which does not exist (there are {})", where, kind, index, count));
+        refuse(fail_unnamed(Fault::bad_input, "{} uses {} {}, which does not exist (there are {})", where, kind, index, count));
     }
 
     void refuse(Error error) {
@@ -72,8 +72,8 @@ private:
             const std::string name = fmt::format("{}, primitive {}", where, i);
             expect(name, "material", primitive.material, document_.materials.size());
             if (primitive.mode <= triangle_fan) continue;
-            refuse(fail(Fault::bad_input, "{} has mode {}; glTF's modes are 0 to {}", name, primitive.mode,
-                        static_cast<std::uint64_t>(triangle_fan)));
+            refuse(fail_unnamed(Fault::bad_input, "{} has mode {}; glTF's modes are 0 to {}", name, primitive.mode,
+                                static_cast<std::uint64_t>(triangle_fan)));
         }
     }
 
@@ -87,10 +87,10 @@ private:
     void check(const std::string& where, const Sampler& sampler) {
         for (const auto& [name, mode] : {std::pair("wrapS", sampler.wrap_s), std::pair("wrapT", sampler.wrap_t)}) {
             if (mode == repeat || mode == clamp_to_edge || mode == mirrored_repeat) continue;
-            refuse(fail(Fault::bad_input, "{} has {} {}, which is not a wrapping mode of glTF", where, name, mode));
+            refuse(fail_unnamed(Fault::bad_input, "{} has {} {}, which is not a wrapping mode of glTF", where, name, mode));
         }
         if (sampler.mag_filter == nearest_filter || sampler.mag_filter == linear_filter) return;
-        refuse(fail(Fault::bad_input, "{} has magFilter {}, which is not a filter of glTF", where, sampler.mag_filter));
+        refuse(fail_unnamed(Fault::bad_input, "{} has magFilter {}, which is not a filter of glTF", where, sampler.mag_filter));
     }
 
     const Document& document_;
@@ -101,12 +101,12 @@ private:
 
 Result<void> check_version(const std::string& version, const std::string& least_version) {
     const auto file = version_of(version);
-    if (!file || file->first != 2) return fail(Fault::bad_input, "its asset version is '{:.20}', not 2.0", version);
+    if (!file || file->first != 2) return fail_unnamed(Fault::bad_input, "its asset version is '{:.20}', not 2.0", version);
     if (least_version.empty()) return {};
     const auto least = version_of(least_version);
-    if (!least) return fail(Fault::bad_input, "its asset.minVersion is '{:.20}', which is not a version", least_version);
+    if (!least) return fail_unnamed(Fault::bad_input, "its asset.minVersion is '{:.20}', which is not a version", least_version);
     if (*least <= std::pair(2, 0)) return {};
-    return fail(Fault::bad_input, "its asset.minVersion is {}; this program reads glTF 2.0", least_version);
+    return fail_unnamed(Fault::bad_input, "its asset.minVersion is {}; this program reads glTF 2.0", least_version);
 }
 
 Result<void> check_references(const Document& document) { return ReferenceCheck(document).run(); }

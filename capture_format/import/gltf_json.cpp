@@ -45,7 +45,7 @@ Result<void> check_extent(std::string_view text, MemoryBudget& budget) {
         if (c == ']' || c == '}') --depth;
         if (c != '[' && c != '{') continue;
         ++structures;
-        if (++depth > deepest) return fail(Fault::bad_input, "the JSON nests deeper than {} levels", deepest);
+        if (++depth > deepest) return fail_unnamed(Fault::bad_input, "the JSON nests deeper than {} levels", deepest);
     }
     if (const auto room = budget.take(values, bytes_per_value, "the values of the JSON"); !room) return room;
     return budget.take(structures, bytes_per_structure, "the objects and lists of the JSON");
@@ -135,9 +135,9 @@ Result<Json> parse_json(std::string_view text, MemoryBudget& budget) {
     if (root.is_discarded()) {
         FirstError error(text);
         Json::sax_parse(text.begin(), text.end(), &error);
-        return fail(Fault::bad_input, "{}", error.sentence());
+        return fail_unnamed(Fault::bad_input, "{}", error.sentence());
     }
-    if (!root.is_object()) return fail(Fault::bad_input, "the JSON is no object");
+    if (!root.is_object()) return fail_unnamed(Fault::bad_input, "the JSON is no object");
     return root;
 }
 
@@ -145,7 +145,7 @@ Fields::Fields(const Json& object, std::string where, std::optional<Error>& prob
     : object_(&object), where_(std::move(where)), problem_(problem) {
     if (object.is_object()) return;
     object_ = &no_members;
-    if (!problem_) problem_ = fail(Fault::bad_input, "{} is no object", where_);
+    if (!problem_) problem_ = fail_unnamed(Fault::bad_input, "{} is no object", where_);
 }
 
 const Json* Fields::member(const char* name) const {
@@ -161,7 +161,7 @@ const Json* Fields::member_list(const char* name) {
 }
 
 void Fields::wrong(const char* name, std::string_view wanted) {
-    if (!problem_) problem_ = fail(Fault::bad_input, "{}.{} is not {}", where_, name, wanted);
+    if (!problem_) problem_ = fail_unnamed(Fault::bad_input, "{}.{} is not {}", where_, name, wanted);
 }
 
 int Fields::index(const char* name) {

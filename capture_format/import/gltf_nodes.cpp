@@ -30,7 +30,7 @@ public:
         }
         if (document_.scenes && static_cast<std::size_t>(document_.scene) >= document_.scenes->size() &&
             !document_.scenes->empty()) {
-            return fail(Fault::bad_input, "scene {} does not exist", document_.scene);
+            return fail_unnamed(Fault::bad_input, "scene {} does not exist", document_.scene);
         }
         // a file without scenes shows every node that is nobody's child
         const bool has_scene = document_.scenes && !document_.scenes->empty();
@@ -53,10 +53,11 @@ private:
             const Hierarchy::Step next = pending.back();
             pending.pop_back();
             if (!exists(next.node)) {
-                return fail(Fault::bad_input, "node {} does not exist (there are {})", next.node, document_.nodes.size());
+                return fail_unnamed(Fault::bad_input, "node {} does not exist (there are {})", next.node, document_.nodes.size());
             }
             const auto index = static_cast<std::size_t>(next.node);
-            if (reached_[index]) return fail(Fault::bad_input, "node {} is reached twice; nodes must be a tree", next.node);
+            if (reached_[index])
+                return fail_unnamed(Fault::bad_input, "node {} is reached twice; nodes must be a tree", next.node);
             reached_[index] = true;
             hierarchy_.steps.push_back(next);
             const std::vector<int>& children = document_.nodes[index].children;

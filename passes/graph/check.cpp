@@ -32,7 +32,7 @@ Result<const Shader*> find_shader(const ShaderLibrary& library, const std::strin
     if (const Shader* shader = library.find(name)) return shader;
     const std::vector<std::string> names = library.names();
     const std::vector<std::string_view> known(names.begin(), names.end());
-    return fail(Fault::usage, "no shader {}{}", name, did_you_mean(name, known));
+    return fail_unnamed(Fault::usage, "no shader {}{}", name, did_you_mean(name, known));
 }
 
 /// A draw's own vertex shader, or the one for the scene's meshes; its fragment shader may be missing where only depth is written.
@@ -79,17 +79,18 @@ Result<Binding> given(const Graph& graph, const Step& step, const Shader& shader
     const bool is_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
     const Graph::Offer* offer = is_buffer ? find_offer(graph, step, wanted.name) : nullptr;
     if (offer) return Binding{.name = wanted.name, .access = access_of(wanted), .buffer = offer->buffer};
-    return fail(Fault::usage, "{} declares '{}', and the step binds nothing to it", shader.name, wanted.name);
+    return fail_unnamed(Fault::usage, "{} declares '{}', and the step binds nothing to it", shader.name, wanted.name);
 }
 
 Result<void> check_kind(const Shader& shader, const ShaderBinding& wanted, const Binding& binding) {
     const bool wants_buffer = wanted.kind == BindingKind::storage_buffer || wanted.kind == BindingKind::uniform_buffer;
     const auto mismatch = [&](std::string_view is) {
-        return fail(Fault::usage, "{}: '{}' is {}, but the step {} {}", shader.name, wanted.name, is, verb(binding.access),
-                    binding.buffer ? "a buffer" : "an image");
+        return fail_unnamed(Fault::usage, "{}: '{}' is {}, but the step {} {}", shader.name, wanted.name, is,
+                            verb(binding.access), binding.buffer ? "a buffer" : "an image");
     };
     if (wants_buffer && binding.image) return mismatch("a buffer");
-    if (wants_buffer && !binding.buffer) return fail(Fault::usage, "{}: '{}' is bound to no buffer", shader.name, wanted.name);
+    if (wants_buffer && !binding.buffer)
+        return fail_unnamed(Fault::usage, "{}: '{}' is bound to no buffer", shader.name, wanted.name);
     if (!wants_buffer && binding.buffer) return mismatch("an image");
     if (wanted.kind == BindingKind::sampled_image && binding.access != Access::sampled) return mismatch("a sampler");
     if (wanted.kind == BindingKind::storage_image && binding.access == Access::sampled) return mismatch("a storage image");
@@ -100,20 +101,20 @@ Result<void> check_kind(const Shader& shader, const ShaderBinding& wanted, const
 Result<void> check_direction(const Shader& shader, const ShaderBinding& wanted, const Binding& binding) {
     const std::string_view does = verb(binding.access);
     if (!writes(binding.access) && wanted.written)
-        return fail(Fault::usage, "{}: '{}' is not readonly, but the step only {} it", shader.name, wanted.name, does);
+        return fail_unnamed(Fault::usage, "{}: '{}' is not readonly, but the step only {} it", shader.name, wanted.name, does);
     if (writes(binding.access) && !wanted.written)
-        return fail(Fault::usage, "{}: '{}' is readonly, but the step {} it", shader.name, wanted.name, does);
+        return fail_unnamed(Fault::usage, "{}: '{}' is readonly, but the step {} it", shader.name, wanted.name, does);
     if (binding.access == Access::stored && wanted.read)
-        return fail(Fault::usage, "{}: '{}' is not writeonly, but the step only stores it", shader.name, wanted.name);
+        return fail_unnamed(Fault::usage, "{}: '{}' is not writeonly, but the step only stores it", shader.name, wanted.name);
     const bool nothing = !binding.image && !binding.buffer;
     if (nothing && writes(binding.access))
-        return fail(Fault::usage, "{}: the step {} '{}', but gives it no image", shader.name, does, wanted.name);
+        return fail_unnamed(Fault::usage, "{}: the step {} '{}', but gives it no image", shader.name, does, wanted.name);
     return {};
 }
 
 Result<void> check_part(const Shape& shape, const Part& part, const std::string& what) {
-    if (part.mip && *part.mip >= shape.mips) return fail(Fault::usage, "{} has no mip {}", what, *part.mip);
-    if (part.layer && *part.layer >= shape.layers) return fail(Fault::usage, "{} has no layer {}", what, *part.layer);
+    if (part.mip && *part.mip >= shape.mips) return fail_unnamed(Fault::usage, "{} has no mip {}", what, *part.mip);
+    if (part.layer && *part.layer >= shape.layers) return fail_unnamed(Fault::usage, "{} has no layer {}", what, *part.layer);
     return {};
 }
 
@@ -122,7 +123,7 @@ Result<void> check_image(const Graph& graph, const Shader& shader, const ShaderB
     const Shape& shape = graph.shape(binding.image);
     const std::string name = quoted(graph, binding.image);
     const auto mismatch = [&](std::string_view is, std::string_view has) {
-        return fail(Fault::usage, "{}: '{}' is {}, but image {} {}", shader.name, wanted.name, is, name, has);
+        return fail_unnamed(Fault::usage, "{}: '{}' is {}, but image {} {}", shader.name, wanted.name, is, name, has);
     };
     const FormatRow& format = row(shape.format);
     if ((wanted.dimension == ImageDimension::three) != (shape.extent.depth > 1))
@@ -171,12 +172,12 @@ Result<void> add_once(std::vector<PlannedBinding>& all, const PlannedBinding& pl
     const auto neighbor = std::ranges::find_if(
         all, [&](const PlannedBinding& p) { return p.set == planned.set && p.slot == planned.slot && p.binding.name != name; });
     if (neighbor != all.end())
-        return fail(Fault::usage, "{} declares '{}' where the step's other shader declares '{}': set {}, binding {}", shader.name,
-                    name, neighbor->binding.name, planned.set, planned.slot);
+        return fail_unnamed(Fault::usage, "{} declares '{}' where the step's other shader declares '{}': set {}, binding {}",
+                            shader.name, name, neighbor->binding.name, planned.set, planned.slot);
     if (known == all.end()) {
         all.push_back(planned);
     } else if (known->set != planned.set || known->slot != planned.slot || known->kind != planned.kind) {
-        return fail(Fault::usage, "{} declares '{}' elsewhere than the step's other shader does", shader.name, name);
+        return fail_unnamed(Fault::usage, "{} declares '{}' elsewhere than the step's other shader does", shader.name, name);
     }
     return {};
 }
@@ -207,13 +208,13 @@ Result<void> check_unknown_names(const PlannedStep& planned) {
     }
     for (const Binding& binding : planned.step.bindings) {
         if (is_argument(binding.access) || std::ranges::find(bindings, binding.name) != bindings.end()) continue;
-        return fail(Fault::usage, "{} uses no '{}'{}", planned.shaders.back()->name, binding.name,
-                    did_you_mean(binding.name, bindings));
+        return fail_unnamed(Fault::usage, "{} uses no '{}'{}", planned.shaders.back()->name, binding.name,
+                            did_you_mean(binding.name, bindings));
     }
     for (const Fixed& fixed : planned.step.fixed) {
         if (std::ranges::find(constants, fixed.name) != constants.end()) continue;
-        return fail(Fault::usage, "{} has no specialization constant '{}'{}", planned.shaders.back()->name, fixed.name,
-                    did_you_mean(fixed.name, constants));
+        return fail_unnamed(Fault::usage, "{} has no specialization constant '{}'{}", planned.shaders.back()->name, fixed.name,
+                            did_you_mean(fixed.name, constants));
     }
     return {};
 }
@@ -222,11 +223,11 @@ Result<void> check_push(const PlannedStep& planned) {
     const auto largest = std::ranges::max_element(planned.shaders, {}, [](const Shader* shader) { return shader->push_bytes; });
     const std::uint32_t wanted = largest == planned.shaders.end() ? 0 : (*largest)->push_bytes;
     if (wanted > largest_push)
-        return fail(Fault::usage, "{} declares {} bytes of push constants; devices promise {}", (*largest)->name, wanted,
-                    largest_push);
+        return fail_unnamed(Fault::usage, "{} declares {} bytes of push constants; devices promise {}", (*largest)->name, wanted,
+                            largest_push);
     if (planned.step.push.size() != wanted)
-        return fail(Fault::usage, "{} declares {} bytes of push constants, but the step pushes {}", planned.step.name, wanted,
-                    planned.step.push.size());
+        return fail_unnamed(Fault::usage, "{} declares {} bytes of push constants, but the step pushes {}", planned.step.name,
+                            wanted, planned.step.push.size());
     return {};
 }
 
@@ -236,22 +237,22 @@ Extent extent_of(const Shape& shape, const Part& part) {
 }
 
 Result<void> check_attachment(const Graph& graph, const Step& step, const Attachment& attachment) {
-    if (!attachment.image) return fail(Fault::usage, "{} draws into no image", step.name);
+    if (!attachment.image) return fail_unnamed(Fault::usage, "{} draws into no image", step.name);
     const Shape& shape = graph.shape(attachment.image);
     const Attachment& first = step.attachments.front();
     const std::string name = quoted(graph, attachment.image);
     const bool is_depth = attachment.access == Access::depth_tested || attachment.access == Access::depth_written;
     if (is_depth != (row(shape.format).kind == FormatKind::depth))
-        return fail(Fault::usage, "{} draws {} into {}, which is {}", step.name, is_depth ? "depth" : "color", name,
-                    row(shape.format).name);
+        return fail_unnamed(Fault::usage, "{} draws {} into {}, which is {}", step.name, is_depth ? "depth" : "color", name,
+                            row(shape.format).name);
     if (shape.samples != graph.shape(first.image).samples)
-        return fail(Fault::usage, "{} draws into {} with {} samples and into {} with {}", step.name, quoted(graph, first.image),
-                    graph.shape(first.image).samples, name, shape.samples);
+        return fail_unnamed(Fault::usage, "{} draws into {} with {} samples and into {} with {}", step.name,
+                            quoted(graph, first.image), graph.shape(first.image).samples, name, shape.samples);
     if (extent_of(shape, attachment.part) != extent_of(graph.shape(first.image), first.part))
-        return fail(Fault::usage, "{} draws into {} and into {}, whose extents differ", step.name, quoted(graph, first.image),
-                    name);
+        return fail_unnamed(Fault::usage, "{} draws into {} and into {}, whose extents differ", step.name,
+                            quoted(graph, first.image), name);
     if (shape.mips > 1 && !attachment.part.mip)
-        return fail(Fault::usage, "{} draws into {}, which has several mips, and names none", step.name, name);
+        return fail_unnamed(Fault::usage, "{} draws into {}, which has several mips, and names none", step.name, name);
     return check_part(shape, attachment.part, step.name + ": image " + name);
 }
 
@@ -267,13 +268,13 @@ Result<void> check_layers(const Graph& graph, PlannedStep& planned) {
     planned.layers = layers_of(graph, first);
     for (const Attachment& attachment : step.attachments)
         if (layers_of(graph, attachment) != planned.layers)
-            return fail(Fault::usage, "{} draws into {} with {} layers and into {} with {}", step.name,
-                        quoted(graph, first.image), planned.layers, quoted(graph, attachment.image),
-                        layers_of(graph, attachment));
+            return fail_unnamed(Fault::usage, "{} draws into {} with {} layers and into {} with {}", step.name,
+                                quoted(graph, first.image), planned.layers, quoted(graph, attachment.image),
+                                layers_of(graph, attachment));
     const bool chosen = std::ranges::any_of(planned.shaders, &Shader::chooses_layer);
     if (planned.layers > 1 && !chosen)
-        return fail(Fault::usage, "{} draws into {}, which has {} layers: name one, or let a shader write gl_Layer", step.name,
-                    quoted(graph, first.image), planned.layers);
+        return fail_unnamed(Fault::usage, "{} draws into {}, which has {} layers: name one, or let a shader write gl_Layer",
+                            step.name, quoted(graph, first.image), planned.layers);
     return {};
 }
 
@@ -289,7 +290,8 @@ Result<void> check_rows(const Graph& graph, const Step& step, const DrawWork& dr
     const std::uint32_t height = drawn_extent(graph, step, draw).height;
     const Rows rows = *draw.rows;
     if (rows.count > 0 && rows.first < height && rows.count <= height - rows.first) return {};
-    return fail(Fault::usage, "{} draws {} rows from row {}, but there are {}", step.name, rows.count, rows.first, height);
+    return fail_unnamed(Fault::usage, "{} draws {} rows from row {}, but there are {}", step.name, rows.count, rows.first,
+                        height);
 }
 
 Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
@@ -305,12 +307,13 @@ Result<void> check_attachments(const Graph& graph, PlannedStep& planned) {
     if (auto checked = check_layers(graph, planned); !checked) return checked;
     const std::uint32_t outputs = planned.shaders.back()->color_outputs;
     if (colors > outputs || (colors < outputs && !step.drops_other_colors))
-        return fail(Fault::usage, "{} writes {} colors, but the step has {} color attachments", planned.shaders.back()->name,
-                    outputs, colors);
+        return fail_unnamed(Fault::usage, "{} writes {} colors, but the step has {} color attachments",
+                            planned.shaders.back()->name, outputs, colors);
     if (step.attachments.empty() && !(draw ? draw->viewport : fullscreen->viewport))
-        return fail(Fault::usage, "{} has no attachments and does not say which pixels it draws: add .within(extent)", step.name);
+        return fail_unnamed(Fault::usage, "{} has no attachments and does not say which pixels it draws: add .within(extent)",
+                            step.name);
     if (draw && draw->list.count > 0 && (!draw->list.commands || (draw->count && !draw->list.indices)))
-        return fail(Fault::usage, "{} draws {} commands from no buffer", step.name, draw->list.count);
+        return fail_unnamed(Fault::usage, "{} draws {} commands from no buffer", step.name, draw->list.count);
     return draw ? check_rows(graph, step, *draw) : Result<void>{};
 }
 
@@ -330,8 +333,8 @@ Result<void> check_conflicts(const Graph& graph, const PlannedStep& planned) {
             const bool both_read = !writes(a.access) && !writes(b.access);
             if (both_read && a.part == b.part) continue;
             if (storage(a.access) && storage(b.access)) continue;
-            return fail(Fault::usage, "{} uses {} as {} ('{}') and as {} ('{}') at once", planned.step.name,
-                        quoted(graph, a.image), name(a.access), a.as, name(b.access), b.as);
+            return fail_unnamed(Fault::usage, "{} uses {} as {} ('{}') and as {} ('{}') at once", planned.step.name,
+                                quoted(graph, a.image), name(a.access), a.as, name(b.access), b.as);
         }
     }
     return {};
@@ -342,7 +345,7 @@ Result<void> check_copy(const Graph& graph, const Step& step) {
     if (!copy) return {};
     const bool equal = copy->from ? graph.shape(copy->from) == graph.shape(copy->to)
                                   : graph.record(copy->buffer_from).bytes == graph.record(copy->buffer_to).bytes;
-    if (!equal) return fail(Fault::usage, "{}: they differ in shape or size", step.name);
+    if (!equal) return fail_unnamed(Fault::usage, "{}: they differ in shape or size", step.name);
     return {};
 }
 
@@ -350,7 +353,8 @@ Result<void> count_groups(PlannedStep& planned) {
     const auto* work = std::get_if<ComputeWork>(&planned.step.work);
     if (!work) return {};
     const int said = int{work->over.has_value()} + int{work->groups.has_value()} + int{static_cast<bool>(work->arguments)};
-    if (said != 1) return fail(Fault::usage, "{} must say exactly one of .over(), .groups() and .indirect()", planned.step.name);
+    if (said != 1)
+        return fail_unnamed(Fault::usage, "{} must say exactly one of .over(), .groups() and .indirect()", planned.step.name);
     if (work->groups) planned.groups = *work->groups;
     if (work->over) {
         const Extent group = group_size(planned);

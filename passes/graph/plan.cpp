@@ -76,8 +76,8 @@ Result<void> check_read_contents(const Graph& graph, const PlannedStep& planned,
     const bool needs_writer = reads(use.access) && use.access != Access::updated;
     const bool imported = use.image ? graph.record(use.image).import.has_value() : graph.record(use.buffer).import.has_value();
     if (!needs_writer || imported || written.has(use)) return {};
-    return fail(Fault::usage, "{} reads '{}' ({}) before any step wrote or cleared it", planned.step.name, name_of(graph, use),
-                name(use.access));
+    return fail_unnamed(Fault::usage, "{} reads '{}' ({}) before any step wrote or cleared it", planned.step.name,
+                        name_of(graph, use), name(use.access));
 }
 
 Plan with_records(const Graph& graph) {
@@ -172,7 +172,7 @@ Result<void> check_contents(const Graph& graph, const Plan& plan) {
     }
     for (const Image image : graph.kept_images())
         if (!graph.record(image).import && !written.images.contains(image.id))
-            return fail(Fault::usage, "nothing writes '{}', which is kept", graph.record(image).name);
+            return fail_unnamed(Fault::usage, "nothing writes '{}', which is kept", graph.record(image).name);
     return {};
 }
 

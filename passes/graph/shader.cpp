@@ -241,9 +241,9 @@ Result<Shader> reflect(std::string name, std::span<const std::uint32_t> code) {
     try {
         return reflected_shader(name, code);
     } catch (const Unusable& unusable) {
-        return fail(Fault::bad_input, "shader {} cannot be used: {}", name, unusable.sentence);
+        return fail_unnamed(Fault::bad_input, "shader {} cannot be used: {}", name, unusable.sentence);
     } catch (const spirv_cross::CompilerError& error) {
-        return fail(Fault::bad_input, "shader {} is not valid SPIR-V: {}", name, error.what());
+        return fail_unnamed(Fault::bad_input, "shader {} is not valid SPIR-V: {}", name, error.what());
     }
 }
 

@@ -19,18 +19,19 @@ Result<void> check(Session& session, const Variant& way) {
     if (!planned) return planned.error();
     for (const SkippedStage& skipped : planned->skipped)
         if (skipped.stage == way.technique->stage)
-            return fail(Fault::usage, "the frame does not need {}: {}", name(skipped.stage), skipped.reason);
+            return fail_unnamed(Fault::usage, "the frame does not need {}: {}", name(skipped.stage), skipped.reason);
     if (const std::string reason = unsupported_because(*way.technique, planned->features); !reason.empty())
-        return fail(Fault::usage, "{} cannot do {}", way.technique->name, reason);
+        return fail_unnamed(Fault::usage, "{} cannot do {}", way.technique->name, reason);
     return {};
 }
 
 Result<std::pair<Variant, Variant>> ways_of(Session& session, const Claim& claim) {
     const bool changes = claim.ratio->of_frame.change || claim.ratio->against_frame.change;
     if (changes && !claim.against_frame)
-        return fail(Fault::usage,
-                    "this ratio changes frames of scenario {} and cannot be measured on a capture: run strata bench without one",
-                    claim.ratio->scenario);
+        return fail_unnamed(
+            Fault::usage,
+            "this ratio changes frames of scenario {} and cannot be measured on a capture: run strata bench without one",
+            claim.ratio->scenario);
     const auto of = variant_of(*claim.technique, claim.ratio->of, claim.base);
     if (!of) return of.error();
     Request base = claim.base;
@@ -86,12 +87,13 @@ Result<MeasuredRatio> measure(Session& session, const Claim& claim, std::size_t 
         timed.emplace(pair, *std::move(runs));
     }
     const std::vector<Run>& runs = timed.at(pair);
-    if (runs[0].frame_ms_by_repeat.size() < repeats) return fail(Fault::stopped, "stopped after some of the timed runs");
+    if (runs[0].frame_ms_by_repeat.size() < repeats) return fail_unnamed(Fault::stopped, "stopped after some of the timed runs");
     const auto times = times_of(runs[0], *of.technique, *claim.ratio);
     const auto units = times_of(runs[1], *against.technique, *claim.ratio);
     if (times.empty() || units.empty())
-        return fail(Fault::usage, "{} has none of these steps here", (times.empty() ? of : against).technique->name);
-    if (std::ranges::min(units) <= 0) return fail(Fault::device_lacks, "the device's clock is too coarse for so small a frame");
+        return fail_unnamed(Fault::usage, "{} has none of these steps here", (times.empty() ? of : against).technique->name);
+    if (std::ranges::min(units) <= 0)
+        return fail_unnamed(Fault::device_lacks, "the device's clock is too coarse for so small a frame");
     MeasuredRatio measured{.claim = claim,
                            .width = runs[0].width,
                            .height = runs[0].height,

@@ -55,11 +55,13 @@ Result<std::vector<Claim>> claims_of(const std::string& word, const std::string&
             if (ratio.name.find(only) != ratio.name.npos) claims.push_back({.technique = &technique, .ratio = &ratio});
         }
     }
-    if (!found) return fail(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
+    if (!found) return fail_unnamed(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
     if (names.empty())
-        return fail(Fault::usage, "{} lists no ratios to measure; these techniques do: {}", word, fmt::join(stating, ", "));
+        return fail_unnamed(Fault::usage, "{} lists no ratios to measure; these techniques do: {}", word,
+                            fmt::join(stating, ", "));
     if (claims.empty())
-        return fail(Fault::usage, "no ratio of {} has '{}' in its name; its ratios: {}", word, only, fmt::join(names, "; "));
+        return fail_unnamed(Fault::usage, "no ratio of {} has '{}' in its name; its ratios: {}", word, only,
+                            fmt::join(names, "; "));
     return claims;
 }
 
@@ -128,11 +130,11 @@ Result<void> print(const BenchArguments& options, const Bench& made) {
     to_stdout("{}", options.json ? as_json(made) : as_text(made));
     if (!options.output.empty())
         if (const auto done = write_whole_file(options.output, as_json(made)); !done) return done;
-    return made.stopped.empty() ? Result<void>() : fail(Fault::stopped, "{}", made.stopped);
+    return made.stopped.empty() ? Result<void>() : fail_unnamed(Fault::stopped, "{}", made.stopped);
 }
 
 Result<void> bench_the_device(const BenchArguments& options) {
-    if (!options.only.empty()) return fail(Fault::usage, "--only selects ratios of a technique; 'device' has none");
+    if (!options.only.empty()) return fail_unnamed(Fault::usage, "--only selects ratios of a technique; 'device' has none");
     auto request = request_of(options.choices);
     if (!request) return request.error();
     request->variant.frame = options.frame;

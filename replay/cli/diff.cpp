@@ -75,7 +75,7 @@ public:
             if (const auto free = check_not_kept(path); !free) return free;
             std::error_code problem;
             if (std::filesystem::remove(path, problem)) to_stderr("removed {}\n", path.string());
-            return problem ? Result<void>(fail(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
+            return problem ? Result<void>(fail_unnamed(Fault::usage, "cannot remove {}: {}", path.string(), problem.message()))
                            : Result<void>();
         }
         const auto side = [&](const SideOptions& of, const std::string& choice) {
@@ -148,7 +148,8 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
     comparison.a = describe(options.a, a);
     comparison.b = describe(options.b, b);
     if (options.frames.empty() && a.frame_count() != b.frame_count())
-        return fail(Fault::usage, "A has {} and B {}; choose with --frames", plural(a.frame_count(), "frame"), b.frame_count());
+        return fail_unnamed(Fault::usage, "A has {} and B {}; choose with --frames", plural(a.frame_count(), "frame"),
+                            b.frame_count());
     const auto frames = frame_indices(options.frames, std::min(a.frame_count(), b.frame_count()));
     if (!frames) return frames.error();
     const Progress progress = progress_line();
@@ -159,7 +160,7 @@ Result<void> compare_captures(const DiffArguments& options, Pictures& pictures, 
         const auto told = notes.tell(a, *request_a).and_then([&] { return notes.tell(b, *request_b); });
         if (!told) return told;
         auto made = compare_runs({a, *request_a}, {b, *request_b}, options.limits, seeing(pictures, frame));
-        if (!made) return fail(made.error().fault, "frame {}: {}", frame, made.error().sentence);
+        if (!made) return fail_unnamed(made.error().fault, "frame {}: {}", frame, made.error().sentence);
         comparison.frames.push_back(*std::move(made));
     }
     return {};
@@ -207,8 +208,8 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
                                  Comparison& comparison) {
     const std::string file = sides.file.file.string();
     if (kind_of(sides.file.file) == FileKind::png)
-        return fail(Fault::usage, "{} is a PNG; a capture can only be compared with the EXR of a replay, whose images have names",
-                    file);
+        return fail_unnamed(
+            Fault::usage, "{} is a PNG; a capture can only be compared with the EXR of a replay, whose images have names", file);
     MemoryBudget budget(options.device.memory_budget);
     const auto images = read_images(sides.file.file, budget);
     if (!images) return images.error();
@@ -221,8 +222,9 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
     const auto frames = frame_indices(options.frames, (*session)->frame_count());
     if (!frames) return frames.error();
     if (frames->size() != 1)
-        return fail(Fault::usage, "{} has the images of one frame and the capture has {} frames; choose one with --frames", file,
-                    frames->size());
+        return fail_unnamed(Fault::usage,
+                            "{} has the images of one frame and the capture has {} frames; choose one with --frames", file,
+                            frames->size());
     request->variant.frame = frames->front();
     request->outputs.clear();
     for (const auto& [name, image] : *images) request->outputs.push_back(name);
@@ -243,7 +245,7 @@ Result<void> compare_with_images(const DiffArguments& options, const MixedSides&
 
 Result<void> compare_files(const DiffArguments& options, Pictures& pictures, Comparison& comparison) {
     if (kind_of(options.a.file) != kind_of(options.b.file))
-        return fail(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
+        return fail_unnamed(Fault::usage, "an EXR holds linear light and a PNG display values; compare two files of one kind");
     MemoryBudget budget(options.device.memory_budget);
     const auto a = read_images(options.a.file, budget);
     if (!a) return a.error();
@@ -274,8 +276,9 @@ Error over_tolerance(const Comparison& comparison) {
         for (const ActComparison& act : frame.acts)
             for (const ImageComparison& image : act.images)
                 if (image.verdict == Verdict::over)
-                    return fail(Fault::over_tolerance, "frame {}: {}: {}: {}", frame.frame, act.label, image.image, image.reason);
-    return fail(Fault::over_tolerance, "over tolerance");
+                    return fail_unnamed(Fault::over_tolerance, "frame {}: {}: {}: {}", frame.frame, act.label, image.image,
+                                        image.reason);
+    return fail_unnamed(Fault::over_tolerance, "over tolerance");
 }
 
 /// Whether something is said of B: the same two ways of replaying give the same, but a device may be compared with itself.
@@ -289,11 +292,11 @@ Result<void> check_options(const DiffArguments& options) {
     const CLI::App& app = *options.app;
     const auto is_image = [](const std::filesystem::path& file) { return !file.empty() && kind_of(file) != FileKind::capture; };
     if (options.b.file.empty() && is_image(options.a.file))
-        return fail(Fault::usage, "{} is an image and cannot be replayed: name a second image to compare it with",
-                    options.a.file.string());
+        return fail_unnamed(Fault::usage, "{} is an image and cannot be replayed: name a second image to compare it with",
+                            options.a.file.string());
     if (options.b.file.empty() && !has_a_side_b(options))
-        return fail(Fault::usage,
-                    "nothing to compare A with: name a second file, or what B does differently (--use, --set, --gpu-b)");
+        return fail_unnamed(Fault::usage,
+                            "nothing to compare A with: name a second file, or what B does differently (--use, --set, --gpu-b)");
     const bool a_is_image = is_image(options.a.file), b_is_image = is_image(options.b.file);
     if (b_is_image)
         if (const auto fits = check_not_given(app, {"--use", "--set", "--gpu-b"}, "B is an image and not replayed"); !fits)

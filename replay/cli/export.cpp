@@ -31,10 +31,10 @@ Result<void> run(const ExportOptions& options, const CLI::App& app) {
         flags += fmt::format("{}{}", flags.empty() ? "" : ", ", kind.flag);
         if (!kind.wanted(options)) continue;
         given += fmt::format("{}{}", given.empty() ? "" : " and ", kind.flag);
-        if (chosen) return fail(Fault::usage, "one export makes one file: {} cannot be asked for together", given);
+        if (chosen) return fail_unnamed(Fault::usage, "one export makes one file: {} cannot be asked for together", given);
         chosen = &kind;
     }
-    if (!chosen) return fail(Fault::usage, "choose what to export: one of {}", flags);
+    if (!chosen) return fail_unnamed(Fault::usage, "choose what to export: one of {}", flags);
     if (!chosen->replays) {
         const auto fits = check_not_given(app, {"--use", "--set", "--force", "--samples", "--gpu", "--without", "--validation"},
                                           fmt::format("{} exports the frame as it was recorded", chosen->flag));

@@ -25,14 +25,14 @@ constexpr std::pair<std::string_view, Transmittance> transmittances[] = {
 
 Result<std::uint32_t> sample_of(const ExportOptions& options, std::uint32_t samples) {
     if (!options.sample && samples > 1)
-        return fail(Fault::usage,
-                    "a pixel of this frame has {} samples and a deep image one list: choose --sample 0 to {}, or "
-                    "--samples 1",
-                    samples, samples - 1);
+        return fail_unnamed(Fault::usage,
+                            "a pixel of this frame has {} samples and a deep image one list: choose --sample 0 to {}, or "
+                            "--samples 1",
+                            samples, samples - 1);
     const std::uint32_t sample = options.sample.value_or(0);
     if (sample >= samples)
-        return fail(Fault::usage, "a pixel of this frame has {}, numbered from 0; there is no sample {}",
-                    plural(samples, "sample"), sample);
+        return fail_unnamed(Fault::usage, "a pixel of this frame has {}, numbered from 0; there is no sample {}",
+                            plural(samples, "sample"), sample);
     return sample;
 }
 

@@ -30,8 +30,8 @@ Result<void> check_option(const CLI::App& app, const std::string& option) {
         for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
     const std::vector<std::string_view> known(names.begin(), names.end());
     const bool is_program = app.get_parent() == nullptr;
-    return fail(Fault::usage, "{} has no option {}{}", is_program ? "strata" : "strata " + app.get_name(), option,
-                did_you_mean(option, known));
+    return fail_unnamed(Fault::usage, "{} has no option {}{}", is_program ? "strata" : "strata " + app.get_name(), option,
+                        did_you_mean(option, known));
 }
 
 Result<const CLI::App*> find_verb(const CLI::App& program, const std::string& name) {
@@ -41,7 +41,7 @@ Result<const CLI::App*> find_verb(const CLI::App& program, const std::string& na
         if (!verb->get_group().empty()) names.push_back(verb->get_name());
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
-    return fail(Fault::usage, "there is no verb '{}'{}", name, did_you_mean(name, known));
+    return fail_unnamed(Fault::usage, "there is no verb '{}'{}", name, did_you_mean(name, known));
 }
 
 /// Parses the digits that the text begins with; what follows them, or nothing where there are none or too many.
@@ -92,7 +92,7 @@ std::string problem_of_real(std::string& text) {
 Result<void> check_names(const CLI::App& program, std::span<const std::string> arguments) {
     const CLI::App* verb = &program;
     if (std::ranges::count(arguments, "--version") > 0 && arguments.size() > 1)
-        return fail(Fault::usage, "--version is given alone, without a verb and other options");
+        return fail_unnamed(Fault::usage, "--version is given alone, without a verb and other options");
     for (const std::string& argument : arguments) {
         if (argument == "--") return {};
         if (verb == &program && !argument.starts_with('-')) {
@@ -166,14 +166,14 @@ Result<void> check_values(const CLI::App& verb) {
         if (option->get_items_expected_min() == 0) continue;  // flags, and options whose value may be left out
         for (const std::string& value : option->results())
             if (value.find_first_not_of(" \t\r\n") == value.npos)
-                return fail(Fault::usage, "{} is given an empty value", option->get_name());
+                return fail_unnamed(Fault::usage, "{} is given an empty value", option->get_name());
     }
     return {};
 }
 
 Result<void> check_not_given(const CLI::App& verb, std::initializer_list<const char*> options, std::string_view why) {
     for (const char* name : options)
-        if (verb.get_option(name)->count() > 0) return fail(Fault::usage, "{} does not apply: {}", name, why);
+        if (verb.get_option(name)->count() > 0) return fail_unnamed(Fault::usage, "{} does not apply: {}", name, why);
     return {};
 }
 

@@ -92,8 +92,8 @@ Result<void> info(const InfoArguments& options) {
     if (!capture) return capture.error();
     const std::size_t count = capture->frame_count();
     if (options.frame >= count)
-        return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
-                    options.frame);
+        return fail_unnamed(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
+                            options.frame);
     const auto frame = capture->frame(options.frame);
     if (!frame) return frame.error();
     if (options.json) write_stdout(json_text(json_of(*capture, *frame, options.frame)));
@@ -119,7 +119,7 @@ Result<Capture> validated(const InfoArguments& options) {
     if (!capture) return capture;
     if (const auto sound = check_capture(options.capture, options.memory_budget); !sound) return sound.error();
     if (const auto sound = check_texts(*capture); !sound)
-        return fail(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
+        return fail_unnamed(sound.error().fault, "{}: {}", options.capture.string(), sound.error().sentence);
     return capture;
 }
 

@@ -36,8 +36,9 @@ Result<std::vector<const GpuModel*>> models_of(const IsaArguments& options) {
         const auto found = find_gpu_model(name);
         if (!found) return found.error();
         if ((*found)->family.empty())
-            return fail(Fault::usage, "RADV does not compile for {}; choose a device with --gpu, without --gpu-model", name);
-        if (std::ranges::count(models, *found) > 0) return fail(Fault::usage, "--gpu-model gives '{}' twice", name);
+            return fail_unnamed(Fault::usage, "RADV does not compile for {}; choose a device with --gpu, without --gpu-model",
+                                name);
+        if (std::ranges::count(models, *found) > 0) return fail_unnamed(Fault::usage, "--gpu-model gives '{}' twice", name);
         models.push_back(*found);
     }
     if (models.empty()) models.push_back(nullptr);
@@ -82,8 +83,8 @@ Result<void> check_tiles(const IsaArguments& options, std::span<const GpuModel* 
     if (options.tiles.empty()) return {};
     const std::string kind = options.tiles.extension().string();
     if (kind != ".exr" && kind != ".png")
-        return fail(Fault::usage, "tiles are written as .exr or .png, not as '{}'", options.tiles.filename().string());
-    if (models.size() > 1) return fail(Fault::usage, "--tiles shows one GPU, not {}; name one", models.size());
+        return fail_unnamed(Fault::usage, "tiles are written as .exr or .png, not as '{}'", options.tiles.filename().string());
+    if (models.size() > 1) return fail_unnamed(Fault::usage, "--tiles shows one GPU, not {}; name one", models.size());
     return {};
 }
 

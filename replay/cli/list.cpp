@@ -177,7 +177,7 @@ Result<void> list(const ListArguments& options) {
         std::vector<std::string_view> known;
         for (const StageInfo& stage : stages()) known.push_back(stage.name);
         for (const Technique& technique : techniques()) known.insert(known.end(), {technique.name, short_name(technique)});
-        return fail(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
+        return fail_unnamed(Fault::usage, "no stage or technique '{}'{}", options.what, did_you_mean(options.what, known));
     }
     if (options.json) write_stdout(json_text(json));
     return {};

@@ -34,7 +34,7 @@ Result<PixelAt> pixel_of(const std::string& text, std::uint32_t sample) {
         const auto [rest, problem_y] = std::from_chars(comma + 1, end, at.y);
         if (problem_y == std::errc() && rest == end) return at;
     }
-    return fail(Fault::usage, "--at takes a pixel like 80,45, not '{}'", text);
+    return fail_unnamed(Fault::usage, "--at takes a pixel like 80,45, not '{}'", text);
 }
 
 /// "folder/name" of the files, from what was asked for or from the capture and the pixel.

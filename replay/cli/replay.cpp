@@ -179,13 +179,13 @@ Result<void> judge(const Request& request, const Replayed& replayed, const Repla
                               sentence(image));
             return {};
         case Agreement::diverges:
-            return fail(Fault::over_tolerance, "frame {} is not as expected{}; the first pass that diverges is {}",
-                        request.variant.frame, where, sentence(*verdict.first_divergence()));
+            return fail_unnamed(Fault::over_tolerance, "frame {} is not as expected{}; the first pass that diverges is {}",
+                                request.variant.frame, where, sentence(*verdict.first_divergence()));
         case Agreement::no_expectation:
-            return fail(Fault::expectation_missing,
-                        "frame {} has no expectation for this device and these choices; {}accept it with: {}",
-                        request.variant.frame, options.json ? fmt::format("it gives\n  {}\n", short_json(*replayed.got)) : "",
-                        command_to_accept(options, request.variant.frame));
+            return fail_unnamed(
+                Fault::expectation_missing, "frame {} has no expectation for this device and these choices; {}accept it with: {}",
+                request.variant.frame, options.json ? fmt::format("it gives\n  {}\n", short_json(*replayed.got)) : "",
+                command_to_accept(options, request.variant.frame));
     }
     return {};
 }
@@ -213,13 +213,13 @@ Result<void> check_outputs(const Request& request, const Run& run, const ReplayA
         if (!run.images.contains(output) && !run.tables.contains(output))
             missing += fmt::format("{}'{}': {}", missing.empty() ? "" : "; ", output, why_missing(output, run, options));
     if (missing.empty()) return {};
-    return fail(Fault::usage, "frame {} has no {}", request.variant.frame, missing);
+    return fail_unnamed(Fault::usage, "frame {} has no {}", request.variant.frame, missing);
 }
 
 Result<void> check_supported(const Request& request, const Run& run) {
     if (run.not_supported.empty()) return {};
     const UnsupportedChoice& first = run.not_supported.front();
-    return fail(Fault::over_tolerance, "frame {}: {} cannot do {}", request.variant.frame, first.technique, first.reason);
+    return fail_unnamed(Fault::over_tolerance, "frame {}: {} cannot do {}", request.variant.frame, first.technique, first.reason);
 }
 
 /// "811229 fragments, 187 deepest": what the technique of a choice line counted.

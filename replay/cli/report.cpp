@@ -69,7 +69,8 @@ private:
 
 Result<Sweep> parse_sweep(const std::string& text) {
     const std::size_t equals = text.find('=');
-    if (equals == text.npos || equals + 1 == text.size()) return fail(Fault::usage, "--sweep takes key=a,b,c, not '{}'", text);
+    if (equals == text.npos || equals + 1 == text.size())
+        return fail_unnamed(Fault::usage, "--sweep takes key=a,b,c, not '{}'", text);
     Sweep sweep{.key = text.substr(0, equals)};
     for (std::size_t begin = equals + 1; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -88,7 +89,7 @@ Result<std::optional<double>> parse_limit(const char* option, std::string text, 
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (problem != std::errc() || end != text.data() + text.size() || !(value > 0) || !std::isfinite(value))
-        return fail(Fault::usage, "{} takes a number above 0, like 2{}, not '{}'", option, unit, given);
+        return fail_unnamed(Fault::usage, "{} takes a number above 0, like 2{}, not '{}'", option, unit, given);
     return std::optional(has_unit ? value * factor : value);
 }
 
@@ -114,18 +115,19 @@ Result<void> check_setting(const SettingChange& change, const ReportRequest& wan
     ChoiceChanges alone;
     alone.settings.push_back(change);
     const std::string text = set_texts(alone).front();
-    return fail(Fault::usage,
-                "--set {} cannot be given to every row of the report: {} has no '{}'; give it to one row with --methods '{} {}'",
-                text, lacking->technique->name, change.key, short_name(*own), text.substr(text.find(':') + 1));
+    return fail_unnamed(
+        Fault::usage,
+        "--set {} cannot be given to every row of the report: {} has no '{}'; give it to one row with --methods '{} {}'", text,
+        lacking->technique->name, change.key, short_name(*own), text.substr(text.find(':') + 1));
 }
 
 /// --use and --set are for the other stages: the rows are the techniques of the measured one.
 Result<void> check_choices(const ReportRequest& wanted, std::span<const Variant> rows) {
     const ChoiceChanges& choices = wanted.base.choices;
     if (const Technique* used = choices.techniques[static_cast<std::size_t>(wanted.stage)])
-        return fail(Fault::usage,
-                    "--use {} does not apply: a report of {} measures its techniques; choose them with --methods {}", used->name,
-                    name(wanted.stage), short_name(*used));
+        return fail_unnamed(Fault::usage,
+                            "--use {} does not apply: a report of {} measures its techniques; choose them with --methods {}",
+                            used->name, name(wanted.stage), short_name(*used));
     for (const SettingChange& change : choices.settings)
         if (const auto fits = check_setting(change, wanted, rows); !fits) return fits;
     return {};
@@ -142,7 +144,7 @@ Result<ReportRequest> request_of(const ReportArguments& options) {
     const auto stage = find_stage(options.stage);
     std::vector<std::string_view> known;
     for (const StageInfo& info : stages()) known.push_back(info.name);
-    if (!stage) return fail(Fault::usage, "there is no stage '{}'{}", options.stage, did_you_mean(options.stage, known));
+    if (!stage) return fail_unnamed(Fault::usage, "there is no stage '{}'{}", options.stage, did_you_mean(options.stage, known));
     wanted.stage = *stage;
     for (const std::string& text : options.sweeps) {
         const auto sweep = parse_sweep(text);
@@ -184,7 +186,7 @@ Result<void> report_hard_cases(const ReportArguments& options) {
     const StopAtSignal signal;
     return measure_hard_cases(options.open.device, *rows, progress_line(), signal.token()).and_then([&](auto& made) {
         const auto done = write(options, options.json ? as_json(made) : as_text(made));
-        return done && !made.stopped.empty() ? Result<void>(fail(Fault::stopped, "{}", made.stopped)) : done;
+        return done && !made.stopped.empty() ? Result<void>(fail_unnamed(Fault::stopped, "{}", made.stopped)) : done;
     });
 }
 
@@ -198,7 +200,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         return fits ? report_hard_cases(options) : fits;
     }
     if (options.captures.empty())
-        return fail(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
+        return fail_unnamed(Fault::usage, "strata report wants a capture, or --hard-cases, which brings its own frames");
     const auto wanted = request_of(options);
     if (!wanted) return wanted.error();
     ReportRequest request = *wanted;
@@ -225,7 +227,8 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
         auto report = make_report(**session, request, progress);
         if (!report && report.error().fault == Fault::stopped && !made.empty()) break;
         if (!report && report.error().fault == Fault::stopped && !signal.token().stop_requested())
-            return fail(Fault::usage, "no row was measured within {} minutes; give the report more time", *options.minutes);
+            return fail_unnamed(Fault::usage, "no row was measured within {} minutes; give the report more time",
+                                *options.minutes);
         if (!report) return report.error();
         report->capture_name = capture.filename().string();
         made.push_back(*std::move(report));
@@ -234,7 +237,7 @@ Result<void> report(const ReportArguments& options, const CLI::App& app) {
     const auto done = write(options, written(options, made));
     if (!done || (made.back().stopped.empty() && made.size() == options.captures.size())) return done;
     const std::string missing = made.back().stopped.empty() ? "stopped before the next capture" : made.back().stopped;
-    if (signal.token().stop_requested()) return fail(Fault::stopped, "{}", missing);
+    if (signal.token().stop_requested()) return fail_unnamed(Fault::stopped, "{}", missing);
     to_stderr("strata: {} minutes are over: {}\n", *options.minutes, missing);
     return done;
 }

@@ -36,7 +36,7 @@ Result<const CostSource*> find_cost_source(const std::string& name) {
         if (source.name == name) return &source;
         known.push_back(source.name);
     }
-    return fail(Fault::usage, "--cost takes {}, not '{}'{}", fmt::join(known, " or "), name, did_you_mean(name, known));
+    return fail_unnamed(Fault::usage, "--cost takes {}, not '{}'{}", fmt::join(known, " or "), name, did_you_mean(name, known));
 }
 
 Result<std::unique_ptr<Session>> open_one(const SpectraArguments& options, const std::filesystem::path& capture) {
@@ -69,7 +69,7 @@ Result<std::vector<FrameSpectra>> gather(const SpectraArguments& options, const 
             gathered.push_back(std::move(frame));
         }
     }
-    if (gathered.empty()) return fail(Fault::usage, "no frame has a feature spectrum: {}", why);
+    if (gathered.empty()) return fail_unnamed(Fault::usage, "no frame has a feature spectrum: {}", why);
     return gathered;
 }
 
@@ -90,7 +90,7 @@ Result<void> check_options(const SpectraArguments& options, const CLI::App& app)
 Result<const GpuModel*> gpu_of(const SpectraArguments& options) {
     if (options.gpu_model.empty()) return nullptr;
     const auto found = find_gpu_model(options.gpu_model);
-    if (found && (*found)->family.empty()) return fail(Fault::usage, "RADV does not compile for {}", options.gpu_model);
+    if (found && (*found)->family.empty()) return fail_unnamed(Fault::usage, "RADV does not compile for {}", options.gpu_model);
     return found;
 }
 

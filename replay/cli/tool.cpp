@@ -17,6 +17,7 @@
 #include "capture_format/container/kept_files.h"
 #include "capture_format/container/whole_file.h"
 #include "replay/cli/given_options.h"
+#include "replay/error_text.h"
 #include "replay/gpu/device.h"
 #include "replay/json_text.h"
 #include "replay/revision.h"
@@ -29,6 +30,8 @@ constexpr const char* exit_codes =
     "exit codes: 0 ok, 1 over tolerance, 2 usage or an output that cannot be written, 3 bad or truncated input,\n"
     "4 the device or the memory budget lacks what is needed, 5 device failure, 6 expectation missing, 7 not repeatable,\n"
     "8 a mistake of strata, 130 interrupted (128 + the signal)";
+
+constexpr const char* wants_ids = "-v,--verbose";
 
 struct GpusArguments {
     bool list = false, json = false;
@@ -64,16 +67,17 @@ Result<void> without_exceptions(const std::function<Result<void>()>& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return fail(Fault::device_lacks, "this machine has too little memory");
+        return fail_unnamed(Fault::device_lacks, "this machine has too little memory");
     } catch (const std::system_error& refused) {
         if (refused.code() == std::errc::resource_unavailable_try_again)
-            return fail(Fault::device_lacks, "this machine cannot start another thread: {}", refused.what());
-        return fail(Fault::usage, "{}", refused.what());
+            return fail_unnamed(Fault::device_lacks, "this machine cannot start another thread: {}", refused.what());
+        return fail_unnamed(Fault::usage, "{}", refused.what());
     } catch (const std::exception& mistake) {
         // oneTBB 2021.8 throws no system_error.
         if (std::string_view(mistake.what()).starts_with("pthread_create"))
-            return fail(Fault::device_lacks, "this machine cannot start another thread: {}", mistake.what());
-        return fail(Fault::internal, "this is a mistake of strata; please report it with the command: {}", mistake.what());
+            return fail_unnamed(Fault::device_lacks, "this machine cannot start another thread: {}", mistake.what());
+        return fail_unnamed(Fault::internal, "this is a mistake of strata; please report it with the command: {}",
+                            mistake.what());
     }
 }
 
@@ -105,9 +109,9 @@ Result<void> keep_inputs(const CLI::App& verb) {
     const std::vector<std::filesystem::path> outputs = files_of(verb, output_file);
     for (const auto& files : {inputs, outputs})
         for (const std::filesystem::path& file : files)
-            if (file.empty()) return fail(Fault::usage, "a file's name is empty");
+            if (file.empty()) return fail_unnamed(Fault::usage, "a file's name is empty");
     for (const std::filesystem::path& output : outputs)
-        if (output == "-") return fail(Fault::usage, "'-' is no file; write to standard output with /dev/stdout");
+        if (output == "-") return fail_unnamed(Fault::usage, "'-' is no file; write to standard output with /dev/stdout");
     for (const auto& files : {inputs, files_of(verb, extended_file)})
         for (const std::filesystem::path& input : files)
             if (const auto fine = check_is_file(input); !fine) return fine;
@@ -154,11 +158,11 @@ Result<bool> parse(CLI::App& app, std::vector<std::string> arguments) {
         if (code != 0) {
             const auto verb = app.get_subcommands();
             if (has_separator && !verb.empty())
-                return fail(Fault::usage,
-                            "arguments after -- are file names, and strata {} takes no more of them; put options before --",
-                            verb.front()->get_name());
-            return fail(Fault::usage, "{}; see strata help{}", sentence_of(error),
-                        verb.empty() ? "" : " " + verb.front()->get_name());
+                return fail_unnamed(
+                    Fault::usage, "arguments after -- are file names, and strata {} takes no more of them; put options before --",
+                    verb.front()->get_name());
+            return fail_unnamed(Fault::usage, "{}; see strata help{}", sentence_of(error),
+                                verb.empty() ? "" : " " + verb.front()->get_name());
         }
         return false;
     }
@@ -183,13 +187,14 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
         CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
         runs.emplace_back(sub, verb.declare(*sub));
         refuse_what_is_no_number(*sub);
+        sub->add_flag(wants_ids, "print the id and the values of an error, too");  // read by say()
     }
     const auto goes_on = parse(app, std::move(arguments));
     if (!goes_on) return goes_on.error();
     if (!*goes_on) return {};
     if (gpus.list && !app.get_subcommands().empty())
-        return fail(Fault::usage, "--list-gpus is used without a verb; {} would be ignored",
-                    app.get_subcommands().front()->get_name());
+        return fail_unnamed(Fault::usage, "--list-gpus is used without a verb; {} would be ignored",
+                            app.get_subcommands().front()->get_name());
     if (gpus.list) return list_gpus(gpus);
     if (help->parsed() && help_about.empty()) return run({"--help"}, verbs);
     if (help->parsed()) return run({help_about, "--help"}, verbs);  // "strata help VERB" is "strata VERB --help"
@@ -215,20 +220,31 @@ Result<void> run(std::vector<std::string> arguments, std::span<const Verb> verbs
     end_program(static_cast<int>(Fault::device_lacks));
 }
 
+/// Whether the arguments have one of these flags: an error may be of the arguments themselves, before they are parsed.
+bool has_flag(std::span<const std::string> arguments, std::initializer_list<std::string_view> flags) {
+    const auto end = std::ranges::find(arguments, "--");
+    return std::any_of(arguments.begin(), end, [&](const std::string& word) { return std::ranges::count(flags, word) > 0; });
+}
+
+/// On standard error as a sentence, with -v with its id, too; for --json on standard output, unless results stand there already.
+void say(const Error& error, std::span<const std::string> arguments) {
+    to_stderr("strata: {}\n", shortened(error.sentence));
+    if (has_flag(arguments, {"-v", "--verbose"})) to_stderr("strata: {}\n", shortened(id_text(error)));
+    if (!has_flag(arguments, {"--json"}) || wrote_stdout()) return;
+    write_stdout(json_text({{"schema", "strata.error"}, {"schema_version", 1}, {"error", json_of(error)}}));
+}
+
 }  // namespace
 
 int run_tool(std::vector<std::string> arguments, std::span<const Verb> verbs) {
     std::set_terminate(end_without_memory);
     const Result<void> done = without_exceptions(
-        [&] { return leave_nothing_half_written_when_stopped().and_then([&] { return run(std::move(arguments), verbs); }); });
+        [&] { return leave_nothing_half_written_when_stopped().and_then([&] { return run(arguments, verbs); }); });
+    if (!done) say(done.error(), arguments);
     const Result<void> written = finish_stdout();
-    int code = 0;
-    for (const Result<void>* each : {&written, &done}) {
-        if (*each) continue;
-        to_stderr("strata: {}\n", shortened(each->error().sentence));
-        code = static_cast<int>(each->error().fault);
-    }
-    return code;
+    if (!written) say(written.error(), {});
+    const Result<void>& first = done ? written : done;
+    return first ? 0 : static_cast<int>(first.error().fault);
 }
 
 }  // namespace strata

@@ -34,7 +34,7 @@ Result<ActComparison> compare_acts(const ActImages& a, const ActImages& b, const
             continue;
         }
         auto made = compare_outputs(image, a, b, limits);
-        if (!made) return fail(made.error().fault, "{}: {}", a.label, made.error().sentence);
+        if (!made) return fail_unnamed(made.error().fault, "{}: {}", a.label, made.error().sentence);
         if (see && made->verdict != Verdict::not_compared)
             if (const auto seen = see(act, *made, of_a, b.images.at(image)); !seen) return seen.error();
         act.images.push_back(*std::move(made));
@@ -134,7 +134,7 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
     const bool single = a.size() == 1 && b.size() == 1;
     for (const auto& [image, of_a] : a) {
         const auto of_b = single ? b.begin() : b.find(image);
-        if (of_b == b.end()) return fail(Fault::usage, "A has an image '{}' and B has none", image);
+        if (of_b == b.end()) return fail_unnamed(Fault::usage, "A has an image '{}' and B has none", image);
         auto made = compare_images(image, of_a, of_b->second, limits);
         if (!made) return made.error();
         if (see)
@@ -142,7 +142,7 @@ Result<FrameComparison> compare_image_sets(const NamedImages& a, const NamedImag
         act.images.push_back(*std::move(made));
     }
     for (const auto& [image, of_b] : b)
-        if (!single && !a.contains(image)) return fail(Fault::usage, "B has an image '{}' and A has none", image);
+        if (!single && !a.contains(image)) return fail_unnamed(Fault::usage, "B has an image '{}' and A has none", image);
     add(frame, std::move(act));
     return frame;
 }

@@ -112,7 +112,7 @@ Result<Expectation> parse_expectation(std::string_view json) {
     try {
         return expectation_from(ordered_json::parse(json));
     } catch (const std::exception& problem) {
-        return fail(Fault::bad_input, "an expectation cannot be read: {}", problem.what());
+        return fail_unnamed(Fault::bad_input, "an expectation cannot be read: {}", problem.what());
     }
 }
 

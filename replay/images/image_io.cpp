@@ -151,9 +151,11 @@ const ChannelRow* find_channels(const Imf::ChannelList& channels) {
 
 Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudget& budget) {
     const Imf::Header& header = file.header(index);
-    if (header.hasType() && Imf::isDeepData(header.type())) return fail(Fault::bad_input, "part {} is deep, not flat", index);
+    if (header.hasType() && Imf::isDeepData(header.type()))
+        return fail_unnamed(Fault::bad_input, "part {} is deep, not flat", index);
     const ChannelRow* channels = find_channels(header.channels());
-    if (!channels) return fail(Fault::bad_input, "the channels of part {} are not Z, Y, RG, RGB or RGBA of one type", index);
+    if (!channels)
+        return fail_unnamed(Fault::bad_input, "the channels of part {} are not Z, Y, RG, RGB or RGBA of one type", index);
     const Imf::PixelType type = header.channels().begin().channel().type;
     HostImage image{{.format = type == Imf::HALF ? channels->half : type == Imf::UINT ? channels->whole : channels->real}, {}};
     const auto window = header.dataWindow();
@@ -165,7 +167,7 @@ Result<HostImage> read_part(Imf::MultiPartInputFile& file, int index, MemoryBudg
     const auto from = [](int at, int origin) { return static_cast<int>(std::int64_t{at} - origin); };
     image.place = {from(window.min.x, display.x), from(window.min.y, display.y)};
     if (std::max(extent.width, extent.height) > largest_edge)
-        return fail(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
+        return fail_unnamed(Fault::bad_input, "part {} claims {} x {} texels", index, extent.width, extent.height);
     const std::string what = fmt::format("part {} of {} x {} texels", index, extent.width, extent.height);
     if (const auto room = budget.take(bytes(image.shape), exr_bytes_per_byte, what); !room) return room.error();
     image.texels.resize(bytes(image.shape));
@@ -199,14 +201,14 @@ Result<void> add_part(NamedImages& images, const std::string& in_file, HostImage
     const auto known = images.find(name);
     const std::uint32_t expected = known == images.end() ? 0 : known->second.shape.layers;
     if (layer.value_or(0) != expected)
-        return fail(Fault::bad_input, "part '{}' comes where layer {} of '{}' was expected", part, expected, name);
+        return fail_unnamed(Fault::bad_input, "part '{}' comes where layer {} of '{}' was expected", part, expected, name);
     if (known == images.end()) {
         images.emplace(name, std::move(read));
         return {};
     }
     Shape& shape = known->second.shape;
     if (read.shape.extent != shape.extent || read.shape.format != shape.format || read.place != known->second.place)
-        return fail(Fault::bad_input, "part '{}' has not the size, place and channels of the layers before it", part);
+        return fail_unnamed(Fault::bad_input, "part '{}' has not the size, place and channels of the layers before it", part);
     known->second.texels.insert(known->second.texels.end(), read.texels.begin(), read.texels.end());
     ++shape.layers;
     return {};
@@ -239,7 +241,7 @@ Result<void> write_exr(const std::filesystem::path& path, const NamedImages& ima
             output.writePixels(static_cast<int>(part.height));
         }
     } catch (const std::exception& problem) {
-        return fail(Fault::usage, "cannot write {}: {}", path.string(), problem.what());
+        return fail_unnamed(Fault::usage, "cannot write {}: {}", path.string(), problem.what());
     }
     return write_whole_file(path, stream.str());
 }
@@ -255,14 +257,14 @@ Result<NamedImages> read_exr(const std::filesystem::path& path, MemoryBudget& bu
         NamedImages images;
         for (int part = 0; part < file.parts(); ++part) {
             auto image = read_part(file, part, budget);
-            if (!image) return fail(image.error().fault, "cannot read {}: {}", path.string(), image.error().sentence);
+            if (!image) return fail_unnamed(image.error().fault, "cannot read {}: {}", path.string(), image.error().sentence);
             const std::string name = file.header(part).hasName() ? file.header(part).name() : "image";
             if (const auto added = add_part(images, name, *std::move(image)); !added)
-                return fail(Fault::bad_input, "cannot read {}: {}", path.string(), added.error().sentence);
+                return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), added.error().sentence);
         }
         return images;
     } catch (const std::exception& problem) {
-        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), problem.what());
+        return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), problem.what());
     }
 }
 
@@ -304,19 +306,19 @@ Result<HostImage> read_png(const std::filesystem::path& path) {
 Result<HostImage> read_png(const std::filesystem::path& path, MemoryBudget& budget) {
     int width = 0, height = 0, channels = 0;
     if (!stbi_info(path.c_str(), &width, &height, &channels))
-        return fail(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
+        return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
     const auto wide = static_cast<std::uint32_t>(width), high = static_cast<std::uint32_t>(height);
     HostImage image{{.extent = {wide, high, 1}, .format = Format::rgba8_unorm}, {}};
     if (std::max(wide, high) > largest_edge)
-        return fail(Fault::bad_input, "cannot read {}: it claims {} x {} texels", path.string(), wide, high);
+        return fail_unnamed(Fault::bad_input, "cannot read {}: it claims {} x {} texels", path.string(), wide, high);
     const std::string what = fmt::format("{} of {} x {} texels", path.string(), wide, high);
     if (const auto room = budget.has_room(bytes(image.shape), png_bytes_per_byte, what); !room) return room.error();
     if (const auto taken = budget.take(bytes(image.shape), 1, what); !taken) return taken.error();
     if (stbi_is_16_bit(path.c_str()))
-        return fail(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
+        return fail_unnamed(Fault::bad_input, "cannot read {}: it has 16 bits per channel; convert it to EXR", path.string());
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load(path.c_str(), &width, &height, &channels, STBI_rgb_alpha),
                                                            stbi_image_free);
-    if (!pixels) return fail(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
+    if (!pixels) return fail_unnamed(Fault::bad_input, "cannot read {}: {}", path.string(), png_problem());
     const auto texels = std::as_bytes(std::span(pixels.get(), bytes(image.shape)));
     image.texels.assign(texels.begin(), texels.end());
     return image;

@@ -86,9 +86,9 @@ Result<Compilation> compile_on(const vk::raii::PhysicalDevice& physical, std::sp
                             fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data()),
                             {}};
     if (!describes_pipelines(physical))
-        return fail(Fault::device_lacks,
-                    "{} lacks {}: it does not say what it compiled; name a GPU that is not there with --gpu-model",
-                    compilation.device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        return fail_unnamed(Fault::device_lacks,
+                            "{} lacks {}: it does not say what it compiled; name a GPU that is not there with --gpu-model",
+                            compilation.device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     const auto device = make_device(physical, capabilities_of(physical), PipelineDescriptions::on);
     for (const PipelineRequest& request : requests) {
         try {
@@ -107,10 +107,10 @@ Result<Compilation> compile_here(std::span<const PipelineRequest> requests, std:
     if (!instance) return instance.error();
     try {
         const auto devices = instance->handle().enumeratePhysicalDevices();
-        if (device >= devices.size()) return fail(Fault::device_lacks, "there is no device {}", device);
+        if (device >= devices.size()) return fail_unnamed(Fault::device_lacks, "there is no device {}", device);
         return compile_on(devices[device], requests, texts);
     } catch (const vk::SystemError& problem) {
-        return fail(Fault::device_lacks, "the device cannot compile: {}", problem.what());
+        return fail_unnamed(Fault::device_lacks, "the device cannot compile: {}", problem.what());
     }
 }
 

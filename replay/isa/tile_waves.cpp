@@ -61,7 +61,8 @@ std::vector<std::string> outputs_of_variants(const Technique& technique) {
 Result<TileWaves> waves_of_tiles(const TilesAndCode& joined) {
     const Technique& technique = joined.technique;
     const auto skipped = std::ranges::find(joined.run.skipped, technique.stage, &SkippedStage::stage);
-    if (skipped != joined.run.skipped.end()) return fail(Fault::usage, "{} shades no tile: {}", technique.name, skipped->reason);
+    if (skipped != joined.run.skipped.end())
+        return fail_unnamed(Fault::usage, "{} shades no tile: {}", technique.name, skipped->reason);
     const NumberTable& table = joined.run.tables.at(name_of(technique, technique.abilities.variants->table));
     TileWaves made{.technique = std::string(technique.name),
                    .constant = std::string(technique.abilities.variants->constant),
@@ -70,13 +71,13 @@ Result<TileWaves> waves_of_tiles(const TilesAndCode& joined) {
         const auto number = static_cast<std::uint32_t>(at(table, row, technique.abilities.variants->constant));
         const IsaProgram* program = program_of(joined, number);
         if (!program || !program->occupancy)
-            return fail(Fault::device_lacks, "{} does not tell how many waves of {} {} fit a SIMD", joined.gpu.name,
-                        technique.abilities.variants->constant, number);
+            return fail_unnamed(Fault::device_lacks, "{} does not tell how many waves of {} {} fit a SIMD", joined.gpu.name,
+                                technique.abilities.variants->constant, number);
         made.variants.push_back({row, number, at(table, row, "tiles"), program->registers, *program->occupancy});
         made.tiles += made.variants.back().tiles;
         made.mean += double(made.variants.back().tiles) * program->occupancy->waves_per_simd;
     }
-    if (made.tiles == 0) return fail(Fault::usage, "{} shades no tile: nothing opaque is in view", technique.name);
+    if (made.tiles == 0) return fail_unnamed(Fault::usage, "{} shades no tile: nothing opaque is in view", technique.name);
     made.mean /= double(made.tiles);
     made.picture = waves_of_pixels(joined.run.images.at(name_of(technique, technique.abilities.variants->view)), made.variants);
     return made;

@@ -49,7 +49,7 @@ Result<std::vector<ProbedMethod>> parse_methods(std::span<const std::string> tex
         auto method = probed(text);
         if (!method) return method.error();
         if (std::ranges::count(methods, method->name, &ProbedMethod::name) > 0)
-            return fail(Fault::usage, "--methods gives '{}' twice", method->name);
+            return fail_unnamed(Fault::usage, "--methods gives '{}' twice", method->name);
         methods.push_back(*std::move(method));
     }
     if (texts.empty())
@@ -236,9 +236,10 @@ Result<void> choose_range(Probe& probe, const ProbeOptions& options) {
     probe.from = std::clamp(from, probe.nearest, probe.farthest);
     probe.to = std::clamp(to, probe.nearest, probe.farthest);
     if (probe.from < probe.to) return {};
-    return fail(Fault::usage,
-                "there is nothing to probe from {:.4g} to {:.4g} m: the frame's transparent geometry is from {:.4g} to {:.4g} m",
-                from, to, probe.nearest, probe.farthest);
+    return fail_unnamed(
+        Fault::usage,
+        "there is nothing to probe from {:.4g} to {:.4g} m: the frame's transparent geometry is from {:.4g} to {:.4g} m", from,
+        to, probe.nearest, probe.farthest);
 }
 
 /// The frame's pixel nearest to `at` that has a fragment.
@@ -257,18 +258,18 @@ std::optional<PixelAt> nearest_with_some(const FragmentLists& lists, PixelAt at)
 
 Result<void> check_pixel(Session& session, const Request& request, const FragmentLists& lists, PixelAt at) {
     if (at.x >= lists.width() || at.y >= lists.height())
-        return fail(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})", lists.width(),
-                    lists.height(), at.x, at.y);
+        return fail_unnamed(Fault::usage, "the picture has {} x {} pixels, counted from 0; there is no pixel ({}, {})",
+                            lists.width(), lists.height(), at.x, at.y);
     if (at.sample >= lists.samples())
-        return fail(Fault::usage, "a pixel has {}, numbered from 0; there is no sample {}", plural(lists.samples(), "sample"),
-                    at.sample);
+        return fail_unnamed(Fault::usage, "a pixel has {}, numbered from 0; there is no sample {}",
+                            plural(lists.samples(), "sample"), at.sample);
     if (!lists.at(at.x, at.y, at.sample).empty()) return {};
     const auto all = session.transparent_fragments(request);
     if (!all) return all.error();
     const auto other = nearest_with_some(**all, at);
-    if (!other) return fail(Fault::usage, "no transparent fragment at ({}, {}), nor anywhere in the frame", at.x, at.y);
-    return fail(Fault::usage, "no transparent fragment at ({}, {}); the nearest pixel with some is ({}, {})", at.x, at.y,
-                other->x, other->y);
+    if (!other) return fail_unnamed(Fault::usage, "no transparent fragment at ({}, {}), nor anywhere in the frame", at.x, at.y);
+    return fail_unnamed(Fault::usage, "no transparent fragment at ({}, {}); the nearest pixel with some is ({}, {})", at.x, at.y,
+                        other->x, other->y);
 }
 
 }  // namespace
@@ -278,10 +279,11 @@ Result<Probe> probe(Session& session, ProbedStack stack, const ProbeOptions& opt
     if (!methods) return methods.error();
     assert(!stack.fragments.empty());
     if (options.samples < 2 || options.samples > most_probe_depths)
-        return fail(Fault::usage, "transmittance is evaluated at 2 to {} depths, not {}", most_probe_depths, options.samples);
+        return fail_unnamed(Fault::usage, "transmittance is evaluated at 2 to {} depths, not {}", most_probe_depths,
+                            options.samples);
     if (options.samples + stack.fragments.size() > session.device().max_image_extent)
-        return fail(Fault::usage, "{} depths and the pixel's {} are more than the {} that the device evaluates at once",
-                    options.samples, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent);
+        return fail_unnamed(Fault::usage, "{} depths and the pixel's {} are more than the {} that the device evaluates at once",
+                            options.samples, plural(stack.fragments.size(), "fragment"), session.device().max_image_extent);
     // A depth offset may bring a particle nearer than the range, where methods stop telling depths apart.
     for (Fragment& fragment : stack.fragments) fragment.depth = std::max(fragment.depth, stack.nearest);
     Probe probe{.axis = options.axis, .nearest = stack.nearest, .farthest = stack.farthest, .device = session.device()};

@@ -64,7 +64,8 @@ std::vector<Figure> figures_of(const ReferenceImage& got, const ReferenceImage& 
 
 Result<PictureTruth> picture_truth(Session& session, const Request& request, Stage stage, const ImageSet& truth) {
     if (std::ranges::count(info(stage).outputs, picture) > 0)
-        return fail(Fault::usage, "the stage {} makes the picture itself: its errors are those of the picture", name(stage));
+        return fail_unnamed(Fault::usage, "the stage {} makes the picture itself: its errors are those of the picture",
+                            name(stage));
     auto display = picture_from(session, request, stage, truth);
     if (!display) return display.error();
     const auto before = found_before(session, request, stage, truth);

@@ -19,7 +19,8 @@ Result<void> add_flicker(Session& session, ReportRequest wanted, std::span<const
         const auto frame = session.frame(wanted.base.variant.frame);
         if (!frame) return frame.error();
         wanted.flicker->dolly = default_dolly(*frame);
-        if (!wanted.flicker->dolly) return fail(Fault::usage, "nothing lies before the eye to move towards; give --dolly metres");
+        if (!wanted.flicker->dolly)
+            return fail_unnamed(Fault::usage, "nothing lies before the eye to move towards; give --dolly metres");
     }
     report.flicker = wanted.flicker;
     std::vector<Request> moved;
@@ -138,7 +139,8 @@ Result<Report> make_report(Session& session, const ReportRequest& wanted, const 
     const auto tell = [&](std::string_view what, double done) {
         if (progress) progress(what, done);
     };
-    if (techniques_of(wanted.stage).empty()) return fail(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
+    if (techniques_of(wanted.stage).empty())
+        return fail_unnamed(Fault::usage, "the stage {} has no technique yet", name(wanted.stage));
     auto all = variants(wanted);
     if (!all) return all.error();
     put_unit_first(*all);

@@ -33,8 +33,8 @@ Result<void> check_sweeps(std::span<const Variant> swept, std::span<const Sweep>
             Settings settings(variant.technique->params);
             for (const std::string& value : sweep.values)
                 if (const auto fits = settings.set(sweep.key, value); !fits)
-                    return fail(fits.error().fault, "--sweep {}={}: {}: {}", sweep.key, value, variant.technique->name,
-                                fits.error().sentence);
+                    return fail_unnamed(fits.error().fault, "--sweep {}={}: {}: {}", sweep.key, value, variant.technique->name,
+                                        fits.error().sentence);
         }
     return {};
 }
@@ -66,7 +66,8 @@ Result<void> check_rows_differ(std::span<const Variant> rows) {
     std::set<std::string> known;
     for (const Variant& row : rows)
         if (!known.insert(whole_choice(row)).second)
-            return fail(Fault::usage, "--methods and --sweep give the row '{}' twice", label(row.technique->name, row.settings));
+            return fail_unnamed(Fault::usage, "--methods and --sweep give the row '{}' twice",
+                                label(row.technique->name, row.settings));
     return {};
 }
 
@@ -105,7 +106,7 @@ Result<std::vector<Variant>> variants(const ReportRequest& wanted) {
     const auto techniques = techniques_of(wanted.stage);
     for (const Sweep& sweep : wanted.sweeps)
         if (std::ranges::none_of(techniques, [&](const Technique* technique) { return has_param(*technique, sweep.key); }))
-            return fail(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
+            return fail_unnamed(Fault::usage, "no technique of the stage {} has a parameter '{}'", name(wanted.stage), sweep.key);
     std::vector<Variant> all;
     for (const std::string& text : wanted.methods) {
         auto method = parse_method(wanted.stage, text);

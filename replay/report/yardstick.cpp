@@ -77,10 +77,11 @@ Result<Yardstick> find_yardstick(Session& session, const ReportRequest& wanted, 
                                      accuracy->model_rmse, yardstick.model_divisor);
         return yardstick;
     }
-    return fail(Fault::usage,
-                "{} x {} at {} per pixel is too large for the truth of {} in double, and no technique can stand in; record a "
-                "smaller frame",
-                view.width, view.height, plural(view.samples, "sample"), name(wanted.stage));
+    return fail_unnamed(
+        Fault::usage,
+        "{} x {} at {} per pixel is too large for the truth of {} in double, and no technique can stand in; record a "
+        "smaller frame",
+        view.width, view.height, plural(view.samples, "sample"), name(wanted.stage));
 }
 
 }  // namespace

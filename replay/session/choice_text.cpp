@@ -22,16 +22,17 @@ Result<const Technique*> technique_of_word(std::string_view word) {
         found.push_back(&technique);
         names.push_back(technique.name);
     }
-    if (found.empty()) return fail(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
+    if (found.empty()) return fail_unnamed(Fault::usage, "no technique {}{}", word, did_you_mean(word, known));
     if (found.size() > 1)
-        return fail(Fault::usage, "{} stages have a technique {}: choose {}", found.size(), word, fmt::join(names, " or "));
+        return fail_unnamed(Fault::usage, "{} stages have a technique {}: choose {}", found.size(), word,
+                            fmt::join(names, " or "));
     return found.front();
 }
 
 /// "key=value" or "stage/technique:key=value".
 Result<SettingChange> parse_set(std::string_view set) {
     const std::size_t equals = set.find('=');
-    if (equals == std::string_view::npos) return fail(Fault::usage, "--set takes key=value, not '{}'", set);
+    if (equals == std::string_view::npos) return fail_unnamed(Fault::usage, "--set takes key=value, not '{}'", set);
     const std::string_view value = set.substr(equals + 1), place = set.substr(0, equals);
     const std::size_t colon = place.find(':');
     SettingChange change{nullptr, std::string(place.substr(colon == place.npos ? 0 : colon + 1)), std::string(value)};
@@ -65,7 +66,8 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
         if (!technique) return technique.error();
         const Technique* earlier = changes.techniques[static_cast<std::size_t>((*technique)->stage)];
         if (earlier)
-            return fail(Fault::usage, "--use names two techniques of one stage: {} and {}", earlier->name, (*technique)->name);
+            return fail_unnamed(Fault::usage, "--use names two techniques of one stage: {} and {}", earlier->name,
+                                (*technique)->name);
         changes.use(**technique);
     }
     for (const std::string& set : sets) {
@@ -75,7 +77,8 @@ Result<ChoiceChanges> parse_choices(std::span<const std::string> uses, std::span
             return earlier.technique == change->technique && earlier.key == change->key;
         };
         if (const auto earlier = std::ranges::find_if(changes.settings, is_same); earlier != changes.settings.end())
-            return fail(Fault::usage, "--set gives {} twice: {} and {}", change->key, text_of(*earlier), text_of(*change));
+            return fail_unnamed(Fault::usage, "--set gives {} twice: {} and {}", change->key, text_of(*earlier),
+                                text_of(*change));
         changes.settings.push_back(*std::move(change));
     }
     return changes;
@@ -92,7 +95,7 @@ Result<Method> parse_method(Stage stage, std::string_view text) {
     const auto found = find_technique(word.find('/') == word.npos ? fmt::format("{}/{}", name(stage), word) : word);
     if (!found) return found.error();
     if ((*found)->stage != stage)
-        return fail(Fault::usage, "{} is of the stage {}, not of {}", word, name((*found)->stage), name(stage));
+        return fail_unnamed(Fault::usage, "{} is of the stage {}, not of {}", word, name((*found)->stage), name(stage));
     Method method{*found, {}, ""};
     Settings settings((*found)->params);
     while (words >> word) {
@@ -102,7 +105,7 @@ Result<Method> parse_method(Stage stage, std::string_view text) {
             !done)
             return done.error();
         if (std::ranges::count(method.settings, change->key, &SettingChange::key) > 0)
-            return fail(Fault::usage, "--methods gives {} twice in '{}'", change->key, text);
+            return fail_unnamed(Fault::usage, "--methods gives {} twice in '{}'", change->key, text);
         method.settings.push_back(*std::move(change));
         method.text += fmt::format("{}{}", method.text.empty() ? "" : " ", word);
     }

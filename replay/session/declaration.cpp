@@ -42,9 +42,9 @@ Result<void> add_inside(Declaration& d, const std::string& output) {
             if (is_wanted(view)) return d.outputs[output] = make(view), Result<void>();
         for (const DebugTable& table : choice.technique->tables)
             if (is_wanted(table)) return d.tables[output] = {&table, make(table)}, Result<void>();
-        return fail(Fault::usage, "{} has no view '{}'{}", technique, wanted, did_you_mean(wanted, known));
+        return fail_unnamed(Fault::usage, "{} has no view '{}'{}", technique, wanted, did_you_mean(wanted, known));
     }
-    return fail(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
+    return fail_unnamed(Fault::usage, "'{}' is not chosen for this frame, so it has no views; choose it with --use", technique);
 }
 
 /// Fills Declaration::outputs and keeps them.
@@ -57,12 +57,12 @@ Result<void> keep_outputs(Declaration& d, std::span<const std::string> wanted) {
         const FrameImageRow* row = find_frame_image(output);
         std::vector<std::string_view> known;
         for (const FrameImageRow& candidate : frame_images()) known.push_back(candidate.name);
-        if (!row) return fail(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
+        if (!row) return fail_unnamed(Fault::usage, "a frame has no image '{}'{}", output, did_you_mean(output, known));
         const Image image = d.images.*row->member;
         if (!image) continue;  // its stage was left out
         if (d.graph.shape(image).samples > 1)
-            return fail(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,
-                        d.images.samples);
+            return fail_unnamed(Fault::usage, "'{}' has {} samples per pixel; ask for its layers ('depth_layers')", output,
+                                d.images.samples);
         d.outputs[output] = image;
         d.graph.keep(image);
     }
@@ -297,9 +297,9 @@ Result<Declaration> declare_from(const Request& request, const Sources& sources,
     if (const auto filled = fill(d, request, sources, Keep::outputs, {}); !filled) return filled.error();
     const auto is_own = [&](const DeclaredAct& act) { return act.technique->stage == stage && act.at == stage; };
     const auto own = std::ranges::find_if(d.frame.acts, is_own);
-    if (own == d.frame.acts.end()) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+    if (own == d.frame.acts.end()) return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(stage));
     if (const auto why = cannot_give(d, static_cast<std::size_t>(own - d.frame.acts.begin()), outputs))
-        return fail(Fault::usage, "no image can take the place of what {} gives: {}", name(stage), *why);
+        return fail_unnamed(Fault::usage, "no image can take the place of what {} gives: {}", name(stage), *why);
     d = Declaration{};
     d.choices = *choices;
     const auto filled = fill(d, request, sources, Keep::outputs, Give(d, stage, outputs));

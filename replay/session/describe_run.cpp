@@ -35,8 +35,8 @@ Result<Execution> without_fatal_counts(const Declaration& d, Execution execution
     for (const CounterSource& source : d.counters)
         for (const Counter& counter : source.technique->counters)
             if (const std::uint32_t count = count_of(execution, source, counter); counter.is_fatal && count > 0)
-                return fail(Fault::device_lacks, "what {} shows would be wrong on this device: {} {} ({})",
-                            source.technique->name, count, counter.name, counter.help);
+                return fail_unnamed(Fault::device_lacks, "what {} shows would be wrong on this device: {} {} ({})",
+                                    source.technique->name, count, counter.name, counter.help);
     return execution;
 }
 

@@ -99,13 +99,14 @@ Result<EyeMove> eye_move_of(std::string_view text) {
         const std::string_view name = part.substr(0, equals), number = part.substr(std::min(equals + 1, part.size()));
         const auto axis = std::ranges::find(axes, name, &EyeAxis::name);
         if (axis == std::end(axes))
-            return fail(Fault::usage, "--eye takes {}, not '{}'{}", fmt::join(known, ", "), name, did_you_mean(name, known));
+            return fail_unnamed(Fault::usage, "--eye takes {}, not '{}'{}", fmt::join(known, ", "), name,
+                                did_you_mean(name, known));
         if (std::exchange(given[static_cast<std::size_t>(axis - axes)], true))
-            return fail(Fault::usage, "--eye gives {} twice", name);
+            return fail_unnamed(Fault::usage, "--eye gives {} twice", name);
         double& value = move.*axis->member;
         const auto [end, problem] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (problem != std::errc() || end != number.data() + number.size() || !std::isfinite(value))
-            return fail(Fault::usage, "--eye: {} takes a finite number, not '{}'", name, number);
+            return fail_unnamed(Fault::usage, "--eye: {} takes a finite number, not '{}'", name, number);
     }
     return move;
 }

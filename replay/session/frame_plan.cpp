@@ -33,14 +33,15 @@ void apply_recorded(const Frame& frame, Choices& choices) {
 Error no_such_parameter(const Choices& choices, const SettingChange& change, std::span<const std::string_view> known) {
     const auto owner = std::ranges::find_if(techniques(), [&](const Technique& one) { return change.fits(one); });
     if (owner == techniques().end() && change.technique)
-        return fail(Fault::usage, "{} has no parameter '{}'{}", change.technique->name, change.key,
-                    did_you_mean(change.key, known));
+        return fail_unnamed(Fault::usage, "{} has no parameter '{}'{}", change.technique->name, change.key,
+                            did_you_mean(change.key, known));
     if (owner == techniques().end())
-        return fail(Fault::usage, "no technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
+        return fail_unnamed(Fault::usage, "no technique has a parameter '{}'{}", change.key, did_you_mean(change.key, known));
     const auto chosen = choices.find(owner->stage);
-    return fail(Fault::usage, "{} is the chosen technique of {} and has no parameter '{}'; {} has it: pass --use {} instead",
-                chosen == choices.end() ? "nothing" : chosen->second.technique->name, name(owner->stage), change.key, owner->name,
-                owner->name);
+    return fail_unnamed(Fault::usage,
+                        "{} is the chosen technique of {} and has no parameter '{}'; {} has it: pass --use {} instead",
+                        chosen == choices.end() ? "nothing" : chosen->second.technique->name, name(owner->stage), change.key,
+                        owner->name, owner->name);
 }
 
 Result<void> apply(Choices& choices, const SettingChange& change) {
@@ -139,9 +140,9 @@ Result<DeclaredFrame> declare_frame(Graph& graph, FrameImages& images, const Cho
         } else if (choice == choices.end()) {
             if (const auto why = unserved(stage.stage, choices)) frame.skipped.push_back({stage.stage, *why});
         } else {
-            if (const auto why = beyond_device(choice->second, images)) return fail(Fault::device_lacks, "{}", *why);
+            if (const auto why = beyond_device(choice->second, images)) return fail_unnamed(Fault::device_lacks, "{}", *why);
             if (const auto why = stage.beyond_device ? stage.beyond_device(images) : std::nullopt)
-                return fail(Fault::device_lacks, "{}", *why);
+                return fail_unnamed(Fault::device_lacks, "{}", *why);
             wanted.insert(*choice);
         }
     }

@@ -115,10 +115,11 @@ Result<HostImage> DeviceSession::peek(const Request& request, std::size_t step, 
     if (!declared) return declared.error();
     const Plan& plan = declared->plan;
     if (step >= plan.steps.size())
-        return fail(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
+        return fail_unnamed(Fault::usage, "the plan has {} steps; there is no step {}", plan.steps.size(), step);
     const Image handle = declared->graph.find_image(image);
-    if (!handle) return fail(Fault::usage, "the frame has no image '{}'", image);
-    if (!last_write(plan, handle, step + 1)) return fail(Fault::usage, "'{}' is not written yet after step {}", image, step);
+    if (!handle) return fail_unnamed(Fault::usage, "the frame has no image '{}'", image);
+    if (!last_write(plan, handle, step + 1))
+        return fail_unnamed(Fault::usage, "'{}' is not written yet after step {}", image, step);
     return execute(*declared, {.until = step, .peeks = {{step, handle}}}).and_then([&](auto& execution) {
         return std::move(execution.peeked.front());
     });
@@ -134,7 +135,7 @@ Result<DeviceSession::Inspected> DeviceSession::inspect(const Request& request, 
     const bool is_known = acts_before && found_ && !keys.empty() && found_->keys == keys;
     if (!is_known) {
         memo_.drop_unfilled();
-        if (!acts_before) return fail(Fault::usage, "the frame does not need the stage {}", name(stage));
+        if (!acts_before) return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(stage));
         // What the memo puts in the place of a stage leaves out what only that stage would have read.
         declared = prepare(request, nullptr, Keep::all_images);
         if (!declared) return declared.error();
@@ -229,7 +230,8 @@ Result<std::vector<StepImages>> DeviceSession::pixel_steps(const Request& reques
     if (!declared) return declared.error();
     const Extent& frame = declared->images.extent;
     if (pixel.x >= frame.width || pixel.y >= frame.height)
-        return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", frame.width, frame.height, pixel.x, pixel.y);
+        return fail_unnamed(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", frame.width, frame.height, pixel.x,
+                            pixel.y);
     const Plan& plan = declared->plan;
     RunOptions options{.kept_images = KeptImages::left};
     for (std::size_t i = 0; i < plan.steps.size(); ++i)
@@ -255,7 +257,7 @@ Result<std::vector<Cover>> DeviceSession::draw_cover(const Request& request, std
     if (!run) return run.error();
     const Frame& frame = loaded_->frame;
     const std::size_t count = frame.draws.size() + frame.emitters.size();
-    if (draw >= count) return fail(Fault::usage, "the frame has {} draws and emitters; there is no draw {}", count, draw);
+    if (draw >= count) return fail_unnamed(Fault::usage, "the frame has {} draws and emitters; there is no draw {}", count, draw);
     const auto depth = run->images.find("depth_layers");
     if (depth == run->images.end()) return strata::draw_cover(frame, draw, nullptr);
     const ReferenceImage layers = in_double(depth->second);
@@ -347,7 +349,7 @@ Result<const FragmentLists*> DeviceSession::row_fragments(const Request& request
     const auto run = this->run(for_fragments);
     if (!run) return run.error();
     if (std::ranges::count(run->skipped, Stage::transparency, &SkippedStage::stage) > 0)
-        return fail(Fault::usage, "the frame does not need the stage {}", name(Stage::transparency));
+        return fail_unnamed(Fault::usage, "the frame does not need the stage {}", name(Stage::transparency));
     ImageSet before;
     for (const auto& [name, image] : run->images) before.emplace(name, in_double(image));
     const auto depth = before.find("depth_layers");

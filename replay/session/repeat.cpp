@@ -31,8 +31,8 @@ Result<void> check_repeats(Session& session, const Request& request, const Run& 
         const auto again = session.run(everything);
         if (!again) return again.error();
         if (const auto difference = first_difference(first, *again))
-            return fail(Fault::not_repeatable, "frame {}, repeat {} of {}: {}; on {}", request.variant.frame, repeat + 1, repeats,
-                        *difference, text(expected_on(session.device())));
+            return fail_unnamed(Fault::not_repeatable, "frame {}, repeat {} of {}: {}; on {}", request.variant.frame, repeat + 1,
+                                repeats, *difference, text(expected_on(session.device())));
     }
     return {};
 }

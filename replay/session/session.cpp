@@ -22,7 +22,7 @@ Result<std::size_t> find_step(const Plan& plan, std::string_view wanted) {
         known.push_back(plan.steps[i].step.name);
         if (known.back().find(wanted) != std::string_view::npos) return i;
     }
-    return fail(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
+    return fail_unnamed(Fault::usage, "no step '{}'{}", wanted, did_you_mean(wanted, known));
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ std::size_t DeviceSession::frame_count() const {
 Result<Frame> DeviceSession::frame(std::size_t index) {
     const std::size_t count = frame_count();
     if (index >= count)
-        return fail(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"), index);
+        return fail_unnamed(Fault::usage, "the capture has {}, numbered from 0; there is no frame {}", plural(count, "frame"),
+                            index);
     if (const auto* capture = std::get_if<Capture>(&source_)) return capture->frame(index);
     return std::get<std::vector<Frame>>(source_)[index];
 }
@@ -117,8 +118,9 @@ Result<Session::PlannedFrame> DeviceSession::plan(const Request& request) {
 }
 
 Result<void> DeviceSession::check_going() const {
-    if (stop_.stop_requested()) return fail(Fault::stopped, "stopped");
-    if (is_lost_) return fail(Fault::device_failed, "the device was lost and does nothing any more; open the capture again");
+    if (stop_.stop_requested()) return fail_unnamed(Fault::stopped, "stopped");
+    if (is_lost_)
+        return fail_unnamed(Fault::device_failed, "the device was lost and does nothing any more; open the capture again");
     return {};
 }
 
@@ -157,9 +159,9 @@ Result<void> DeviceSession::check_sizes(const Plan& plan) const {
     for (const MemorySlot& slot : plan.slots) {
         const auto [width, height, depth] = slot.shape.extent;
         if (depth > 1 || std::max(width, height) <= device().max_image_extent) continue;
-        return fail(Fault::device_lacks, "'{}' is an image of {} x {} texels and {} makes at most {} each way; {}",
-                    plan.images[slot.images.front()].name, width, height, device().name, device().max_image_extent,
-                    "replay with a smaller extent or settings that take less");
+        return fail_unnamed(Fault::device_lacks, "'{}' is an image of {} x {} texels and {} makes at most {} each way; {}",
+                            plan.images[slot.images.front()].name, width, height, device().name, device().max_image_extent,
+                            "replay with a smaller extent or settings that take less");
     }
     for (const PlannedStep& step : plan.steps)
         for (const PlannedBinding& bound : step.bindings) {
@@ -168,8 +170,8 @@ Result<void> DeviceSession::check_sizes(const Plan& plan) const {
             if (buffer.bytes <= device().max_buffer_bytes) continue;
             const std::string advice = buffer.import ? "it grows with what the frame draws: replay one that draws less"
                                                      : "replay with a smaller extent or settings that take less";
-            return fail(Fault::device_lacks, "'{}' takes {} MiB and {} binds at most {} MiB at once; {}", buffer.name,
-                        buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
+            return fail_unnamed(Fault::device_lacks, "'{}' takes {} MiB and {} binds at most {} MiB at once; {}", buffer.name,
+                                buffer.bytes >> 20, device().name, device().max_buffer_bytes >> 20, advice);
         }
     return {};
 }
@@ -180,12 +182,12 @@ std::invoke_result_t<Action> DeviceSession::failures_as_errors(Action action) {
         return action();
     } catch (const DeviceLost& failure) {
         is_lost_ = true;
-        return fail(Fault::device_failed, "{}; open the capture again", failure.what());
+        return fail_unnamed(Fault::device_failed, "{}; open the capture again", failure.what());
     } catch (const MemoryLacks& failure) {
-        return fail(Fault::device_lacks, "{}; replay a smaller frame, with --samples 1 or with another technique",
-                    failure.what());
+        return fail_unnamed(Fault::device_lacks, "{}; replay a smaller frame, with --samples 1 or with another technique",
+                            failure.what());
     } catch (const DeviceFailure& failure) {
-        return fail(Fault::device_failed, "{}", failure.what());
+        return fail_unnamed(Fault::device_failed, "{}", failure.what());
     }
 }
 
@@ -294,7 +296,7 @@ Result<std::unique_ptr<Session>> open_session(const DeviceChoice& choice, Device
 Result<std::unique_ptr<Session>> Session::open(const std::filesystem::path& path, const DeviceChoice& choice, Partial partial) {
     auto capture = Capture::open(path, partial, choice.memory_budget);
     if (!capture) return capture.error();
-    if (capture->frame_count() == 0) return fail(Fault::bad_input, "{} holds no frame", path.string());
+    if (capture->frame_count() == 0) return fail_unnamed(Fault::bad_input, "{} holds no frame", path.string());
     return open_session(choice, *std::move(capture));
 }
 

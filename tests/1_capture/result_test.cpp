@@ -10,9 +10,9 @@ namespace strata {
 namespace {
 
 Result<int> four() { return 4; }
-Result<int> refused() { return fail(Fault::usage, "no"); }
+Result<int> refused() { return fail(Fault::usage, "test.no", "no"); }
 Result<void> done() { return {}; }
-Result<void> not_done() { return fail(Fault::bad_input, "cut"); }
+Result<void> not_done() { return fail(Fault::bad_input, "test.cut", "cut"); }
 
 TEST(Result, HandsItsValueOn) {
     const Result<std::string> text = four().and_then([](int value) { return std::string(static_cast<std::size_t>(value), 'x'); });
@@ -35,6 +35,30 @@ TEST(Result, KeepsItsErrorAndCallsNothing) {
     });
     EXPECT_EQ(next.error().sentence, "cut");
     EXPECT_FALSE(called);
+}
+
+TEST(Result, AnErrorHasAnIdAndTheValuesOfItsSentenceByName) {
+    const Error error =
+        fail(Fault::bad_input, "test.accessor_range", "accessor {accessor} needs {bytes} bytes of {share:.1f} in '{name}' {{}}",
+             3, std::uint64_t{1} << 40, .25, "a.bin");
+    EXPECT_EQ(error.sentence, "accessor 3 needs 1099511627776 bytes of 0.2 in 'a.bin' {}");
+    EXPECT_EQ(error.id.text(), "test.accessor_range");
+    ASSERT_EQ(error.fields.size(), 4u);
+    EXPECT_EQ(std::get<std::int64_t>(error.field("accessor")->value), 3);
+    EXPECT_EQ(std::get<std::uint64_t>(error.field("bytes")->value), std::uint64_t{1} << 40);
+    EXPECT_EQ(std::get<double>(error.field("share")->value), .25) << "as it is, not as it is printed";
+    EXPECT_EQ(std::get<std::string>(error.field("name")->value), "a.bin");
+    EXPECT_EQ(error.field("missing"), nullptr);
+}
+
+TEST(Result, WhatWrapsAnErrorKeepsItsIdAndFields) {
+    const Error inner = fail(Fault::device_lacks, "test.too_large", "{bytes} bytes", 7);
+    const Error outer = within(inner, "frame {frame}", 2);
+    EXPECT_EQ(outer.sentence, "frame 2: 7 bytes");
+    EXPECT_EQ(outer.id.text(), "test.too_large");
+    EXPECT_EQ(outer.fault, Fault::device_lacks);
+    EXPECT_EQ(std::get<std::int64_t>(outer.field("bytes")->value), 7);
+    EXPECT_EQ(std::get<std::int64_t>(outer.field("frame")->value), 2);
 }
 
 TEST(Result, LetsWhatFollowsTakeTheValueAway) {

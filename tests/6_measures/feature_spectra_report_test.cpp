@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    static Error not_asked() { return fail(Fault::usage, "a formula has no such thing"); }
+    static Error not_asked() { return fail_unnamed(Fault::usage, "a formula has no such thing"); }
     DeviceInfo device_;
 };
 
@@ -168,7 +168,9 @@ TEST(MeasuredCosts, OfACaptureThatDoesNotOpenAreItsError) {
     const Technique& technique = some_technique();
     const std::vector<FrameSpectra> frames = gathered();
     CostQuestion asked = question(technique, frames);
-    asked.open = [](const std::string&) -> Result<std::unique_ptr<Session>> { return fail(Fault::bad_input, "it is gone"); };
+    asked.open = [](const std::string&) -> Result<std::unique_ptr<Session>> {
+        return fail_unnamed(Fault::bad_input, "it is gone");
+    };
     const auto costs = measured_costs(asked);
     ASSERT_FALSE(costs);
     EXPECT_EQ(costs.error().sentence, "it is gone");

@@ -45,7 +45,7 @@ Request with_another_eye() { return {.variant = {.eye = {.dolly = .5}}}; }
 /// As a session's call that takes long: until somebody asks it to stop.
 Result<int> until_stopped(ui::Progress& progress) {
     while (!progress.is_interrupted()) std::this_thread::sleep_for(1ms);
-    return fail(Fault::stopped, "stopped");
+    return fail_unnamed(Fault::stopped, "stopped");
 }
 
 TEST(Replayer, APictureStopsTheJobThatHoldsItUpAndTheJobBeginsAnewAfterIt) {

@@ -24,7 +24,7 @@ Result<SidePicture> picture_after(Session& session, const Request& request, cons
         if (image == act.images.end() || (subject.after && act.stage != *subject.after)) continue;
         return SidePicture{.image = std::make_shared<HostImage>(std::move(image->second)), .about = act.choice};
     }
-    return fail(Fault::usage, "{} writes no '{}' in this frame", name(*subject.after), subject.image);
+    return fail_unnamed(Fault::usage, "{} writes no '{}' in this frame", name(*subject.after), subject.image);
 }
 
 std::string images_with_truth() {
@@ -36,14 +36,14 @@ std::string images_with_truth() {
 
 Result<SidePicture> true_picture(Session& session, const Request& request, const Subject& subject) {
     if (!subject.after)
-        return fail(Fault::usage, "no stage of this frame writes '{}' and has a truth; {} have one", subject.image,
-                    images_with_truth());
+        return fail_unnamed(Fault::usage, "no stage of this frame writes '{}' and has a truth; {} have one", subject.image,
+                            images_with_truth());
     const StageInfo& stage = info(*subject.after);
-    if (!stage.truth) return fail(Fault::usage, "no reference solution exists for stage {}", stage.name);
+    if (!stage.truth) return fail_unnamed(Fault::usage, "no reference solution exists for stage {}", stage.name);
     const auto truth = session.truth(request, stage.stage);
     if (!truth) return truth.error();
     const auto image = truth->find(subject.image);
-    if (image == truth->end()) return fail(Fault::usage, "the truth of {} has no '{}'", stage.name, subject.image);
+    if (image == truth->end()) return fail_unnamed(Fault::usage, "the truth of {} has no '{}'", stage.name, subject.image);
     SidePicture made = picture_of(image->second);
     made.about = fmt::format("truth of {}, in double", stage.name);
     return made;
@@ -85,7 +85,8 @@ std::optional<Stage> stage_of_truth(const std::string& image, std::span<const Sk
 }
 
 Result<SidePicture> expected_picture(Session& session, Request request, const Subject& subject) {
-    if (!session.capture()) return fail(Fault::expectation_missing, "the frames were made in code and have no expected results");
+    if (!session.capture())
+        return fail_unnamed(Fault::expectation_missing, "the frames were made in code and have no expected results");
     const auto all = expectations_of(*session.capture());
     if (!all) return all.error();
     request.outputs.clear();
@@ -95,8 +96,9 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
     const Expectation got = expectation_of(session, request, *run);
     const Expectation* expected = best_of(*all, got);
     if (!expected)
-        return fail(Fault::expectation_missing, "the capture has no expected results for frame {}; 'strata accept' stores them",
-                    request.variant.frame);
+        return fail_unnamed(Fault::expectation_missing,
+                            "the capture has no expected results for frame {}; 'strata accept' stores them",
+                            request.variant.frame);
     for (std::size_t i = expected->acts.size(); i-- > 0;) {
         const ExpectedAct& act = expected->acts[i];
         const auto image = std::ranges::find(act.images, subject.image, &ExpectedImage::name);
@@ -104,12 +106,13 @@ Result<SidePicture> expected_picture(Session& session, Request request, const Su
         if (!image->texels.empty()) return kept_picture(*session.capture(), *image, *expected);
         const auto now = run->acts[i].images.find(subject.image);
         const bool same = now != run->acts[i].images.end() && hash_of(now->second) == image->hash;
-        return fail(Fault::expectation_missing,
-                    "only a hash of '{}' is stored ({} a replay as recorded on this device); 'strata accept --with-images' "
-                    "stores pictures",
-                    subject.image, same ? "it matches" : "it does not match");
+        return fail_unnamed(
+            Fault::expectation_missing,
+            "only a hash of '{}' is stored ({} a replay as recorded on this device); 'strata accept --with-images' "
+            "stores pictures",
+            subject.image, same ? "it matches" : "it does not match");
     }
-    return fail(Fault::expectation_missing, "no expected result for '{}'", subject.image);
+    return fail_unnamed(Fault::expectation_missing, "no expected result for '{}'", subject.image);
 }
 
 void ComparedSide::show(const SideWish& wish, Services& services) {

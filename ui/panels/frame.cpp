@@ -90,9 +90,9 @@ private:
         tried_ = services.replayer.made_of(request);
         timing_ = services.replayer.start<FrameTimes>(
             [request, shaders = tried_->shaders](Session& session, Progress& progress) -> Result<FrameTimes> {
-                if (!progress.at(0, "measuring")) return fail(Fault::usage, "stopped");
+                if (!progress.at(0, "measuring")) return fail_unnamed(Fault::usage, "stopped");
                 return session.time(std::span(&request, 1), repeats).and_then([&](auto& runs) -> Result<FrameTimes> {
-                    if (runs.front().frame_ms->repeats < repeats) return fail(Fault::stopped, "stopped");
+                    if (runs.front().frame_ms->repeats < repeats) return fail_unnamed(Fault::stopped, "stopped");
                     return FrameTimes{request, std::move(runs.front()), shaders};
                 });
             });

@@ -117,7 +117,7 @@ private:
         stale->error.clear();
         stale->job = services.replayer.start<TechniqueViews>(
             [now, technique = stale->technique](Session& session, ui::Progress& progress) -> Result<TechniqueViews> {
-                if (!progress.at(0, std::string(technique->name))) return fail(Fault::usage, "stopped");
+                if (!progress.at(0, std::string(technique->name))) return fail_unnamed(Fault::usage, "stopped");
                 return views_of(session, now.request, *technique);
             });
     }

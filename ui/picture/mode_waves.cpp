@@ -34,7 +34,7 @@ Result<Compilation> compile_each(const PipelineRequests& requests, const ModesOn
     Compilation made;
     for (const PipelineRequest& pipeline : requests.pipelines) {
         const double done = static_cast<double>(made.pipelines.size()) / static_cast<double>(requests.pipelines.size());
-        if (!progress.at(done, pipeline.label)) return fail(Fault::usage, "stopped");
+        if (!progress.at(done, pipeline.label)) return fail_unnamed(Fault::usage, "stopped");
         auto compiled = compile_elsewhere({pipeline}, {.model = &of.gpu, .program = of.program, .environment = environ});
         if (!compiled) return compiled.error();
         made.device = compiled->device;

@@ -67,12 +67,12 @@ Result<void> read_views(Session& session, Progress& progress, const InsideQuesti
     const auto count = static_cast<double>(views.size() + question.technique->tables.size());
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::string output = fmt::format("{}:{}", question.technique->name, views[i].name);
-        if (!progress.at(static_cast<double>(i) / count, output)) return fail(Fault::usage, "stopped");
+        if (!progress.at(static_cast<double>(i) / count, output)) return fail_unnamed(Fault::usage, "stopped");
         const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         if (question.pixel.x >= run->width || question.pixel.y >= run->height)
-            return fail(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height, question.pixel.x,
-                        question.pixel.y);
+            return fail_unnamed(Fault::usage, "the frame is {} x {}; there is no pixel {}, {}", run->width, run->height,
+                                question.pixel.x, question.pixel.y);
         const auto image = run->images.find(output);
         if (image == run->images.end()) continue;
         const glm::dvec4 value = texel(image->second, question.pixel.x, question.pixel.y);
@@ -96,7 +96,8 @@ Result<void> read_tables(Session& session, Progress& progress, const InsideQuest
         const auto key = key_of(technique, table, inside.values, tile);
         if (!key) continue;
         const std::string output = fmt::format("{}:{}", technique.name, table.name);
-        if (!progress.at(static_cast<double>(technique.views.size() + i) / count, output)) return fail(Fault::usage, "stopped");
+        if (!progress.at(static_cast<double>(technique.views.size() + i) / count, output))
+            return fail_unnamed(Fault::usage, "stopped");
         const auto run = run_for(session, question.request, output);
         if (!run) return run.error();
         const auto numbers = run->tables.find(output);

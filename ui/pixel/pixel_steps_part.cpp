@@ -40,7 +40,7 @@ public:
         const PixelQuestion asked{replay.request, glm::uvec2(*model.pin)};
         asked_.ask(services.replayer, asked,
                    [](Session& session, Progress& progress, const PixelQuestion& question) -> Result<std::vector<PixelStep>> {
-                       if (!progress.at(0, "the frame, step by step")) return fail(Fault::usage, "stopped");
+                       if (!progress.at(0, "the frame, step by step")) return fail_unnamed(Fault::usage, "stopped");
                        return session.pixel_steps(question.request, question.pixel).and_then([&](auto& steps) {
                            return history_of(steps);
                        });

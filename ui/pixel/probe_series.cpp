@@ -62,7 +62,7 @@ Result<Probe> probe_each(Session& session, Progress& progress, const ProbeQuesti
             continue;
         }
         const double share = static_cast<double>(i) / static_cast<double>(question.methods.size());
-        if (!progress.at(share, short_method(method))) return fail(Fault::usage, "stopped");
+        if (!progress.at(share, short_method(method))) return fail_unnamed(Fault::usage, "stopped");
         const ProbeOptions options{.methods = {method}, .axis = question.axis};
         if (!made) {
             auto first = probe(session, question.request, at, options);

@@ -114,8 +114,8 @@ void Replayer::open() {
 }
 
 Result<std::shared_ptr<Session>> Replayer::begin(Progress& progress, Yields yields) {
-    if (closing_.stop_requested()) return fail(Fault::stopped, "the inspector is being closed");
-    if (!session_) return fail(Fault::bad_input, "no capture is open");
+    if (closing_.stop_requested()) return fail_unnamed(Fault::stopped, "the inspector is being closed");
+    if (!session_) return fail_unnamed(Fault::bad_input, "no capture is open");
     progress.resume();
     session_->stop_when(progress.token());
     const std::scoped_lock lock(mutex_);

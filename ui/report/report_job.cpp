@@ -8,7 +8,7 @@ JobOf<Study> start_report(Replayer& replayer, const ReportRequest& wanted, std::
             auto report =
                 make_report(session, wanted, [&](std::string_view what, double done) { progress.at(done, std::string(what)); });
             if (!report) return report.error();
-            if (!report->stopped.empty()) return fail(Fault::stopped, "{}", report->stopped);
+            if (!report->stopped.empty()) return fail_unnamed(Fault::stopped, "{}", report->stopped);
             report->capture_name = capture_name;
             Study study{wanted.base, *std::move(report), {}};
             study.columns = columns_of(study.report);

@@ -61,7 +61,7 @@ Result<void> Player::wait() {
         settled = inspector_->is_settled() ? settled + 1 : 0;
         if (settled == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         if (std::chrono::steady_clock::now() - begin > patience)
-            return fail(Fault::device_failed, "not done after {} minutes", patience.count());
+            return fail_unnamed(Fault::device_failed, "not done after {} minutes", patience.count());
     }
     return {};
 }
@@ -82,8 +82,8 @@ Result<WidgetRecord> Player::reach(const std::string& path) {
     std::vector<std::string_view> known;
     for (const WidgetRecord& record : widgets.records()) known.push_back(record.path);
     const bool is_there = std::ranges::find(known, path) != known.end();
-    if (is_there) return fail(Fault::usage, "'{}' is out of sight", path);
-    return fail(Fault::usage, "there is no widget '{}'{}", path, did_you_mean(path, known));
+    if (is_there) return fail_unnamed(Fault::usage, "'{}' is out of sight", path);
+    return fail_unnamed(Fault::usage, "there is no widget '{}'{}", path, did_you_mean(path, known));
 }
 
 Result<void> Player::press_at(ImVec2 at) {
@@ -100,7 +100,7 @@ Result<void> Player::press_at(ImVec2 at) {
 Result<void> Player::click(const std::string& path) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
-    if (!widget->enabled) return fail(Fault::usage, "'{}' is disabled", path);
+    if (!widget->enabled) return fail_unnamed(Fault::usage, "'{}' is disabled", path);
     // A tree's row is clicked on its name, and opened by its arrow.
     const bool is_row = widget->kind == WidgetKind::tree;
     const float x = is_row ? widget->from.x + 30 : (widget->from.x + widget->to.x) / 2;
@@ -115,9 +115,9 @@ Result<void> Player::choose(const std::string& path, const std::string& item) {
 Result<void> Player::drag(const std::string& path, double value) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
-    if (widget->kind != WidgetKind::slider) return fail(Fault::usage, "'{}' is no slider", path);
+    if (widget->kind != WidgetKind::slider) return fail_unnamed(Fault::usage, "'{}' is no slider", path);
     if (value < widget->low || value > widget->high)
-        return fail(Fault::usage, "'{}' goes from {:g} to {:g}, not to {:g}", path, widget->low, widget->high, value);
+        return fail_unnamed(Fault::usage, "'{}' goes from {:g} to {:g}, not to {:g}", path, widget->low, widget->high, value);
     ImGuiIO& io = ImGui::GetIO();
     const float y = (widget->from.y + widget->to.y) / 2;
     float low = widget->from.x, high = widget->to.x, nearest = low;
@@ -130,7 +130,7 @@ Result<void> Player::drag(const std::string& path, double value) {
         io.MousePos.x = (low + high) / 2;
         if (const auto done = frames(2); !done) return done;
         const auto now = std::ranges::find(inspector_->widgets().records(), path, &WidgetRecord::path);
-        if (now == inspector_->widgets().records().end()) return fail(Fault::usage, "'{}' went away", path);
+        if (now == inspector_->widgets().records().end()) return fail_unnamed(Fault::usage, "'{}' went away", path);
         if (std::abs(now->number - value) < off) {
             off = std::abs(now->number - value);
             nearest = io.MousePos.x;
@@ -161,7 +161,7 @@ Result<void> Player::type(const std::string& path, const std::string& text) {
     const auto widget = reach(path);
     if (!widget) return widget.error();
     if (widget->kind != WidgetKind::slider && widget->kind != WidgetKind::input)
-        return fail(Fault::usage, "'{}' takes no text", path);
+        return fail_unnamed(Fault::usage, "'{}' takes no text", path);
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = widget->kind == WidgetKind::slider;
     if (const auto done = press_at({(widget->from.x + widget->to.x) / 2, (widget->from.y + widget->to.y) / 2}); !done)
@@ -177,7 +177,7 @@ Result<void> Player::type(const std::string& path, const std::string& text) {
 
 Result<void> Player::key(const std::string& name) {
     const auto chord = chord_of(name);
-    if (!chord) return fail(Fault::usage, "there is no key '{}'", name);
+    if (!chord) return fail_unnamed(Fault::usage, "there is no key '{}'", name);
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = chord->ctrl;
     io.KeyShift = chord->shift;
@@ -207,10 +207,10 @@ Result<void> Player::expect(const std::string& path, const std::string& text) co
     if (found == records.end()) {
         std::vector<std::string_view> known;
         for (const WidgetRecord& record : records) known.push_back(record.path);
-        return fail(Fault::over_tolerance, "there is no widget '{}'{}", path, did_you_mean(path, known));
+        return fail_unnamed(Fault::over_tolerance, "there is no widget '{}'{}", path, did_you_mean(path, known));
     }
     if (found->value.find(text) != std::string::npos) return {};
-    return fail(Fault::over_tolerance, "'{}' says '{}', not '{}'", path, found->value, text);
+    return fail_unnamed(Fault::over_tolerance, "'{}' says '{}', not '{}'", path, found->value, text);
 }
 
 Result<void> Player::shot(const std::filesystem::path& path) {

@@ -25,7 +25,7 @@ struct Command {
 Result<double> number(const std::string& word) {
     double value = 0;
     const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (problem != std::errc() || end != word.data() + word.size()) return fail(Fault::usage, "'{}' is no number", word);
+    if (problem != std::errc() || end != word.data() + word.size()) return fail_unnamed(Fault::usage, "'{}' is no number", word);
     return value;
 }
 
@@ -88,10 +88,10 @@ Result<void> play(Hands& hands, const ScriptLine& line) {
     if (command == std::end(commands)) {
         std::vector<std::string_view> known;
         for (const Command& each : commands) known.push_back(each.name);
-        return fail(Fault::usage, "there is no command '{}'{}", line.words[0], did_you_mean(line.words[0], known));
+        return fail_unnamed(Fault::usage, "there is no command '{}'{}", line.words[0], did_you_mean(line.words[0], known));
     }
     const Words words(line.words.begin() + 1, line.words.end());
-    if (words.size() != command->words) return fail(Fault::usage, "it is: {} {}", command->name, command->takes);
+    if (words.size() != command->words) return fail_unnamed(Fault::usage, "it is: {} {}", command->name, command->takes);
     return command->play(hands, words);
 }
 
@@ -124,7 +124,7 @@ Result<Words> words_of(std::string_view line) {
             words.back() += c;
         }
     }
-    if (quote != 0) return fail(Fault::usage, "a quote is not closed");
+    if (quote != 0) return fail_unnamed(Fault::usage, "a quote is not closed");
     return words;
 }
 
@@ -135,7 +135,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         auto words = words_of(text.substr(0, end));
-        if (!words) return fail(Fault::usage, "{}:{}: {}", file, number, words.error().sentence);
+        if (!words) return fail_unnamed(Fault::usage, "{}:{}: {}", file, number, words.error().sentence);
         if (!words->empty()) lines.push_back({number, *std::move(words)});
         text.remove_prefix(std::min(end + 1, text.size()));
     }
@@ -147,7 +147,7 @@ Result<void> play(Player& player, const std::vector<ScriptLine>& lines, const st
     Hands hands{player, folder};
     for (const ScriptLine& line : lines)
         if (const auto done = play(hands, line); !done)
-            return fail(done.error().fault, "{}:{}: {}", file, line.number, done.error().sentence);
+            return fail_unnamed(done.error().fault, "{}:{}: {}", file, line.number, done.error().sentence);
     return {};
 }
 

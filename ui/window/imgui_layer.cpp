@@ -321,7 +321,7 @@ Result<void> Layer::draw(const ImDrawData& data) {
         return {};
     } catch (const vk::SystemError& problem) {
         forget_drawn();
-        return fail(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());
+        return fail_unnamed(Fault::device_failed, "the inspector cannot be drawn: {}", problem.what());
     }
 }
 
@@ -331,7 +331,7 @@ Result<std::unique_ptr<ImguiLayer>> ImguiLayer::on(std::unique_ptr<LayerDevice> 
     try {
         return std::unique_ptr<ImguiLayer>(std::make_unique<Layer>(std::move(device)));
     } catch (const vk::SystemError& problem) {
-        return fail(Fault::device_failed, "the inspector's renderer cannot be made: {}", problem.what());
+        return fail_unnamed(Fault::device_failed, "the inspector's renderer cannot be made: {}", problem.what());
     }
 }
 

@@ -49,7 +49,8 @@ Layout read_layout(const std::filesystem::path& path) {
 Result<void> write_layout(const std::filesystem::path& path, const Layout& layout) {
     std::error_code problem;
     std::filesystem::create_directories(path.parent_path(), problem);
-    if (problem) return fail(Fault::usage, "cannot make the folder {}: {}", path.parent_path().string(), problem.message());
+    if (problem)
+        return fail_unnamed(Fault::usage, "cannot make the folder {}: {}", path.parent_path().string(), problem.message());
     const nlohmann::ordered_json json{{"left", layout.left},   {"right", layout.right},   {"bottom", layout.bottom},
                                       {"width", layout.width}, {"height", layout.height}, {"settings", layout.settings}};
     return write_whole_file(path, json.dump(2) + "\n");

@@ -64,7 +64,7 @@ public:
     Result<void> open_layer(const DeviceChoice& choice) {
         std::uint32_t count = 0;
         const char** names = glfwGetRequiredInstanceExtensions(&count);
-        if (!names) return fail(Fault::device_lacks, "Vulkan cannot draw into windows here: {}", glfw_error());
+        if (!names) return fail_unnamed(Fault::device_lacks, "Vulkan cannot draw into windows here: {}", glfw_error());
         SurfaceSource source{{names, names + count}, [this](vk::Instance instance) { return surface(instance); }};
         auto device = LayerDevice::open(choice.validation ? Validation::on : Validation::off, source);
         if (!device) return device.error();
@@ -115,7 +115,7 @@ public:
             shown_extent_ = pixels;
             return {};
         } catch (const vk::SystemError& problem) {
-            return fail(Fault::device_failed, "the window cannot be drawn: {}", problem.what());
+            return fail_unnamed(Fault::device_failed, "the window cannot be drawn: {}", problem.what());
         }
     }
 
@@ -175,10 +175,11 @@ private:
 
 Result<std::unique_ptr<Window>> Window::open(int width, int height, const DeviceChoice& choice) {
     auto glfw = std::make_unique<Glfw>();
-    if (!*glfw) return fail(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
+    if (!*glfw)
+        return fail_unnamed(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     GLFWwindow* made = glfwCreateWindow(width, height, "Strata", nullptr, nullptr);
-    if (!made) return fail(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
+    if (!made) return fail_unnamed(Fault::device_lacks, "no window can be opened ({}); --script plays without one", glfw_error());
     auto window = std::make_unique<GlfwWindow>(std::move(glfw), made);
     if (const auto opened = window->open_layer(choice); !opened) return opened.error();
     return std::unique_ptr<Window>(std::move(window));
